@@ -1,0 +1,48 @@
+# One word for each thing to do; `make help` lists them. CMake does the work underneath.
+.DEFAULT_GOAL := help
+.PHONY: help run test bench reproduce robustness format clean build
+
+JOBS := $(shell nproc 2>/dev/null || echo 2)
+
+help: ## this list
+	@echo "usage: make TARGET"
+	@sed -n 's/^\([a-z]*\):.*## /\1|/p' $(MAKEFILE_LIST) | \
+	  while IFS='|' read -r name what; do printf '  %-10s %s\n' "$$name" "$$what"; done
+
+build: ## the release build in build/, without setting anything up
+	cmake --preset release
+	cmake --build build --target slalom_app -j $(JOBS)
+
+run: ## set up, build, and drive the paper's environments E_B and E_C into run/
+	tools/setup.sh run
+	$(MAKE) --no-print-directory build
+	build/slalom simulate E_B --planner P_D --out run/E_B --force
+	build/slalom simulate E_C --planner P_D --out run/E_C --force
+	@echo
+	@echo "Look at the drives: open these pages in a browser."
+	@echo "  $(CURDIR)/run/E_B/report.html"
+	@echo "  $(CURDIR)/run/E_C/report.html"
+
+test: ## set up, build, and run every test and check, with sanitizers too
+	tools/setup.sh test
+	tools/run_tests.sh
+
+bench: ## set up, and time the planner's problem beside the same in CasADi
+	tools/setup.sh bench
+	python3 benchmarks/run.py
+
+reproduce: ## all drives of the paper's figures into run/reproduce/, ours beside the paper's
+	tools/setup.sh run
+	$(MAKE) --no-print-directory build
+	build/slalom reproduce --out run/reproduce --force
+
+robustness: ## outcomes over floors, starts and horizons into docs/robustness.md (takes minutes)
+	tools/setup.sh run
+	$(MAKE) --no-print-directory build
+	python3 tools/robustness.py --program build/slalom --out docs/robustness.md
+
+format: ## format the C++ sources
+	tools/format.sh
+
+clean: ## remove the build trees and what `make run` wrote
+	rm -rf build build-debug build-asan run tests/browser/node_modules benchmarks/.venv

@@ -1,0 +1,90 @@
+# The module structure: one static library a folder of src/, all of them gathered into the one
+# library that is installed.
+
+# -Wrestrict of g++ 12 warns of std::string's own code (GCC bug 105651).
+set(SLALOM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  list(APPEND SLALOM_WARNINGS -Wno-restrict)
+endif()
+
+# slalom_module(NAME DEPENDS ...): a static library of the .cpp files under src/NAME. Each may
+# link only modules above it; tools/check_layers.py holds the includes to the same order.
+# A folder without sources becomes an interface library.
+#
+# Files named *_avx2.cpp are compiled for AVX2 with FMA, all others for the baseline processor.
+# Files named ipopt*.cpp are left out when SLALOM_WITH_IPOPT is off.
+function(slalom_module name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  if(NOT SLALOM_WITH_IPOPT)
+    list(FILTER sources EXCLUDE REGEX "/ipopt[^/]*\\.cpp$")
+  endif()
+  if(sources)
+    add_library(slalom_${name} STATIC ${sources})
+    target_compile_options(slalom_${name} PRIVATE ${SLALOM_WARNINGS})
+    set(scope PUBLIC)
+    set(avx2 ${sources})
+    list(FILTER avx2 INCLUDE REGEX "_avx2\\.cpp$")
+    set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    set_property(GLOBAL APPEND PROPERTY SLALOM_MODULES_WITH_SOURCES ${name})
+  else()
+    add_library(slalom_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY SLALOM_MODULES ${name})
+  target_include_directories(slalom_${name} ${scope} ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(slalom_${name} ${scope} ${ARG_DEPENDS})
+endfunction()
+
+# slalom_module_definitions(NAME DEFINITION...): private definitions of a module, none while the
+# module has no sources.
+function(slalom_module_definitions name)
+  get_target_property(type slalom_${name} TYPE)
+  if(NOT type STREQUAL "INTERFACE_LIBRARY")
+    target_compile_definitions(slalom_${name} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
+# slalom_library(DEPENDS ...): the target slalom (slalom::slalom), all modules' objects in one
+# static library. DEPENDS are what the objects need at link time; public headers need none of it.
+function(slalom_library)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  get_property(modules GLOBAL PROPERTY SLALOM_MODULES_WITH_SOURCES)
+  set(objects)
+  foreach(module IN LISTS modules)
+    list(APPEND objects $<TARGET_OBJECTS:slalom_${module}>)
+  endforeach()
+  add_library(slalom STATIC ${objects})
+  add_library(slalom::slalom ALIAS slalom)
+  set_target_properties(slalom PROPERTIES LINKER_LANGUAGE CXX)
+  target_compile_features(slalom INTERFACE cxx_std_20)
+  target_include_directories(slalom INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(slalom PRIVATE ${ARG_DEPENDS})
+endfunction()
+
+# slalom_test_module(NAME): GoogleTest programs of tests/NAME.
+#   *_test.cpp       test_NAME, label `unit`: run in every build, with sanitizers too
+#   *_slow_test.cpp  test_NAME_slow, label `slow`: whole drives and the like, run in Release only
+function(slalom_test_module name)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${name}/*_test.cpp)
+  set(slow_sources ${sources})
+  list(FILTER slow_sources INCLUDE REGEX "_slow_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_slow_test\\.cpp$")
+  slalom_test_program(test_${name} ${name} unit ${sources})
+  slalom_test_program(test_${name}_slow ${name} slow ${slow_sources})
+endfunction()
+
+function(slalom_test_program target module label)
+  if(NOT ARGN)
+    return()
+  endif()
+  add_executable(${target} EXCLUDE_FROM_ALL ${ARGN})
+  target_link_libraries(${target} PRIVATE slalom_${module} GTest::gtest GTest::gtest_main)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(${target} PRIVATE SLALOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_dependencies(${label}_tests ${target})
+  # Listed when ctest runs, so that a build of the unit tests alone needs no slow test.
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${label} TIMEOUT 600)
+endfunction()

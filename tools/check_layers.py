@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Checks the direction of flow between the modules, and the size of their files.
+
+Each module may include itself and those above it in LAYERS, and never another module's private
+headers. Public headers keep the libraries of FORBIDDEN_IN_PUBLIC to the sources. Files beyond
+WARN_LINES lines are named, beyond FAIL_LINES they fail.
+
+usage: check_layers.py [ROOT]
+"""
+
+import pathlib
+import re
+import sys
+
+LAYERS = ["base", "expr", "kkt", "nlp", "ocp", "vehicle", "planner", "sim", "study", "io", "apps"]
+FORBIDDEN_IN_PUBLIC = {"CLI": "CLI11", "yaml-cpp": "yaml-cpp", "spdlog": "spdlog"}
+WARN_LINES = 400
+FAIL_LINES = 600
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def module_of(path):
+    """The module of a file given relative to the root; None for a file outside the modules."""
+    parts = path.parts
+    if parts[:2] == ("include", "slalom") and len(parts) > 3:
+        return parts[2]
+    if parts[0] == "src" and len(parts) > 2:
+        return parts[1]
+    return "apps" if parts[0] == "apps" else None
+
+
+def includes(text):
+    """Pairs (line number, quoted?, path) of the #include lines of a source."""
+    for number, line in enumerate(text.splitlines(), start=1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, match.group(1) == '"', match.group(2)
+
+
+def included_module(root, path, quoted, target):
+    """The module whose header `path` includes, and whether the header is private."""
+    if target.startswith("slalom/"):
+        parts = target.split("/")
+        return (parts[1] if len(parts) > 2 else None), False
+    if quoted:
+        near = (root / path.parent / target).resolve()
+        if near.is_relative_to(root.resolve()):
+            return module_of(near.relative_to(root.resolve())), True
+    return None, False
+
+
+def check_include(root, path, number, quoted, target):
+    """Messages about one #include line."""
+    module = module_of(path)
+    where = f"{path}:{number}"
+    library = FORBIDDEN_IN_PUBLIC.get(target.split("/")[0])
+    if path.parts[0] == "include" and library:
+        yield f"{where}: public header includes {library} ({target}); keep it in src/{module}"
+    other, private = included_module(root, path, quoted, target)
+    if other is None or other == module:
+        return
+    if other not in LAYERS:
+        yield f"{where}: {target} is of no known module"
+    elif private:
+        yield f"{where}: {module} includes a private header of {other} ({target})"
+    elif LAYERS.index(other) > LAYERS.index(module):
+        yield f"{where}: {module} includes {target}, but {other} stands below it"
+
+
+def check(root):
+    """Errors and warnings about the tree at `root`, and how many files were read."""
+    errors, warnings, count = [], [], 0
+    for folder in ("include", "src", "apps"):
+        for file in sorted((root / folder).rglob("*.[ch]pp")):
+            path = file.relative_to(root)
+            text = file.read_text(encoding="utf-8")
+            count += 1
+            if module_of(path) not in LAYERS:
+                errors.append(f"{path}: in no known module ({', '.join(LAYERS)})")
+                continue
+            for line in includes(text):
+                errors.extend(check_include(root, path, *line))
+            lines = text.count("\n")
+            if lines > FAIL_LINES:
+                errors.append(f"{path}: {lines} lines, more than {FAIL_LINES}")
+            elif lines > WARN_LINES:
+                warnings.append(f"{path}: {lines} lines, more than {WARN_LINES}")
+    if count == 0:
+        errors.append(f"{root}: no sources found")
+    return errors, warnings, count
+
+
+def main(arguments):
+    default = pathlib.Path(__file__).resolve().parent.parent
+    errors, warnings, count = check(pathlib.Path(arguments[0]) if arguments else default)
+    for warning in warnings:
+        print(f"warning: {warning}")
+    for error in errors:
+        print(f"error: {error}")
+    print(f"layers: {count} files, {len(errors)} errors, {len(warnings)} warnings")
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""The layer check fails on wrong trees, each wrong in one way, and passes a right one."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CHECKER = pathlib.Path(__file__).resolve().parent / "check_layers.py"
+
+RIGHT = {
+    "include/slalom/base/error.hpp": "#pragma once\n#include <string>\n",
+    "include/slalom/sim/plant.hpp": '#include "slalom/planner/plan.hpp"\n',
+    "src/sim/plant.cpp": '#include "slalom/sim/plant.hpp"\n#include "detail.hpp"\n',
+    "src/sim/detail.hpp": '#include "slalom/base/error.hpp"\n',
+    "src/io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
+    "apps/slalom/main.cpp": '#include <CLI/CLI.hpp>\n#include "slalom/io/files.hpp"\n',
+}
+
+
+class CheckLayers(unittest.TestCase):
+    def run_on(self, files):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in files.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text, encoding="utf-8")
+            return subprocess.run([sys.executable, CHECKER, folder], text=True,
+                                  stdout=subprocess.PIPE, check=False)
+
+    def assert_wrong(self, name, text, message):
+        result = self.run_on(RIGHT | {name: text})
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn(message, result.stdout)
+        self.assertEqual(result.stdout.count("error:"), 1, result.stdout)
+
+    def test_right_tree_passes(self):
+        result = self.run_on(RIGHT)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("6 files, 0 errors, 0 warnings", result.stdout)
+
+    def test_include_against_the_flow(self):
+        self.assert_wrong("src/base/error.cpp", '\n#include "slalom/sim/plant.hpp"\n',
+                          "src/base/error.cpp:2: base includes slalom/sim/plant.hpp")
+
+    def test_include_against_the_flow_in_a_header(self):
+        self.assert_wrong("include/slalom/expr/expr.hpp", "#include <slalom/nlp/solver.hpp>\n",
+                          "expr includes slalom/nlp/solver.hpp")
+
+    def test_modules_do_not_include_the_program(self):
+        self.assert_wrong("src/io/x.cpp", '#include "../../apps/slalom/main.cpp"\n',
+                          "io includes a private header of apps")
+
+    def test_private_header_of_another_module(self):
+        self.assert_wrong("src/study/page.cpp", '#include "../sim/detail.hpp"\n',
+                          "study includes a private header of sim")
+
+    def test_kept_library_in_a_public_header(self):
+        for header in ("CLI/CLI.hpp", "yaml-cpp/yaml.h", "spdlog/spdlog.h"):
+            self.assert_wrong("include/slalom/io/files.hpp", f"#include <{header}>\n",
+                              "public header includes")
+
+    def test_unknown_module(self):
+        self.assert_wrong("src/misc/x.cpp", "\n", "in no known module")
+        self.assert_wrong("src/sim/x.cpp", '#include "slalom/misc/x.hpp"\n', "of no known module")
+
+    def test_long_files(self):
+        self.assert_wrong("src/sim/x.cpp", "\n" * 601, "601 lines, more than 600")
+        result = self.run_on(RIGHT | {"src/sim/x.cpp": "\n" * 401})
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("warning: src/sim/x.cpp: 401 lines", result.stdout)
+
+    def test_empty_tree_is_no_success(self):
+        self.assertEqual(self.run_on({"README.md": ""}).returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

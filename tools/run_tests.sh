@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Builds and runs every test: the unit tests with sanitizers, then the release build with all
+# checks. Goes on after a failure, sums up, and fails if anything did. A build that fails
+# counts as one failure.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+jobs=$(nproc 2>/dev/null || echo 2)
+passed=0
+failed=0
+skipped=0
+failures=()
+
+note_failure() {
+  failures+=("$1")
+  failed=$((failed + 1))
+}
+
+# The count `name` (tests, failures, ...) of a JUnit file's <testsuite>.
+count() { grep -o "\b$2=\"[0-9]*\"" "$1" | head -1 | grep -o '[0-9]*'; }
+
+run_ctest() { # PRESET TITLE
+  local file=$PWD/build/tests-$1.xml tests bad out
+  rm -f "$file"
+  echo "== $2"
+  ctest --preset "$1" -j "$jobs" --output-junit "$file"
+  local code=$?
+  if [ ! -f "$file" ]; then
+    note_failure "$2: ctest did not run"
+    return
+  fi
+  tests=$(count "$file" tests)
+  bad=$(count "$file" failures)
+  out=$(($(count "$file" skipped) + $(count "$file" disabled)))
+  passed=$((passed + tests - bad - out))
+  skipped=$((skipped + out))
+  if [ "$bad" -gt 0 ]; then
+    failed=$((failed + bad))
+    failures+=("$2: $bad of $tests")
+  elif [ "$code" -ne 0 ]; then
+    note_failure "$2: ctest ended with $code"
+  fi
+}
+
+step() { # TITLE COMMAND...
+  echo "== $1"
+  "${@:2}" && return 0
+  note_failure "$1"
+  return 1
+}
+
+release() { cmake --preset release -DSLALOM_TESTS=ON && cmake --build --preset release -j "$jobs"; }
+asan() { cmake --preset asan -DSLALOM_TESTS=ON && cmake --build --preset asan -j "$jobs"; }
+
+mkdir -p build
+start=$SECONDS
+if step "build with sanitizers" asan; then run_ctest asan "unit tests with sanitizers"; fi
+if step "release build" release; then run_ctest release "tests and checks of the release build"; fi
+
+echo
+echo "took $(((SECONDS - start) / 60)) min $(((SECONDS - start) % 60)) s"
+for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
+if [ "$skipped" -gt 0 ]; then echo "$skipped skipped"; fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]

@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# setup.sh run|test|bench: sees to it that what `make run`, `make test` or `make bench` needs is
+# there. What is missing is installed by apt, after saying which package and why. Where apt cannot
+# do it, this says what to install and goes on: the build then tells whether it was there after all.
+set -euo pipefail
+
+# package | needed for | how to see that it is there (any one) | why
+#   cmd:X a program on the path; inc:X a header the compiler finds; pc:X known to pkg-config;
+#   py:X a module python3 imports
+packages() {
+  cat <<'TABLE'
+g++                 | run   | cmd:g++                   | compiles C++20
+cmake               | run   | cmd:cmake                 | describes the build
+ninja-build         | run   | cmd:ninja                 | runs the build
+pkg-config          | run   | cmd:pkg-config            | finds Ipopt
+libfmt-dev          | run   | inc:fmt/format.h          | formats messages and files
+libcli11-dev        | run   | inc:CLI/CLI.hpp           | reads the command line
+libyaml-cpp-dev     | run   | inc:yaml-cpp/yaml.h       | reads scenarios
+nlohmann-json3-dev  | run   | inc:nlohmann/json.hpp     | writes results as JSON
+libboost-dev        | run   | inc:boost/numeric/odeint.hpp | integrates the plant (headers alone)
+coinor-libipopt-dev | run   | pc:ipopt                  | solves the nonlinear programs
+libsleef-dev        | run   | inc:sleef.h               | elementary functions on vectors
+libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests
+clang-format        | test  | cmd:clang-format          | checks the format of the source
+clang-tidy          | test  | cmd:clang-tidy            | checks the source for mistakes
+python3             | test  | cmd:python3               | runs the checks of the source and of the command line
+chromium            | test  | cmd:chromium cmd:chromium-browser cmd:google-chrome | drives the report's page
+nodejs              | test  | cmd:node                  | runs the test of the page
+npm                 | test  | cmd:npm                   | installs playwright-core for the test of the page
+python3             | bench | cmd:python3               | runs the benchmarks
+python3-venv        | bench | py:ensurepip              | keeps the peer they compare with to a folder of its own
+gcc                 | bench | cmd:gcc                   | compiles the C code that peer generates
+TABLE
+}
+
+trim() { sed -E 's/^[[:space:]]+|[[:space:]]+$//g' <<<"$1"; }
+
+has_header() {
+  if command -v g++ >/dev/null; then
+    echo "#include <$1>" | g++ -std=c++20 -fsyntax-only -x c++ - 2>/dev/null
+  else
+    [ -e "/usr/include/$1" ] || [ -e "/usr/local/include/$1" ]
+  fi
+}
+
+# Debian's own word first: it is quick; then the thing itself, which may come from elsewhere.
+is_there() {
+  local package=$1 probe
+  if command -v dpkg-query >/dev/null &&
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ]; then
+    return 0
+  fi
+  for probe in $2; do
+    case $probe in
+      cmd:*) command -v "${probe#cmd:}" >/dev/null && return 0 ;;
+      inc:*) has_header "${probe#inc:}" && return 0 ;;
+      py:*) python3 -c "import ${probe#py:}" 2>/dev/null && return 0 ;;
+      pc:*) command -v pkg-config >/dev/null && pkg-config --exists "${probe#pc:}" && return 0 ;;
+    esac
+  done
+  return 1
+}
+
+wanted() { # needed for $1, when asked for $2
+  case $2 in
+    run) [ "$1" = run ] ;;
+    test) [ "$1" = run ] || [ "$1" = test ] ;;
+    bench) [ "$1" = run ] || [ "$1" = bench ] ;;
+  esac
+}
+
+missing_for() {
+  local package needed probes why
+  while IFS='|' read -r package needed probes why; do
+    package=$(trim "$package") needed=$(trim "$needed") why=$(trim "$why")
+    if wanted "$needed" "$1" && ! is_there "$package" "$probes"; then
+      printf '  %-20s %s\n' "$package" "$why"
+    fi
+  done < <(packages)
+}
+
+go_on() {
+  echo "setup: $1"
+  echo "setup: install the above by other means if the build misses them; going on."
+  exit 0
+}
+
+purpose=${1:-}
+case $purpose in
+  run | test | bench) ;;
+  *)
+    echo "usage: tools/setup.sh run|test|bench" >&2
+    exit 2
+    ;;
+esac
+
+missing=$(missing_for "$purpose")
+if [ -z "$missing" ]; then
+  echo "setup: all that 'make $purpose' needs is there"
+  exit 0
+fi
+echo "setup: 'make $purpose' needs these Debian packages, which are missing:"
+echo "$missing"
+names=$(awk '{print $1}' <<<"$missing")
+
+command -v apt-get >/dev/null || go_on "there is no apt here to install them with."
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || go_on "neither root nor sudo: apt cannot install them."
+  as_root=(sudo)
+fi
+export DEBIAN_FRONTEND=noninteractive
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y)
+
+echo "setup: installing them with apt"
+# shellcheck disable=SC2086  # one word a package
+{ "${apt[@]}" update && "${apt[@]}" install --no-install-recommends $names; } ||
+  go_on "apt could not install them."
+missing=$(missing_for "$purpose")
+if [ -n "$missing" ]; then
+  echo "$missing"
+  go_on "these are still missing after the installation."
+fi
+echo "setup: all that 'make $purpose' needs is there"
