@@ -1,0 +1,34 @@
+#include "slalom/expr/kernels.hpp"
+
+#include <atomic>
+
+#include "slalom/base/error.hpp"
+
+namespace slalom::expr {
+namespace {
+std::atomic<KernelSet>& selected() {
+  static std::atomic<KernelSet> set{best_kernels()};
+  return set;
+}
+}  // namespace
+
+KernelSet best_kernels() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? KernelSet::avx2
+                                                                         : KernelSet::baseline;
+}
+
+KernelSet current_kernels() {
+  return selected().load(std::memory_order_relaxed);
+}
+
+void select_kernels(KernelSet set) {
+  if (set == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
+    throw Error("kernel set avx2: this processor has no AVX2 with FMA; use baseline");
+  selected().store(set, std::memory_order_relaxed);
+}
+
+const char* to_string(KernelSet set) {
+  return set == KernelSet::avx2 ? "avx2" : "baseline";
+}
+
+}  // namespace slalom::expr

@@ -1,0 +1,46 @@
+#include <immintrin.h>
+#include <sleef.h>
+
+#include "tape_block.hpp"
+
+namespace slalom::expr {
+namespace {
+
+/// Four lanes: AVX2 with FMA (for SLEEF alone; no contraction elsewhere).
+struct Vector {
+  using type = __m256d;
+  static constexpr std::size_t size = 4;
+  static type load(const double* p) { return _mm256_load_pd(p); }
+  static void store(double* p, type v) { _mm256_store_pd(p, v); }
+  static type sqrt(type v) { return _mm256_sqrt_pd(v); }
+  static type exp(type v) { return Sleef_finz_expd4_u10avx2(v); }
+  static type log(type v) { return Sleef_finz_logd4_u10avx2(v); }
+  static type sin(type v) { return Sleef_finz_sind4_u10avx2(v); }
+  static type cos(type v) { return Sleef_finz_cosd4_u10avx2(v); }
+  static type tan(type v) { return Sleef_finz_tand4_u10avx2(v); }
+  static type asin(type v) { return Sleef_finz_asind4_u10avx2(v); }
+  static type acos(type v) { return Sleef_finz_acosd4_u10avx2(v); }
+  static type atan(type v) { return Sleef_finz_atand4_u10avx2(v); }
+  static type sinh(type v) { return Sleef_finz_sinhd4_u10avx2(v); }
+  static type cosh(type v) { return Sleef_finz_coshd4_u10avx2(v); }
+  static type tanh(type v) { return Sleef_finz_tanhd4_u10avx2(v); }
+  static type pow(type a, type b) { return Sleef_finz_powd4_u10avx2(a, b); }
+  static type atan2(type y, type x) { return Sleef_finz_atan2d4_u10avx2(y, x); }
+  template <class Mask>
+  static type pick(Mask mask, type yes, type no) {
+    return mask ? yes : no;
+  }
+  static type abs(type v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
+  static type sign(type v) {
+    const type zero{}, one = zero + 1.0;
+    return pick(v > zero, one, pick(v < zero, -one, v != v ? v : zero));
+  }
+};
+
+}  // namespace
+
+void run_block_avx2(const Tape& tape, double* workspace, std::size_t width) {
+  run_block<Vector>(tape, workspace, width);
+}
+
+}  // namespace slalom::expr
