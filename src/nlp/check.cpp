@@ -1,0 +1,138 @@
+#include "slalom/nlp/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace slalom::nlp {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// One variable or row between its limits, in the user's units.
+struct Item {
+  double value, lower, upper;
+  double z_lower, z_upper;  ///< multipliers >= 0 of the two sides, user's units
+  bool is_row;              ///< of a row only the difference z_upper - z_lower is known
+};
+
+/// |s z / mu - 1| for the slack nearest to s, within tol, that brings it to zero.
+double centrality(double s, double z, double mu, double tol) {
+  const double wanted = z > 0 ? mu / z : std::numeric_limits<double>::infinity();
+  const double nearest = std::clamp(wanted, s - tol, s + tol);
+  return std::fabs(nearest * z / mu - 1);
+}
+
+/// The least of the largest |s z / mu - 1| of a two-sided row's two sides, of whose multipliers
+/// only the difference y is known: |y - (mu/su - mu/sl)| / (mu/su + mu/sl), at the value within tol
+/// of the row's that brings it nearest to zero. mu/su - mu/sl rises with the value.
+double two_sided_centrality(const Item& item, double mu, double tol) {
+  const double y = item.z_upper - item.z_lower;
+  const auto distance = [&](double value) {
+    const double lower = mu / (value - item.lower), upper = mu / (item.upper - value);
+    return (y - (upper - lower)) / std::fabs(upper + lower);
+  };
+  const double low = distance(item.value - tol), high = distance(item.value + tol);
+  return low > 0 && high < 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
+}
+
+/// |s z| of one side without a floor; of a z that is negative or has no side, |z| itself.
+double product(double s, double z) {
+  return z < 0 || std::isinf(s) ? std::fabs(z) : std::fabs(s * z);
+}
+
+double complementarity(const Item& item, const Options& options) {
+  const bool lower = std::isfinite(item.lower), upper = std::isfinite(item.upper);
+  const double sl = item.value - item.lower, su = item.upper - item.value;
+  const double mu = options.floor;
+  if (mu <= 0) return std::max(product(sl, item.z_lower), product(su, item.z_upper));
+  if (item.is_row && lower && upper) return two_sided_centrality(item, mu, options.constraint_tol);
+  const auto side = [&](bool exists, double s, double z) {
+    return exists ? centrality(s, z, mu, options.constraint_tol) : std::fabs(z);
+  };
+  return std::max(side(lower, sl, item.z_lower), side(upper, su, item.z_upper));
+}
+
+double violation(const Item& item) {
+  if (std::isnan(item.value)) return item.value;
+  return std::max({0.0, item.lower - item.value, item.value - item.upper});
+}
+
+/// Keeps the largest value and its name; NaN is larger than any number.
+template <class Name>
+void keep_worst(double value, Name name, double& worst, std::string& worst_name) {
+  if (!(value > worst || (std::isnan(value) && !std::isnan(worst)))) return;
+  worst = value;
+  worst_name = name();
+}
+
+class Judge {
+ public:
+  Judge(Residuals& result, const Options& options) : result_(result), options_(options) {}
+
+  template <class Name>
+  void add(const Item& item, Name name) {
+    keep_worst(violation(item), name, result_.violation, result_.worst_constraint);
+    if (item.lower == item.upper) return;  // an equation has no barrier
+    keep_worst(complementarity(item, options_), name, result_.complementarity, result_.worst_pair);
+    if (std::isfinite(item.lower)) log_sum_ += std::log(item.value - item.lower);
+    if (std::isfinite(item.upper)) log_sum_ += std::log(item.upper - item.value);
+  }
+  double log_sum() const { return log_sum_; }
+
+ private:
+  Residuals& result_;
+  const Options& options_;
+  double log_sum_ = 0;
+};
+
+}  // namespace
+
+bool Residuals::solved(const Options& options) const {
+  if (fault) return false;
+  if (options.floor > 0)
+    return violation <= options.constraint_tol && stationarity <= options.dual_tol &&
+           complementarity <= options.floor_tol;
+  return violation <= options.constraint_tol && stationarity <= options.dual_tol &&
+         complementarity <= options.dual_tol;
+}
+
+Residuals check(Problem& problem, const Start& point, const Options& options) {
+  const Structure& shape = problem.structure();
+  const Limits& limits = problem.limits();
+  check_sizes(point, shape, true);
+  Evaluation at;
+  Residuals result;
+  result.fault = problem.evaluate(point.x, 1, {}, {.values = true, .derivatives = true}, at);
+  if (result.fault) {
+    result.violation = result.stationarity = result.complementarity = kNaN;
+    result.objective = result.phi = kNaN;
+    return result;
+  }
+  result.objective = at.objective;
+  Judge judge(result, options);
+  std::vector<double> lagrangian = at.gradient;
+  for (std::size_t r = 0; r < shape.rows; ++r) {
+    for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e)
+      lagrangian[shape.jacobian_col[e]] += point.y[r] * at.jacobian[e];
+    const double scale = shape.row_scale[r], y = point.y[r] * scale;
+    judge.add({at.rows[r] / scale, limits.gl[r] / scale, limits.gu[r] / scale, std::max(-y, 0.0),
+               std::max(y, 0.0), true},
+              [&] { return problem.row_name(r); });
+  }
+  for (std::size_t i = 0; i < shape.variables; ++i) {
+    const double scale = shape.variable_scale[i];
+    const auto name = [&] { return problem.variable_name(i); };
+    judge.add({point.x[i] * scale, limits.xl[i] * scale, limits.xu[i] * scale, point.zl[i] / scale,
+               point.zu[i] / scale, false},
+              name);
+    if (limits.xl[i] == limits.xu[i]) continue;  // fixed: its multiplier is free
+    keep_worst(std::fabs(lagrangian[i] - point.zl[i] + point.zu[i]) / scale, name,
+               result.stationarity, result.worst_variable);
+  }
+  result.phi = at.objective;
+  if (options.floor > 0) result.phi -= options.floor * judge.log_sum();
+  return result;
+}
+
+}  // namespace slalom::nlp

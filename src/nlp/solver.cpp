@@ -1,0 +1,64 @@
+#include "slalom/nlp/solver.hpp"
+
+#include "backends.hpp"
+#include "slalom/base/error.hpp"
+
+namespace slalom::nlp {
+
+const char* to_string(Status status) {
+  switch (status) {
+    case Status::solved:
+      return "solved";
+    case Status::iteration_limit:
+      return "iteration_limit";
+    case Status::time_limit:
+      return "time_limit";
+    case Status::infeasible:
+      return "infeasible";
+    case Status::unbounded:
+      return "unbounded";
+    case Status::invalid_number:
+      return "invalid_number";
+    case Status::too_few_freedoms:
+      return "too_few_freedoms";
+    case Status::interrupted:
+      return "interrupted";
+    case Status::numerical_failure:
+      return "numerical_failure";
+  }
+  return "unknown";
+}
+
+void check_sizes(const Start& start, const Structure& structure, bool with_duals) {
+  const auto expect = [](const char* name, const std::vector<double>& part, std::size_t size) {
+    if (part.size() != size)
+      throw InvalidValue(std::string("start: ") + name, std::to_string(part.size()) + " numbers",
+                         std::to_string(size));
+  };
+  expect("x", start.x, structure.variables);
+  if (!with_duals) return;
+  expect("y", start.y, structure.rows);
+  expect("zl", start.zl, structure.variables);
+  expect("zu", start.zu, structure.variables);
+}
+
+std::vector<std::string> backends() {
+  std::vector<std::string> names;
+#ifdef SLALOM_WITH_IPOPT
+  names.emplace_back("ipopt");
+#endif
+  names.emplace_back("interior_point");
+  return names;
+}
+
+std::unique_ptr<Solver> make_solver(const std::string& backend) {
+#ifdef SLALOM_WITH_IPOPT
+  if (backend.empty() || backend == "ipopt") return make_ipopt();
+#endif
+  if (backend.empty() || backend == "interior_point") return make_interior_point();
+  std::string have;
+  for (const auto& name : backends()) have += (have.empty() ? "" : ", ") + name;
+  throw InvalidValue("solver", "'" + backend + "'", "one of " + have);
+}
+
+}  // namespace slalom::nlp

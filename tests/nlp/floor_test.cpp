@@ -1,0 +1,136 @@
+// At a barrier floor mu the answer is the central point of mu, here known in closed form.
+
+#include <gtest/gtest.h>
+
+#include "nlp/small_problems.hpp"
+#include "slalom/nlp/check.hpp"
+
+namespace slalom::nlp {
+namespace {
+
+struct Solved {
+  Answer answer;
+  Residuals residuals;
+  double x() const { return answer.point.x[0]; }
+};
+
+/// By every back end this build has; they agree.
+Solved central_point(SmallProblem& problem, double mu) {
+  Options options;
+  options.floor = mu;
+  Solved first;
+  for (const auto& backend : backends()) {
+    SCOPED_TRACE(backend);
+    Solved solved;
+    solved.answer = make_solver(backend)->solve(problem, problem.cold_start(), options);
+    solved.residuals = check(problem, solved.answer.point, options);
+    EXPECT_EQ(solved.answer.status, Status::solved);
+    EXPECT_TRUE(solved.residuals.solved(options));
+    if (first.answer.point.x.empty()) first = solved;
+    for (std::size_t i = 0; i < problem.start.size(); ++i)
+      EXPECT_NEAR(solved.answer.point.x[i], first.answer.point.x[i], 0.02);
+  }
+  return first;
+}
+
+constexpr double kFloors[] = {0.01, 0.3, 0.9, 5};
+
+TEST(Floor, LowerBound) {
+  for (const double mu : kFloors) {
+    auto problem = one_variable(2, 0, 1, kInf, 4);  // min 2x, x >= 1: 2 = mu / (x - 1)
+    const auto solved = central_point(problem, mu);
+    EXPECT_NEAR(solved.x(), 1 + mu / 2, 0.01 * mu);
+    EXPECT_NEAR(solved.answer.point.zl[0], 2, 1e-3);
+    EXPECT_NEAR(solved.residuals.phi, 2 * solved.x() - mu * std::log(solved.x() - 1), 1e-12);
+  }
+}
+
+TEST(Floor, UpperBound) {
+  for (const double mu : kFloors) {
+    auto problem = one_variable(-1, 0, -kInf, 3, 0);
+    const auto solved = central_point(problem, mu);
+    EXPECT_NEAR(solved.x(), 3 - mu, 0.01 * mu);
+    EXPECT_NEAR(solved.answer.point.zu[0], 1, 1e-3);
+  }
+}
+
+/// min c x between -1 and 1: c = mu/(1 + x) - mu/(1 - x).
+double between(double c, double mu) {
+  return c == 0 ? 0 : (mu - std::sqrt(mu * mu + c * c)) / c;
+}
+
+TEST(Floor, TwoSidedBounds) {
+  for (const double mu : kFloors)
+    for (const double c : {-1.0, 0.0, 2.0}) {
+      auto problem = one_variable(c, 0, -1, 1, 0.5);
+      EXPECT_NEAR(central_point(problem, mu).x(), between(c, mu), 0.01) << mu << " " << c;
+    }
+}
+
+TEST(Floor, OneSidedRow) {
+  for (const double mu : kFloors) {
+    auto problem = one_variable(1, 0, -kInf, kInf, 4, 2, 6, kInf);  // 2 x >= 6
+    const auto solved = central_point(problem, mu);
+    EXPECT_NEAR(solved.x(), 3 + mu, 0.01 * mu + 1e-6);
+    EXPECT_NEAR(solved.answer.point.y[0], -0.5, 1e-3);
+  }
+}
+
+TEST(Floor, TwoSidedRow) {
+  for (const double mu : kFloors)
+    for (const double c : {-1.0, 2.0}) {
+      auto problem = one_variable(c, 0, -kInf, kInf, 0.5, 1, -1, 1);
+      const auto solved = central_point(problem, mu);
+      EXPECT_NEAR(solved.x(), between(c, mu), 0.01);
+      EXPECT_NEAR(solved.answer.point.y[0], -c, 2e-3);
+    }
+}
+
+TEST(Floor, ScaledRowHasTheSameCentralPoint) {
+  for (const double scale : {0.01, 1.0, 100.0}) {
+    auto problem = one_variable(1, 1, -kInf, kInf, 4, 1, 1, kInf);
+    problem.finish({1 / scale}, {scale});
+    Options options;
+    options.floor = 0.5;
+    const auto answer = make_solver()->solve(problem, problem.cold_start(), options);
+    ASSERT_EQ(answer.status, Status::solved);
+    // 1 + x = mu / (x - 1)
+    EXPECT_NEAR(answer.point.x[0] / scale, std::sqrt(1.5), 1e-3);
+    EXPECT_TRUE(check(problem, answer.point, options).solved(options));
+  }
+}
+
+TEST(Floor, EquationsHaveNoBarrierAndTheLagrangiansSign) {
+  // min x^2/2 + w, x w = 3, x and w >= 0: x + y w = mu/x and 1 + y x = mu/w.
+  SmallProblem p;
+  p.objective = [](const Vector& x) { return 0.5 * x[0] * x[0] + x[1]; };
+  p.gradient = [](const Vector& x) { return Vector{x[0], 1}; };
+  p.rows = [](const Vector& x) { return Vector{x[0] * x[1]}; };
+  p.jacobian = [](const Vector& x) { return Vector{x[1], x[0]}; };
+  p.hessian = [](const Vector&, double s, const Vector& y) { return Vector{s, y[0], 0}; };
+  p.bounds = {{0, 0}, {kInf, kInf}, {3}, {3}};
+  p.start = {1, 1};
+  p.finish();
+  const double mu = 0.9;
+  const auto solved = central_point(p, mu);
+  const double x = solved.x(), w = solved.answer.point.x[1], y = solved.answer.point.y[0];
+  EXPECT_NEAR(x * w, 3, 1e-6);
+  EXPECT_LT(y, 0);
+  EXPECT_NEAR(x + y * w, mu / x, 0.02 * mu / x);
+  EXPECT_NEAR(1 + y * x, mu / w, 0.02 * mu / w);
+  // The barrier of x w = 3 is constant, so that the optimum without a floor is the same point.
+  EXPECT_NEAR(x, std::cbrt(3), 2e-2);
+}
+
+TEST(Floor, Hs071ObjectiveRisesWithTheFloor) {
+  double last = 0;
+  for (const double mu : {0.0, 0.01, 0.1, 1.0}) {
+    auto problem = hs071();
+    const auto solved = central_point(problem, mu);
+    EXPECT_GT(solved.answer.objective, last) << mu;
+    last = solved.answer.objective;
+  }
+}
+
+}  // namespace
+}  // namespace slalom::nlp

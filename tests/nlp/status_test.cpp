@@ -1,0 +1,190 @@
+// One test for each way a solve can end.
+
+#include <gtest/gtest.h>
+
+#include "nlp/small_problems.hpp"
+#include "slalom/base/error.hpp"
+
+namespace slalom::nlp {
+namespace {
+
+Answer solve(Problem& problem, const Start& start, const Options& options = {}) {
+  return make_solver("ipopt")->solve(problem, start, options);
+}
+
+TEST(Status, Solved) {
+  auto problem = hs071();
+  const Answer answer = solve(problem, problem.cold_start());
+  EXPECT_EQ(answer.status, Status::solved);
+  EXPECT_EQ(answer.backend, "ipopt");
+  EXPECT_FALSE(answer.message.empty());
+  EXPECT_FALSE(answer.fault);
+  EXPECT_NEAR(answer.objective, 17.0140173, 1e-7);
+  const Vector expected{1, 4.7429994, 3.8211503, 1.3794082};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(answer.point.x[i], expected[i], 1e-6);
+  EXPECT_NEAR(answer.point.y[0], -0.5522937, 1e-6);  // at its lower side: y < 0
+  EXPECT_NEAR(answer.point.y[1], 0.1614686, 1e-6);
+  EXPECT_NEAR(answer.point.zl[0], 1.0878712, 1e-6);
+  EXPECT_GT(answer.iterations, 3);
+  EXPECT_GT(answer.wall_s, 0);
+}
+
+TEST(Status, SolvedWhenEquationsFixEverything) {
+  auto problem = one_variable(1, 0, -kInf, kInf, 5, 2, 6, 6);  // 2 x = 6: as many rows as unknowns
+  const Answer answer = solve(problem, problem.cold_start());
+  EXPECT_EQ(answer.status, Status::solved) << answer.message;
+  EXPECT_NEAR(answer.point.x[0], 3, 1e-7);
+}
+
+TEST(Status, IterationLimit) {
+  auto problem = hs071();
+  Options options;
+  options.max_iterations = 2;
+  const Answer answer = solve(problem, problem.cold_start(), options);
+  EXPECT_EQ(answer.status, Status::iteration_limit);
+  EXPECT_EQ(answer.iterations, 2);
+  EXPECT_EQ(answer.point.x.size(), 4u);
+}
+
+TEST(Status, TimeLimit) {
+  auto problem = hs071();
+  Options options;
+  options.time_limit = 1e-9;
+  const Answer answer = solve(problem, problem.cold_start(), options);
+  EXPECT_EQ(answer.status, Status::time_limit);
+  EXPECT_LE(answer.iterations, 1);
+}
+
+TEST(Status, Infeasible) {
+  auto problem = one_variable(1, 0, 0, 10, 1, 1, 20, kInf);  // x >= 20 and x <= 10
+  const Answer answer = solve(problem, problem.cold_start());
+  EXPECT_EQ(answer.status, Status::infeasible) << answer.message;
+  EXPECT_NEAR(answer.point.x[0], 10, 1e-3) << "the point of least violation";
+}
+
+TEST(Status, Unbounded) {
+  auto problem = one_variable(-1, 0, 0, kInf, 1);
+  const Answer answer = solve(problem, problem.cold_start());
+  EXPECT_EQ(answer.status, Status::unbounded) << answer.message;
+}
+
+TEST(Status, InvalidNumberSaysWhere) {
+  auto problem = hs071();
+  problem.fault = [](const Vector&) { return Fault{"dynamics of v", "node 3", "ux"}; };
+  const Answer answer = solve(problem, problem.cold_start());
+  EXPECT_EQ(answer.status, Status::invalid_number);
+  EXPECT_EQ(answer.fault.function, "dynamics of v");
+  EXPECT_EQ(answer.fault.where, "node 3");
+  EXPECT_EQ(answer.fault.variable, "ux");
+  EXPECT_EQ(answer.point.x, problem.start) << "the start is handed back";
+  EXPECT_EQ(answer.point.y.size(), 2u);
+}
+
+TEST(Status, AFaultSteppedBackFromIsForgiven) {
+  // min -log(x) + 2 x from x = 10: the first Newton step leaves the domain.
+  SmallProblem p;
+  bool faulted = false;
+  p.objective = [](const Vector& x) { return -std::log(x[0]) + 2 * x[0]; };
+  p.gradient = [](const Vector& x) { return Vector{-1 / x[0] + 2}; };
+  p.hessian = [](const Vector& x, double s, const Vector&) { return Vector{s / (x[0] * x[0])}; };
+  p.fault = [&](const Vector& x) {
+    faulted = faulted || x[0] <= 0;
+    return x[0] <= 0 ? Fault{"log", "x", ""} : Fault{};
+  };
+  p.bounds = {{-kInf}, {kInf}, {}, {}};
+  p.start = {10};
+  p.finish();
+  const Answer answer = solve(p, p.cold_start());
+  EXPECT_TRUE(faulted);
+  EXPECT_EQ(answer.status, Status::solved);
+  EXPECT_FALSE(answer.fault);
+  EXPECT_NEAR(answer.point.x[0], 0.5, 1e-6);
+
+  Options options;
+  options.max_iterations = answer.iterations - 1;
+  const Answer cut = solve(p, p.cold_start(), options);
+  EXPECT_EQ(cut.status, Status::iteration_limit);
+  EXPECT_FALSE(cut.fault) << "the fault was iterations ago";
+}
+
+TEST(Status, TooFewFreedoms) {
+  SmallProblem p = one_variable(1, 0, -kInf, kInf, 1, 1, 1, 1);
+  p.rows = [](const Vector& x) { return Vector{x[0], x[0]}; };
+  p.jacobian = [](const Vector&) { return Vector{1, 1}; };
+  p.bounds.gl = p.bounds.gu = {1, 2};
+  p.finish();
+  const Answer answer = solve(p, p.cold_start());
+  EXPECT_EQ(answer.status, Status::too_few_freedoms) << answer.message;
+}
+
+TEST(Status, Interrupted) {
+  auto problem = hs071();
+  int polls = 0;
+  Options options;
+  options.stop = [](void* data) { return ++*static_cast<int*>(data) == 3; };
+  options.stop_data = &polls;
+  const Answer answer = solve(problem, problem.cold_start(), options);
+  EXPECT_EQ(answer.status, Status::interrupted);
+  EXPECT_EQ(polls, 3) << "once an iteration, never after it said yes";
+}
+
+TEST(Status, NumericalFailure) {
+  // Second derivatives without bound: the linear systems can be solved no more.
+  auto problem = hs071();
+  problem.hessian = [](const Vector&, double, const Vector&) { return Vector(10, 1e300); };
+  const Answer answer = solve(problem, problem.cold_start());
+  EXPECT_EQ(answer.status, Status::numerical_failure) << answer.message;
+}
+
+TEST(Status, EachHasItsOwnName) {
+  const Status all[] = {
+      Status::solved,           Status::iteration_limit, Status::time_limit,
+      Status::infeasible,       Status::unbounded,       Status::invalid_number,
+      Status::too_few_freedoms, Status::interrupted,     Status::numerical_failure};
+  std::vector<std::string> names;
+  for (const Status status : all) {
+    EXPECT_EQ(std::count(names.begin(), names.end(), to_string(status)), 0);
+    names.emplace_back(to_string(status));
+  }
+  EXPECT_STREQ(to_string(Status::too_few_freedoms), "too_few_freedoms");
+}
+
+TEST(Solver, UnknownBackEndIsRefusedWithThoseThereAre) {
+  try {
+    (void)make_solver("knitro");
+    FAIL() << "accepted";
+  } catch (const InvalidValue& e) {
+    EXPECT_NE(std::string(e.what()).find("'knitro'"), std::string::npos) << e.what();
+    for (const auto& name : backends())
+      EXPECT_NE(std::string(e.what()).find(name), std::string::npos) << e.what();
+  }
+  EXPECT_FALSE(backends().empty());
+  EXPECT_NO_THROW((void)make_solver());
+}
+
+TEST(Solver, StartOfAnotherSizeIsRefused) {
+  auto problem = hs071();
+  EXPECT_THROW((void)solve(problem, {{1, 2}, {}, {}, {}}), InvalidValue);
+  Options warm;
+  warm.warm_start = true;
+  EXPECT_THROW((void)solve(problem, problem.cold_start(), warm), InvalidValue)
+      << "a warm start without multipliers";
+}
+
+TEST(Solver, WarmStartTakesFewerIterations) {
+  auto problem = hs071();
+  for (const double floor : {0.0, 0.1}) {
+    Options options;
+    options.floor = floor;
+    const Answer cold = solve(problem, problem.cold_start(), options);
+    ASSERT_EQ(cold.status, Status::solved);
+    options.warm_start = true;
+    const Answer warm = solve(problem, cold.point, options);
+    EXPECT_EQ(warm.status, Status::solved);
+    EXPECT_LT(warm.iterations, cold.iterations / 2) << "floor " << floor;
+    EXPECT_NEAR(warm.objective, cold.objective, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace slalom::nlp
