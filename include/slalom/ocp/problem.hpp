@@ -1,0 +1,170 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "slalom/expr/expr.hpp"
+
+namespace slalom::ocp {
+
+using expr::Expr;
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// lower <= value <= upper; equal for an equation, infinite for an absent side.
+struct Bounds {
+  double lower = -kInfinity;
+  double upper = kInfinity;
+
+  static Bounds equal(double value) { return {value, value}; }
+  static Bounds at_least(double value) { return {value, kInfinity}; }
+  static Bounds at_most(double value) { return {-kInfinity, value}; }
+};
+
+/// The points at which a path constraint stands.
+enum class Points { all, after_first };
+
+/// The end of the horizon at which a slack lives.
+enum class End { initial, final };
+
+/// Handle of a constraint, for switching and for the data of families.
+struct ConstraintId {
+  std::size_t index;
+};
+
+/// An optimal-control problem of one phase in continuous time:
+///
+///   min  Mayer(initial, final, t0, tf, p) + integral of Lagrange(x, u, t, p) dt
+///   x' = f(x, u, t, p),  path rows, boundary rows, bounds, t0 <= t <= tf
+///
+/// States, controls and everything else are symbols; terms are expressions of them. All set-up
+/// errors are exceptions that name the problem and the offending item.
+class Problem {
+ public:
+  explicit Problem(std::string name);
+
+  // --- variables ---------------------------------------------------------------------------
+  /// A state with bounds at every point; `scale` is its typical size (solver sees value / scale).
+  Expr state(const std::string& name, Bounds bounds = {}, double scale = 1);
+  Expr control(const std::string& name, Bounds bounds = {}, double scale = 1);
+  /// A constant to optimise.
+  Expr static_parameter(const std::string& name, Bounds bounds, double guess, double scale = 1);
+  /// An extra variable at one end of the horizon, for softened boundary conditions.
+  Expr slack(const std::string& name, End end, Bounds bounds, double guess = 0);
+
+  // --- given quantities --------------------------------------------------------------------
+  /// A run-time parameter: a number that set_parameter changes between solves without a rebuild.
+  Expr parameter(const std::string& name, double value);
+  void set_parameter(const Expr& parameter, double value);
+
+  Expr time() const { return time_; }  ///< t of the point [time unit of t0, tf]
+  Expr tau() const { return tau_; }    ///< (t - t0) / (tf - t0), 0 ... 1
+  Expr initial_time() const { return t0_; }
+  Expr final_time() const { return tf_; }
+  /// A state's value at one end, to be used anywhere (also at other points).
+  Expr initial(const Expr& state) const;
+  Expr final(const Expr& state) const;
+
+  // --- dynamics, cost, constraints ---------------------------------------------------------
+  void dynamics(const Expr& state, const Expr& rate);
+  /// A cost term at the ends: of initial(), final(), slacks, t0, tf, static parameters.
+  void mayer(const std::string& name, const Expr& term);
+  /// A cost term under the integral over time.
+  void lagrange(const std::string& name, const Expr& integrand);
+  ConstraintId path(const std::string& name, const Expr& value, Bounds bounds,
+                    Points points = Points::all);
+  ConstraintId boundary(const std::string& name, const Expr& value, Bounds bounds);
+
+  /// One path row a member: `value` is an expression of `symbols` (made by Expr::symbol), which
+  /// take each member's numbers. Thirty-eight obstacles are one family of one formula.
+  ConstraintId path_family(const std::string& name, const std::vector<Expr>& symbols,
+                           const Expr& value, Bounds bounds, Points points = Points::all);
+  /// The members' names and numbers (one list a member, one number a symbol). The number of members
+  /// may change between transcriptions; the numbers between solves.
+  void set_members(ConstraintId family, std::vector<std::string> names,
+                   std::vector<std::vector<double>> values);
+
+  /// A constraint switched off is absent from the next transcription, not zeroed.
+  void enable(ConstraintId constraint, bool enabled);
+  /// Likewise for a cost term.
+  void enable_cost(const std::string& name, bool enabled);
+
+  // --- ends --------------------------------------------------------------------------------
+  void initial_time(Bounds bounds, double guess);
+  void final_time(Bounds bounds, double guess);
+  /// Extra bounds of a state at one end; Bounds::equal fixes it.
+  void initial_bounds(const Expr& state, Bounds bounds);
+  void final_bounds(const Expr& state, Bounds bounds);
+
+  // --- what a transcription reads ----------------------------------------------------------
+  struct Variable {
+    Expr symbol;
+    std::string name;
+    Bounds bounds;
+    double scale = 1;
+    double guess = 0;
+  };
+  struct State : Variable {
+    Bounds initial, final;
+    Expr initial_symbol, final_symbol;
+    Expr rate;
+    bool has_rate = false;
+  };
+  struct Slack : Variable {
+    End end = End::initial;
+  };
+  struct Parameter {
+    Expr symbol;
+    std::string name;
+    double value;
+  };
+  struct CostTerm {
+    std::string name;
+    Expr value;
+    bool lagrange = false;
+    bool enabled = true;
+  };
+  enum class Kind { path, boundary, family };
+  struct Constraint {
+    std::string name;
+    Kind kind;
+    Expr value;
+    Bounds bounds;
+    Points points = Points::all;
+    bool enabled = true;
+    std::vector<Expr> symbols;  ///< of a family
+    std::vector<std::string> members;
+    std::vector<std::vector<double>> member_values;
+  };
+
+  const std::string& name() const { return name_; }
+  const std::vector<State>& states() const { return states_; }
+  const std::vector<Variable>& controls() const { return controls_; }
+  const std::vector<Variable>& static_parameters() const { return static_parameters_; }
+  const std::vector<Slack>& slacks() const { return slacks_; }
+  const std::vector<Parameter>& parameters() const { return parameters_; }
+  const std::vector<CostTerm>& costs() const { return costs_; }
+  const std::vector<Constraint>& constraints() const { return constraints_; }
+  const Variable& t0() const { return t0_variable_; }
+  const Variable& tf() const { return tf_variable_; }
+
+ private:
+  void claim_name(const std::string& name);
+  std::size_t state_index(const Expr& state, const char* what) const;
+  Constraint& constraint(ConstraintId id);
+
+  std::string name_;
+  Expr time_, tau_, t0_, tf_;
+  Variable t0_variable_, tf_variable_;
+  std::vector<State> states_;
+  std::vector<Variable> controls_, static_parameters_;
+  std::vector<Slack> slacks_;
+  std::vector<Parameter> parameters_;
+  std::vector<CostTerm> costs_;
+  std::vector<Constraint> constraints_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace slalom::ocp

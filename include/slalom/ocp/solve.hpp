@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "slalom/nlp/check.hpp"
+#include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/trajectory.hpp"
+
+namespace slalom::ocp {
+
+/// How to solve a problem; the defaults suit a smooth one.
+struct SolveSettings {
+  Mesh mesh = Mesh::uniform(40);
+  Scheme scheme = hermite_simpson();
+  nlp::Options options = {};   ///< tol, floor, limits, ...
+  std::string backend = {};    ///< of nlp::make_solver; empty: the default one
+  Trajectory guess = {};       ///< empty: straight lines between the bounds at both ends
+  nlp::Start warm_start = {};  ///< a Solution's `point`, of the same mesh and scheme; beats guess
+};
+
+/// A solved problem, in the user's units. `solved()` is the independent checker's word too.
+struct Solution {
+  nlp::Status status = nlp::Status::numerical_failure;
+  nlp::Fault fault;  ///< for Status::invalid_number
+  double objective = 0;
+  std::vector<std::pair<std::string, double>> cost_terms;  ///< they sum to the objective
+  Trajectory trajectory;
+  /// dJ*/dx at the mesh nodes, [node][state]: positive where more of a state costs more. Read off
+  /// the defects' multipliers; second order accurate at least where no path row is active.
+  std::vector<std::vector<double>> costates;
+  nlp::Residuals residuals;  ///< recomputed from the point; names the worst constraint
+  nlp::Options options;      ///< those it was solved with
+  nlp::Start point;          ///< of the NLP, for warm starts
+  int iterations = 0;
+  double wall_s = 0;
+
+  [[nodiscard]] bool solved() const {
+    return status == nlp::Status::solved && residuals.solved(options);
+  }
+  double tf() const { return trajectory.tf; }
+  std::vector<double> time() const;  ///< of each point
+
+  // One number a point; an unknown name throws InvalidValue that names the nearest.
+  std::vector<double> state(const std::string& name) const;
+  std::vector<double> control(const std::string& name) const;
+  double static_parameter(const std::string& name) const;
+  double slack(const std::string& name) const;
+  double cost_term(const std::string& name) const;
+  std::vector<double> costate(const std::string& state_name) const;  ///< one number a mesh node
+
+  std::vector<std::string> state_names, control_names, static_parameter_names, slack_names;
+};
+
+/// Transcribes, solves and checks. Throws InvalidValue for set-up errors only; how the solve ended
+/// is in the Solution.
+[[nodiscard]] Solution solve(const Problem& problem, const SolveSettings& settings = {});
+
+}  // namespace slalom::ocp

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "slalom/nlp/problem.hpp"
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/trajectory.hpp"
+
+namespace slalom::ocp {
+
+/// A problem made into a stage-structured NLP on a mesh by a collocation scheme.
+///
+/// Stage k holds node k (slacks of that end, states, controls) and the interior points of interval
+/// k; the globals are t0, tf, static parameters and one copy of every end value that a function at
+/// another point uses (lifted, tied by an equation at its own stage). Everything nonlinear is
+/// evaluated in batches: one pass over all points for each function.
+class Transcription final : public nlp::Problem {
+ public:
+  /// Throws InvalidValue for what no single declaration shows: a state without dynamics, no states,
+  /// a function of a foreign symbol, more equations than unknowns.
+  Transcription(const ocp::Problem& problem, const Mesh& mesh, const Scheme& scheme);
+  ~Transcription() override;
+
+  /// Takes over changed run-time parameters, family numbers, guesses and bounds. The problem must
+  /// be the one transcribed, with the same constraints switched on and as many members; throws
+  /// InvalidValue otherwise.
+  void update(const ocp::Problem& problem);
+
+  /// The primal start for a guess (end slacks from the problem when the guess has none).
+  std::vector<double> point(const Trajectory& guess) const;
+  /// A guess of straight lines between the bounds given at both ends (or the bounds' middle).
+  Trajectory straight_guess() const;
+  Trajectory trajectory(std::span<const double> x) const;
+  /// Cost terms by name at x; they sum to the objective.
+  std::vector<std::pair<std::string, double>> cost_terms(std::span<const double> x);
+
+  /// Costates at the mesh nodes, [node][state]: dJ*/dx, user's units. The Lagrangian is f + y' g
+  /// with defects x_(k+1) - x_k - ..., so minus the defects' y estimate the costate within an
+  /// interval; at a node it is the derivative of what lies after the node (its interval's
+  /// quadrature and defects), averaged with minus that of what lies before: they differ by active
+  /// rows there.
+  std::vector<std::vector<double>> costates(std::span<const double> x, std::span<const double> y);
+  /// The first of the rows, one a state, of interval k's last defect.
+  std::size_t first_defect_row(std::size_t interval) const;
+
+  const nlp::Structure& structure() const override;
+  const nlp::Limits& limits() const override;
+  nlp::Fault evaluate(std::span<const double> x, double sigma, std::span<const double> y,
+                      nlp::Parts parts, nlp::Evaluation& out) override;
+  std::string variable_name(std::size_t index) const override;
+  std::string row_name(std::size_t index) const override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace slalom::ocp

@@ -1,0 +1,525 @@
+#include "builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "slalom/base/error.hpp"
+#include "sparsity.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+/// What a symbol of the problem stands for.
+struct Meaning {
+  enum class Kind {
+    state,
+    control,
+    initial,
+    final,
+    slack,
+    t0,
+    tf,
+    static_parameter,
+    tau,
+    time,
+    parameter,
+  } kind;
+  std::size_t index = 0;
+};
+
+/// One of a function's outputs: a row or a cost term, with the lanes' coefficients decided later.
+struct Output {
+  std::string name;
+  Expr value;
+};
+
+class Builder {
+ public:
+  Builder(const Problem& problem, const Mesh& mesh, const Scheme& scheme)
+      : problem_(problem), mesh_(mesh), scheme_(scheme) {
+    learn_symbols();
+    check_dynamics();
+    sort_terms();
+    out_.layout = make_layout(problem, mesh, scheme, find_lifts());
+    out_.structure.variable_scale = variable_scales(problem, out_.layout);
+  }
+
+  Transcribed build() {
+    add_lifts();
+    add_point_function();
+    add_path_rows(Points::after_first);
+    add_families();
+    add_ends();
+    finish();
+    return std::move(out_);
+  }
+
+ private:
+  // --- symbols -----------------------------------------------------------------------------
+  void learn_symbols() {
+    const auto learn = [&](const Expr& symbol, Meaning meaning) {
+      meaning_.emplace(symbol.node(), meaning);
+    };
+    using Kind = Meaning::Kind;
+    for (std::size_t i = 0; i < problem_.states().size(); ++i) {
+      learn(problem_.states()[i].symbol, {Kind::state, i});
+      learn(problem_.states()[i].initial_symbol, {Kind::initial, i});
+      learn(problem_.states()[i].final_symbol, {Kind::final, i});
+    }
+    for (std::size_t i = 0; i < problem_.controls().size(); ++i)
+      learn(problem_.controls()[i].symbol, {Kind::control, i});
+    for (std::size_t i = 0; i < problem_.slacks().size(); ++i)
+      learn(problem_.slacks()[i].symbol, {Kind::slack, i});
+    for (std::size_t i = 0; i < problem_.static_parameters().size(); ++i)
+      learn(problem_.static_parameters()[i].symbol, {Kind::static_parameter, i});
+    for (std::size_t i = 0; i < problem_.parameters().size(); ++i)
+      learn(problem_.parameters()[i].symbol, {Kind::parameter, i});
+    learn(problem_.initial_time(), {Kind::t0, 0});
+    learn(problem_.final_time(), {Kind::tf, 0});
+    learn(problem_.tau(), {Kind::tau, 0});
+    learn(problem_.time(), {Kind::time, 0});
+  }
+
+  void check_dynamics() const {
+    if (problem_.states().empty())
+      throw InvalidValue(problem_.name(), "no states", "at least one state");
+    for (const auto& state : problem_.states())
+      if (!state.has_rate)
+        throw InvalidValue(problem_.name() + ": state " + state.name, "no dynamics",
+                           "a call of dynamics for each state");
+  }
+
+  void sort_terms() {
+    for (const auto& cost : problem_.costs())
+      if (cost.enabled) out_.terms.push_back(cost.name);
+  }
+
+  /// Calls `see(kind, index, symbol)` for each known symbol of `value`.
+  template <class F>
+  void for_symbols(const Expr& value, F see) const {
+    for (const auto& symbol : expr::symbols_of({value})) {
+      const auto it = meaning_.find(symbol.node());
+      if (it != meaning_.end()) see(it->second, symbol);
+    }
+  }
+
+  /// The end at which a boundary function is evaluated: the final one if it uses anything there.
+  End end_of(const Expr& value, const std::string& name) const {
+    End end = End::initial;
+    for_symbols(value, [&](Meaning meaning, const Expr& symbol) {
+      using Kind = Meaning::Kind;
+      switch (meaning.kind) {
+        case Kind::final:
+          end = End::final;
+          break;
+        case Kind::slack:
+          if (problem_.slacks()[meaning.index].end == End::final) end = End::final;
+          break;
+        case Kind::state:
+        case Kind::control:
+        case Kind::tau:
+        case Kind::time:
+          throw InvalidValue(problem_.name() + ": " + name, "'" + symbol.name() + "'",
+                             "end values only: initial(x), final(x), t0, tf, parameters");
+        default:
+          break;
+      }
+    });
+    return end;
+  }
+
+  Lifts find_lifts() const {
+    Lifts lifts{std::vector<char>(problem_.states().size(), 0),
+                std::vector<char>(problem_.states().size(), 0)};
+    const auto note = [&](const Expr& value, bool at_initial, bool at_final) {
+      for_symbols(value, [&](Meaning meaning, const Expr&) {
+        if (meaning.kind == Meaning::Kind::initial && !at_initial) lifts.initial[meaning.index] = 1;
+        if (meaning.kind == Meaning::Kind::final && !at_final) lifts.final[meaning.index] = 1;
+      });
+    };
+    const auto note_boundary = [&](const Expr& value, const std::string& name) {
+      const End end = end_of(value, name);
+      note(value, end == End::initial, end == End::final);
+    };
+    for (const auto& state : problem_.states()) note(state.rate, false, false);
+    for (const auto& cost : problem_.costs()) {
+      if (!cost.enabled) continue;
+      cost.lagrange ? note(cost.value, false, false) : note_boundary(cost.value, cost.name);
+    }
+    for (const auto& row : problem_.constraints()) {
+      if (absent(row, row.kind)) continue;
+      row.kind == Problem::Kind::boundary ? note_boundary(row.value, row.name)
+                                          : note(row.value, false, false);
+    }
+    return lifts;
+  }
+
+  // --- rows --------------------------------------------------------------------------------
+  std::size_t add_row(RowName name, std::size_t stage, nlp::Coupling coupling, Bounds bounds,
+                      double scale) {
+    rows_.push_back({std::move(name), stage, coupling, bounds, scale});
+    return rows_.size() - 1;
+  }
+
+  std::size_t term_index(const std::string& name) const {
+    const auto it = std::find(out_.terms.begin(), out_.terms.end(), name);
+    return static_cast<std::size_t>(it - out_.terms.begin());
+  }
+
+  void add_lifts() {
+    const Layout& layout = out_.layout;
+    const std::size_t last = layout.points() - 1;
+    for (std::size_t i = 0; i < layout.nx; ++i) {
+      const double scale = 1 / problem_.states()[i].scale;
+      for (const auto& [lifted, point, symbol] :
+           {std::tuple{layout.lifted_initial[i], std::size_t{0},
+                       problem_.states()[i].initial_symbol},
+            std::tuple{layout.lifted_final[i], last, problem_.states()[i].final_symbol}}) {
+        if (lifted == kNone) continue;
+        const auto row = add_row({"copy of " + symbol.name()}, layout.point_stage[point],
+                                 nlp::Coupling::local, Bounds::equal(0), scale);
+        linear_.push_back({row, layout.state(point, i), 1});
+        linear_.push_back({row, lifted, -1});
+      }
+    }
+  }
+
+  // --- functions ---------------------------------------------------------------------------
+  /// Compiles `outputs` into a batch over `lane_points` (times the members of `family`).
+  std::size_t add_batch(const std::vector<Output>& outputs,
+                        const std::vector<std::size_t>& lane_points, std::size_t family,
+                        const End* end) {
+    Batch batch;
+    BatchData data;
+    data.family = family;
+    const std::size_t members =
+        family == kNone ? 1 : problem_.constraints()[family].member_values.size();
+    batch.lanes = lane_points.size() * members;
+    for (std::size_t m = 0; m < members; ++m)
+      for (auto point : lane_points) batch.lane_point.push_back(static_cast<std::uint32_t>(point));
+
+    std::vector<Expr> values;
+    for (const auto& output : outputs) {
+      values.push_back(output.value);
+      batch.outputs.push_back(output.name);
+    }
+    const Expr t = problem_.initial_time() +
+                   problem_.tau() * (problem_.final_time() - problem_.initial_time());
+    values = expr::substitute(values, {problem_.time()}, {t});
+
+    std::vector<Expr> variables, data_symbols;
+    for (const auto& symbol : expr::symbols_of(values)) {
+      if (add_family_datum(symbol, family, data)) {
+        data_symbols.push_back(symbol);
+        continue;
+      }
+      const Meaning meaning = meaning_of(symbol, outputs);
+      using Kind = Meaning::Kind;
+      if (meaning.kind == Kind::tau || meaning.kind == Kind::parameter) {
+        data.sources.push_back(
+            {meaning.kind == Kind::tau ? DataSource::Kind::tau : DataSource::Kind::parameter,
+             meaning.index});
+        data_symbols.push_back(symbol);
+        continue;
+      }
+      variables.push_back(symbol);
+      add_gather(batch, meaning, symbol, end);
+    }
+    batch.function = expr::Function(std::move(variables), std::move(data_symbols), values);
+    out_.batches.push_back(std::move(batch));
+    out_.batch_data.push_back(std::move(data));
+    uses_.emplace_back();
+    return out_.batches.size() - 1;
+  }
+
+  bool add_family_datum(const Expr& symbol, std::size_t family, BatchData& data) const {
+    if (family == kNone) return false;
+    const auto& symbols = problem_.constraints()[family].symbols;
+    for (std::size_t i = 0; i < symbols.size(); ++i)
+      if (symbols[i].same(symbol)) {
+        data.sources.push_back({DataSource::Kind::member, i});
+        return true;
+      }
+    return false;
+  }
+
+  Meaning meaning_of(const Expr& symbol, const std::vector<Output>& outputs) const {
+    const auto it = meaning_.find(symbol.node());
+    if (it != meaning_.end()) return it->second;
+    std::string user = problem_.name();
+    for (const auto& output : outputs)
+      for (const auto& used : expr::symbols_of({output.value}))
+        if (used.same(symbol)) user = problem_.name() + ": " + output.name;
+    throw InvalidValue(user, "the symbol '" + symbol.name() + "'",
+                       "symbols made by this problem only");
+  }
+
+  void add_gather(Batch& batch, Meaning meaning, const Expr& symbol, const End* end) const {
+    const Layout& layout = out_.layout;
+    using Kind = Meaning::Kind;
+    const auto variable_at = [&](std::size_t point) -> std::size_t {
+      switch (meaning.kind) {
+        case Kind::state:
+          return layout.state(point, meaning.index);
+        case Kind::control:
+          return layout.control(point, meaning.index);
+        case Kind::initial:
+          return end != nullptr && *end == End::initial ? layout.state(point, meaning.index)
+                                                        : layout.lifted_initial[meaning.index];
+        case Kind::final:
+          return end != nullptr && *end == End::final ? layout.state(point, meaning.index)
+                                                      : layout.lifted_final[meaning.index];
+        case Kind::slack:
+          return layout.slack[meaning.index];
+        case Kind::t0:
+          return layout.t0;
+        case Kind::tf:
+          return layout.tf;
+        default:
+          return layout.static_parameters + meaning.index;
+      }
+    };
+    if (meaning.kind == Kind::slack &&
+        (end == nullptr || *end != problem_.slacks()[meaning.index].end))
+      throw InvalidValue(problem_.name(), "slack '" + symbol.name() + "' away from its end",
+                         "slacks in boundary rows and Mayer terms of their own end only");
+    for (auto point : batch.lane_point)
+      batch.gather.push_back(static_cast<std::uint32_t>(variable_at(point)));
+    batch.gather_scale.push_back(out_.structure.variable_scale[variable_at(batch.lane_point[0])]);
+    batch.variables.push_back(symbol.name());
+  }
+
+  void use(std::size_t batch, std::size_t output, std::size_t lane, std::size_t row,
+           std::size_t term, double coefficient) {
+    uses_[batch].push_back({output, lane, row, term, coefficient});
+  }
+
+  static bool absent(const Problem::Constraint& row, Problem::Kind kind) {
+    return !row.enabled || row.kind != kind ||
+           (std::isinf(row.bounds.lower) && std::isinf(row.bounds.upper)) ||
+           (kind == Problem::Kind::family && row.member_values.empty());
+  }
+
+  std::vector<std::size_t> points(Points which) const {
+    std::vector<std::size_t> list(out_.layout.points());
+    std::iota(list.begin(), list.end(), std::size_t{0});
+    if (which == Points::after_first) list.erase(list.begin());
+    return list;
+  }
+
+  /// Rates, integrands and path rows at all points: one function, for they share most of the model.
+  void add_point_function() {
+    const Expr duration = problem_.final_time() - problem_.initial_time();
+    std::vector<Output> outputs;
+    for (const auto& state : problem_.states())
+      outputs.push_back({"dynamics of " + state.name, duration * state.rate});
+    std::vector<std::size_t> terms;
+    for (const auto& cost : problem_.costs()) {
+      if (!cost.enabled || !cost.lagrange) continue;
+      terms.push_back(term_index(cost.name));
+      outputs.push_back({cost.name, duration * cost.value});
+    }
+    const std::size_t first_path = outputs.size();
+    std::vector<const Problem::Constraint*> paths;
+    for (const auto& row : problem_.constraints())
+      if (!absent(row, Problem::Kind::path) && row.points == Points::all) {
+        paths.push_back(&row);
+        outputs.push_back({row.name, row.value});
+      }
+    const auto batch = add_batch(outputs, points(Points::all), kNone, nullptr);
+    add_defects(batch);
+    add_quadrature(batch, terms);
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      for (std::size_t point = 0; point < out_.layout.points(); ++point)
+        use_as_row(batch, first_path + i, point, {paths[i]->name}, point, paths[i]->bounds);
+  }
+
+  void use_as_row(std::size_t batch, std::size_t output, std::size_t lane, RowName name,
+                  std::size_t point, Bounds bounds) {
+    const Layout& layout = out_.layout;
+    name.text += " at " + layout.point_name(point);
+    const auto row =
+        add_row(std::move(name), layout.point_stage[point], nlp::Coupling::local, bounds, 1);
+    use(batch, output, lane, row, kNone, 1);
+  }
+
+  void add_defects(std::size_t batch) {
+    const Layout& layout = out_.layout;
+    const auto& breaks = mesh_.breakpoints();
+    for (std::size_t k = 0; k < layout.intervals(); ++k) {
+      const std::size_t first = layout.node_point[k];
+      for (std::size_t d = 0; d < scheme_.defects(); ++d) {
+        if (d + 1 == scheme_.defects()) first_defect_.push_back(rows_.size());
+        for (std::size_t i = 0; i < layout.nx; ++i) {
+          const auto& state = problem_.states()[i];
+          const auto row =
+              add_row({fmt::format("defect {} of {} in interval {}", d, state.name, k)}, k,
+                      nlp::Coupling::neighbour, Bounds::equal(0), 1 / state.scale);
+          for (std::size_t j = 0; j < scheme_.points.size(); ++j) {
+            if (scheme_.state[d][j] != 0)
+              linear_.push_back({row, layout.state(first + j, i), scheme_.state[d][j]});
+            if (scheme_.rate[d][j] != 0)
+              use(batch, i, first + j, row, kNone,
+                  -(breaks[k + 1] - breaks[k]) * scheme_.rate[d][j]);
+          }
+        }
+      }
+    }
+  }
+
+  void add_quadrature(std::size_t batch, const std::vector<std::size_t>& terms) {
+    const Layout& layout = out_.layout;
+    const auto& breaks = mesh_.breakpoints();
+    std::vector<double> weight(layout.points(), 0.0);
+    for (std::size_t k = 0; k < layout.intervals(); ++k)
+      for (std::size_t j = 0; j < scheme_.points.size(); ++j)
+        weight[layout.node_point[k] + j] += (breaks[k + 1] - breaks[k]) * scheme_.weight[j];
+    out_.defects = scheme_.defects();
+    for (std::size_t k = 0; k < breaks.size(); ++k)
+      out_.share_after.push_back(k + 1 == breaks.size()
+                                     ? 0
+                                     : (breaks[k + 1] - breaks[k]) * scheme_.weight.front() /
+                                           weight[layout.node_point[k]]);
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      for (std::size_t point = 0; point < layout.points(); ++point)
+        use(batch, layout.nx + t, point, kNone, terms[t], weight[point]);
+  }
+
+  void add_path_rows(Points which) {
+    std::vector<Output> outputs;
+    std::vector<const Problem::Constraint*> paths;
+    for (const auto& row : problem_.constraints())
+      if (!absent(row, Problem::Kind::path) && row.points == which) {
+        paths.push_back(&row);
+        outputs.push_back({row.name, row.value});
+      }
+    if (outputs.empty()) return;
+    const auto lanes = points(which);
+    const auto batch = add_batch(outputs, lanes, kNone, nullptr);
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      for (std::size_t lane = 0; lane < lanes.size(); ++lane)
+        use_as_row(batch, i, lane, {paths[i]->name}, lanes[lane], paths[i]->bounds);
+  }
+
+  void add_families() {
+    for (std::size_t f = 0; f < problem_.constraints().size(); ++f) {
+      const auto& family = problem_.constraints()[f];
+      if (absent(family, Problem::Kind::family)) continue;
+      const auto lanes = points(family.points);
+      const auto batch = add_batch({{family.name, family.value}}, lanes, f, nullptr);
+      for (std::size_t m = 0; m < family.members.size(); ++m)
+        for (std::size_t p = 0; p < lanes.size(); ++p)
+          use_as_row(batch, 0, m * lanes.size() + p, {"", f, m}, lanes[p], family.bounds);
+    }
+  }
+
+  void add_ends() {
+    for (const End end : {End::initial, End::final}) {
+      std::vector<Output> outputs;
+      std::vector<const Problem::Constraint*> rows;
+      for (const auto& row : problem_.constraints())
+        if (!absent(row, Problem::Kind::boundary) && end_of(row.value, row.name) == end) {
+          rows.push_back(&row);
+          outputs.push_back({row.name, row.value});
+        }
+      std::vector<std::size_t> terms;
+      for (const auto& cost : problem_.costs())
+        if (cost.enabled && !cost.lagrange && end_of(cost.value, cost.name) == end) {
+          terms.push_back(term_index(cost.name));
+          outputs.push_back({cost.name, cost.value});
+        }
+      if (outputs.empty()) continue;
+      const std::size_t point = end == End::initial ? 0 : out_.layout.points() - 1;
+      const auto batch = add_batch(outputs, {point}, kNone, &end);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto row = add_row({rows[i]->name}, out_.layout.point_stage[point],
+                                 nlp::Coupling::local, rows[i]->bounds, 1);
+        use(batch, i, 0, row, kNone, 1);
+      }
+      for (std::size_t i = 0; i < terms.size(); ++i)
+        use(batch, rows.size() + i, 0, kNone, terms[i], 1);
+    }
+  }
+
+  // --- sparsity and scatter lists ----------------------------------------------------------
+  void finish() {
+    sort_rows(rows_, linear_, uses_, first_defect_);
+    out_.first_defect = first_defect_;
+    fill_rows(rows_, out_);
+    fill_variable_limits(problem_, out_.layout, out_.structure.variable_scale, out_.limits);
+    fill_sparsity(rows_, linear_, uses_, out_);
+    for (auto& batch : out_.batches) batch.allocate();
+    fill_data(problem_, out_);
+    check_freedom();
+  }
+
+  void check_freedom() const {
+    std::size_t free = 0, equations = 0;
+    for (std::size_t i = 0; i < out_.layout.variables; ++i)
+      free += out_.limits.xl[i] < out_.limits.xu[i] ? 1 : 0;
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+      equations += out_.limits.gl[r] == out_.limits.gu[r] ? 1 : 0;
+    if (equations > free)
+      throw InvalidValue(problem_.name(),
+                         fmt::format("{} equations for {} free variables", equations, free),
+                         "no more equations than unknowns");
+  }
+
+  const Problem& problem_;
+  const Mesh& mesh_;
+  const Scheme& scheme_;
+  std::unordered_map<const expr::Node*, Meaning> meaning_;
+  std::vector<RowInfo> rows_;
+  std::vector<RowTerm> linear_;
+  std::vector<std::vector<Use>> uses_;
+  std::vector<std::size_t> first_defect_;
+  Transcribed out_;
+};
+
+}  // namespace
+
+Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Scheme& scheme) {
+  return Builder(problem, mesh, scheme).build();
+}
+
+std::string RowName::in(const Problem& problem) const {
+  if (family == kNone) return text;
+  const auto& constraint = problem.constraints()[family];
+  return fmt::format("{}[{}]{}", constraint.name, constraint.members[member], text);
+}
+
+void fill_data(const Problem& problem, Transcribed& transcribed) {
+  static const std::vector<std::vector<double>> kNoMembers{{}};
+  for (std::size_t b = 0; b < transcribed.batches.size(); ++b) {
+    Batch& batch = transcribed.batches[b];
+    const BatchData& data = transcribed.batch_data[b];
+    batch.data.resize(data.sources.size() * batch.lanes);
+    const auto& members =
+        data.family == kNone ? kNoMembers : problem.constraints()[data.family].member_values;
+    const std::size_t points = batch.lanes / members.size();
+    for (std::size_t i = 0; i < data.sources.size(); ++i) {
+      const auto [kind, index] = data.sources[i];
+      for (std::size_t lane = 0; lane < batch.lanes; ++lane) {
+        double& to = batch.data[i * batch.lanes + lane];
+        switch (kind) {
+          case DataSource::Kind::tau:
+            to = transcribed.layout.tau[batch.lane_point[lane]];
+            break;
+          case DataSource::Kind::parameter:
+            to = problem.parameters()[index].value;
+            break;
+          case DataSource::Kind::member:
+            to = members[lane / points][index];
+            break;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace slalom::ocp

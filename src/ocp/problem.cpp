@@ -1,0 +1,242 @@
+#include "slalom/ocp/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slalom/base/error.hpp"
+#include "slalom/base/options.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+void check_bounds(const std::string& where, Bounds bounds) {
+  if (std::isnan(bounds.lower) || std::isnan(bounds.upper))
+    throw InvalidValue(where, "NaN in its bounds", "numbers");
+  if (bounds.lower > bounds.upper)
+    throw InvalidValue(where, fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
+                       "a lower bound not above the upper one");
+  if (bounds.lower == kInfinity || bounds.upper == -kInfinity)
+    throw InvalidValue(where, fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
+                       "bounds that some number satisfies");
+}
+
+void check_variable(const std::string& where, const Problem::Variable& variable) {
+  check_bounds(where, variable.bounds);
+  if (!(std::isfinite(variable.scale) && variable.scale > 0))
+    throw InvalidValue(where, fmt::format("scale {}", variable.scale), "a scale > 0");
+  if (!std::isfinite(variable.guess))
+    throw InvalidValue(where, fmt::format("guess {}", variable.guess), "a finite guess");
+}
+
+void check_parameter(const std::string& problem, const std::string& name, double value) {
+  if (!std::isfinite(value))
+    throw InvalidValue(problem + ": parameter " + name, fmt::format("{}", value),
+                       "a finite number");
+}
+
+}  // namespace
+
+Problem::Problem(std::string name)
+    : name_(std::move(name)),
+      time_(Expr::symbol("time")),
+      tau_(Expr::symbol("tau")),
+      t0_(Expr::symbol("t0")),
+      tf_(Expr::symbol("tf")),
+      t0_variable_{t0_, "t0", Bounds::equal(0), 1, 0},
+      tf_variable_{tf_, "tf", Bounds::equal(1), 1, 1},
+      names_{"time", "tau", "t0", "tf"} {}
+
+void Problem::claim_name(const std::string& name) {
+  if (name.empty()) throw InvalidValue(name_, "an empty name", "a name");
+  if (std::find(names_.begin(), names_.end(), name) != names_.end())
+    throw InvalidValue(name_, "the name '" + name + "' twice", "names that differ");
+  names_.push_back(name);
+}
+
+Expr Problem::state(const std::string& name, Bounds bounds, double scale) {
+  claim_name(name);
+  State state;
+  state.symbol = Expr::symbol(name);
+  state.name = name;
+  state.bounds = bounds;
+  state.scale = scale;
+  state.initial_symbol = Expr::symbol("initial(" + name + ")");
+  state.final_symbol = Expr::symbol("final(" + name + ")");
+  check_variable(name_ + ": state " + name, state);
+  states_.push_back(state);
+  return state.symbol;
+}
+
+Expr Problem::control(const std::string& name, Bounds bounds, double scale) {
+  claim_name(name);
+  const Variable control{Expr::symbol(name), name, bounds, scale, 0};
+  check_variable(name_ + ": control " + name, control);
+  controls_.push_back(control);
+  return control.symbol;
+}
+
+Expr Problem::static_parameter(const std::string& name, Bounds bounds, double guess, double scale) {
+  claim_name(name);
+  const Variable parameter{Expr::symbol(name), name, bounds, scale, guess};
+  check_variable(name_ + ": static parameter " + name, parameter);
+  static_parameters_.push_back(parameter);
+  return parameter.symbol;
+}
+
+Expr Problem::slack(const std::string& name, End end, Bounds bounds, double guess) {
+  claim_name(name);
+  Slack slack;
+  slack.symbol = Expr::symbol(name);
+  slack.name = name;
+  slack.bounds = bounds;
+  slack.guess = guess;
+  slack.end = end;
+  check_variable(name_ + ": slack " + name, slack);
+  slacks_.push_back(slack);
+  return slack.symbol;
+}
+
+Expr Problem::parameter(const std::string& name, double value) {
+  check_parameter(name_, name, value);
+  claim_name(name);
+  parameters_.push_back({Expr::symbol(name), name, value});
+  return parameters_.back().symbol;
+}
+
+void Problem::set_parameter(const Expr& parameter, double value) {
+  for (auto& known : parameters_)
+    if (known.symbol.same(parameter)) {
+      check_parameter(name_, known.name, value);
+      known.value = value;
+      return;
+    }
+  throw InvalidValue(name_, "set_parameter of something else", "a parameter of this problem");
+}
+
+std::size_t Problem::state_index(const Expr& state, const char* what) const {
+  for (std::size_t i = 0; i < states_.size(); ++i)
+    if (states_[i].symbol.same(state)) return i;
+  const std::string found = state.is_symbol() ? "'" + state.name() + "'" : "an expression";
+  throw InvalidValue(name_ + ": " + what, found, "a state of this problem");
+}
+
+Expr Problem::initial(const Expr& state) const {
+  return states_[state_index(state, "initial")].initial_symbol;
+}
+Expr Problem::final(const Expr& state) const {
+  return states_[state_index(state, "final")].final_symbol;
+}
+
+void Problem::dynamics(const Expr& state, const Expr& rate) {
+  auto& target = states_[state_index(state, "dynamics")];
+  if (target.has_rate)
+    throw InvalidValue(name_ + ": dynamics", "a second rate of " + target.name, "one a state");
+  target.rate = rate;
+  target.has_rate = true;
+}
+
+void Problem::mayer(const std::string& name, const Expr& term) {
+  claim_name(name);
+  costs_.push_back({name, term, false, true});
+}
+
+void Problem::lagrange(const std::string& name, const Expr& integrand) {
+  claim_name(name);
+  costs_.push_back({name, integrand, true, true});
+}
+
+ConstraintId Problem::path(const std::string& name, const Expr& value, Bounds bounds,
+                           Points points) {
+  claim_name(name);
+  check_bounds(name_ + ": path " + name, bounds);
+  constraints_.push_back({name, Kind::path, value, bounds, points, true, {}, {}, {}});
+  return {constraints_.size() - 1};
+}
+
+ConstraintId Problem::boundary(const std::string& name, const Expr& value, Bounds bounds) {
+  claim_name(name);
+  check_bounds(name_ + ": boundary " + name, bounds);
+  constraints_.push_back({name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}});
+  return {constraints_.size() - 1};
+}
+
+ConstraintId Problem::path_family(const std::string& name, const std::vector<Expr>& symbols,
+                                  const Expr& value, Bounds bounds, Points points) {
+  claim_name(name);
+  check_bounds(name_ + ": path family " + name, bounds);
+  constraints_.push_back({name, Kind::family, value, bounds, points, true, symbols, {}, {}});
+  return {constraints_.size() - 1};
+}
+
+Problem::Constraint& Problem::constraint(ConstraintId id) {
+  if (id.index >= constraints_.size())
+    throw InvalidValue(name_, fmt::format("constraint {}", id.index),
+                       fmt::format("one of the {} constraints", constraints_.size()));
+  return constraints_[id.index];
+}
+
+void Problem::set_members(ConstraintId family, std::vector<std::string> names,
+                          std::vector<std::vector<double>> values) {
+  auto& target = constraint(family);
+  const std::string where = name_ + ": family " + target.name;
+  if (target.kind != Kind::family) throw InvalidValue(where, "a single constraint", "a family");
+  if (names.size() != values.size())
+    throw InvalidValue(where, fmt::format("{} names, {} members", names.size(), values.size()),
+                       "one name a member");
+  for (const auto& numbers : values) {
+    if (numbers.size() != target.symbols.size())
+      throw InvalidValue(where, fmt::format("a member with {} numbers", numbers.size()),
+                         fmt::format("{}, one a symbol", target.symbols.size()));
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
+      throw InvalidValue(where, "a member with NaN or infinity", "finite numbers");
+  }
+  target.members = std::move(names);
+  target.member_values = std::move(values);
+}
+
+void Problem::enable(ConstraintId id, bool enabled) {
+  constraint(id).enabled = enabled;
+}
+
+void Problem::enable_cost(const std::string& name, bool enabled) {
+  std::vector<std::string> known;
+  for (auto& term : costs_) {
+    if (term.name == name) {
+      term.enabled = enabled;
+      return;
+    }
+    known.push_back(term.name);
+  }
+  const auto nearest = nearest_name(name, known);
+  throw InvalidValue(name_, "no cost term '" + name + "'",
+                     nearest.empty() ? "a cost term" : "perhaps '" + nearest + "'");
+}
+
+void Problem::initial_time(Bounds bounds, double guess) {
+  t0_variable_.bounds = bounds;
+  t0_variable_.guess = guess;
+  check_variable(name_ + ": t0", t0_variable_);
+}
+
+void Problem::final_time(Bounds bounds, double guess) {
+  tf_variable_.bounds = bounds;
+  tf_variable_.guess = guess;
+  check_variable(name_ + ": tf", tf_variable_);
+}
+
+void Problem::initial_bounds(const Expr& state, Bounds bounds) {
+  auto& target = states_[state_index(state, "initial_bounds")];
+  check_bounds(name_ + ": initial " + target.name, bounds);
+  target.initial = bounds;
+}
+
+void Problem::final_bounds(const Expr& state, Bounds bounds) {
+  auto& target = states_[state_index(state, "final_bounds")];
+  check_bounds(name_ + ": final " + target.name, bounds);
+  target.final = bounds;
+}
+
+}  // namespace slalom::ocp

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "builder.hpp"
+
+namespace slalom::ocp {
+
+/// A row while the transcription is being built.
+struct RowInfo {
+  RowName name;
+  std::size_t stage;
+  nlp::Coupling coupling;
+  Bounds bounds;  ///< user's unit
+  double scale;   ///< row in the NLP = scale * the user's
+};
+
+/// coefficient * (the user's value of variable col) in a row.
+struct RowTerm {
+  std::size_t row, col;
+  double coefficient;
+};
+
+/// Where one output of one lane goes: a row or a cost term (the other is kNone).
+struct Use {
+  std::size_t output, lane, row, term;
+  double coefficient;
+};
+
+/// Orders rows by stage, local before neighbour before border, and renumbers what refers to them.
+void sort_rows(std::vector<RowInfo>& rows, std::vector<RowTerm>& linear,
+               std::vector<std::vector<Use>>& uses, std::vector<std::size_t>& references);
+
+/// Row part of structure, limits and names.
+void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out);
+
+/// Patterns, and the lists that scatter every batch's results into them.
+void fill_sparsity(const std::vector<RowInfo>& rows, const std::vector<RowTerm>& linear,
+                   const std::vector<std::vector<Use>>& uses, Transcribed& out);
+
+}  // namespace slalom::ocp

@@ -1,0 +1,311 @@
+#include "slalom/ocp/transcription.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "builder.hpp"
+#include "slalom/base/error.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+/// Linear interpolation of rows[point][i] given at `tau`; constant beyond the ends.
+double interpolate(const std::vector<double>& tau, const std::vector<std::vector<double>>& rows,
+                   std::size_t i, double at) {
+  const auto above = std::upper_bound(tau.begin(), tau.end(), at);
+  if (above == tau.begin()) return rows.front()[i];
+  const auto k = static_cast<std::size_t>(above - tau.begin());
+  if (k == tau.size()) return rows.back()[i];
+  const double share = (at - tau[k - 1]) / (tau[k] - tau[k - 1]);
+  return rows[k - 1][i] + share * (rows[k][i] - rows[k - 1][i]);
+}
+
+/// A finite value within bounds: their middle, the finite side, or 0.
+double middle(Bounds bounds) {
+  const bool lower = std::isfinite(bounds.lower), upper = std::isfinite(bounds.upper);
+  if (lower && upper) return 0.5 * (bounds.lower + bounds.upper);
+  return lower ? std::max(bounds.lower, 0.0) : upper ? std::min(bounds.upper, 0.0) : 0.0;
+}
+
+Bounds intersection(Bounds a, Bounds b) {
+  return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+}
+
+/// Throws unless `now` is `before` with other numbers.
+void check_same(const Problem& before, const Problem& now) {
+  const auto sizes = [](const Problem& p) {
+    return std::array{p.states().size(),     p.controls().size(),   p.static_parameters().size(),
+                      p.slacks().size(),     p.parameters().size(), p.costs().size(),
+                      p.constraints().size()};
+  };
+  if (now.name() != before.name() || sizes(now) != sizes(before))
+    throw InvalidValue(before.name() + ": update", "another problem " + now.name(),
+                       "the problem that was transcribed");
+  const auto check_switch = [&](const auto& old_list, const auto& new_list) {
+    for (std::size_t i = 0; i < old_list.size(); ++i)
+      if (old_list[i].enabled != new_list[i].enabled)
+        throw InvalidValue(before.name(), new_list[i].name + " switched",
+                           "the constraints and cost terms that were transcribed; another choice "
+                           "needs a new transcription");
+  };
+  check_switch(before.constraints(), now.constraints());
+  check_switch(before.costs(), now.costs());
+}
+
+void check_guess(const Trajectory& guess, const Problem& problem) {
+  const std::string where = problem.name() + ": guess";
+  const std::size_t points = guess.tau.size();
+  if (points == 0) throw InvalidValue(where, "no points", "at least one");
+  const auto check_rows = [&](const std::vector<std::vector<double>>& rows, const char* what,
+                              std::size_t width) {
+    if (rows.size() != points)
+      throw InvalidValue(where, fmt::format("{} points of {}", rows.size(), what),
+                         fmt::format("{}, one a tau", points));
+    for (std::size_t k = 0; k < points; ++k)
+      if (rows[k].size() != width)
+        throw InvalidValue(where, fmt::format("{} {} at point {}", rows[k].size(), what, k),
+                           fmt::format("{}", width));
+  };
+  check_rows(guess.states, "states", problem.states().size());
+  check_rows(guess.controls, "controls", problem.controls().size());
+}
+
+}  // namespace
+
+class Transcription::Impl {
+ public:
+  Impl(const ocp::Problem& p, const Mesh& mesh, const Scheme& scheme)
+      : problem(p), data(transcribe(p, mesh, scheme)) {
+    terms.resize(data.terms.size());
+  }
+
+  void sum_values(std::span<const double> x, nlp::Evaluation& out) {
+    out.rows.assign(data.structure.rows, 0.0);
+    std::fill(terms.begin(), terms.end(), 0.0);
+    for (const auto& term : data.linear) out.rows[term.row] += term.coefficient * x[term.col];
+    for (const auto& batch : data.batches) {
+      scatter_into(batch.to_rows, batch.values, out.rows);
+      scatter_into(batch.to_terms, batch.values, terms);
+    }
+    out.objective = 0;
+    for (double term : terms) out.objective += term;
+  }
+  void sum_derivatives(nlp::Evaluation& out) const {
+    out.gradient.assign(data.structure.variables, 0.0);
+    out.jacobian = data.constant_jacobian;
+    for (const auto& batch : data.batches) {
+      scatter_into(batch.to_jacobian, batch.jacobian, out.jacobian);
+      scatter_into(batch.to_gradient, batch.jacobian, out.gradient);
+    }
+  }
+  void sum_hessian(nlp::Evaluation& out) const {
+    out.hessian.assign(data.structure.hessian_row.size(), 0.0);
+    for (const auto& batch : data.batches)
+      scatter_into(batch.to_hessian, batch.hessian, out.hessian);
+  }
+
+  /// Adds y' times the defects' derivatives by the states at both nodes of interval k.
+  void add_defect_slopes(std::size_t k, std::span<const double> y, const nlp::Evaluation& at,
+                         std::vector<double>& first, std::vector<double>& last) const {
+    const auto& shape = data.structure;
+    const Layout& layout = data.layout;
+    const std::size_t begin = layout.state(layout.node_point[k], 0);
+    const std::size_t end = layout.state(layout.node_point[k + 1], 0);
+    const auto rows = data.defects * layout.nx;  // ending with those of the last defect
+    for (std::size_t r = data.first_defect[k] + layout.nx - rows;
+         r < data.first_defect[k] + layout.nx; ++r)
+      for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e) {
+        const std::size_t col = shape.jacobian_col[e];
+        if (col >= begin && col < begin + layout.nx) first[col - begin] += y[r] * at.jacobian[e];
+        if (col >= end && col < end + layout.nx) last[col - end] += y[r] * at.jacobian[e];
+      }
+  }
+
+  std::vector<std::vector<double>> costates(std::span<const double> y,
+                                            const nlp::Evaluation& at) const {
+    const Layout& layout = data.layout;
+    // Gradient of the integral terms alone: the point function's batch is the first.
+    std::vector<double> integral(layout.variables, 0.0);
+    scatter_into(data.batches.front().to_gradient, data.batches.front().jacobian, integral);
+    std::vector<std::vector<double>> before(layout.intervals() + 1), after = before;
+    for (std::size_t k = 0; k <= layout.intervals(); ++k) {
+      before[k].assign(layout.nx, 0.0);
+      after[k].assign(layout.nx, 0.0);
+      for (std::size_t i = 0; i < layout.nx; ++i) {
+        const double slope = integral[layout.state(layout.node_point[k], i)];
+        before[k][i] = (1 - data.share_after[k]) * slope;
+        after[k][i] = data.share_after[k] * slope;
+      }
+    }
+    for (std::size_t k = 0; k < layout.intervals(); ++k)
+      add_defect_slopes(k, y, at, after[k], before[k + 1]);
+    for (std::size_t k = 0; k <= layout.intervals(); ++k)
+      for (std::size_t i = 0; i < layout.nx; ++i) {
+        const double scale = data.structure.variable_scale[layout.state(0, i)];
+        const double mean = k == 0                    ? after[k][i]
+                            : k == layout.intervals() ? -before[k][i]
+                                                      : (after[k][i] - before[k][i]) / 2;
+        after[k][i] = mean / scale;
+      }
+    return after;
+  }
+
+  nlp::Fault fault_of(const Batch& batch, const Batch::BadNumber& bad) const {
+    std::string function = batch.outputs[bad.output];
+    const std::size_t family =
+        data.batch_data[static_cast<std::size_t>(&batch - data.batches.data())].family;
+    if (family != kNone) {
+      const auto& members = problem.constraints()[family].members;
+      function += "[" + members[bad.lane / (batch.lanes / members.size())] + "]";
+    }
+    return {function, data.layout.point_name(batch.lane_point[bad.lane]), bad.variable};
+  }
+
+  ocp::Problem problem;
+  Transcribed data;
+  std::vector<double> terms;
+};
+
+Transcription::Transcription(const ocp::Problem& problem, const Mesh& mesh, const Scheme& scheme)
+    : impl_(std::make_unique<Impl>(problem, mesh, scheme)) {}
+Transcription::~Transcription() = default;
+
+void Transcription::update(const ocp::Problem& problem) {
+  check_same(impl_->problem, problem);
+  for (const auto& data : impl_->data.batch_data) {
+    if (data.family == kNone) continue;
+    const auto& now = problem.constraints().at(data.family).members;
+    if (now.size() != impl_->problem.constraints()[data.family].members.size())
+      throw InvalidValue(problem.name() + ": family " + problem.constraints()[data.family].name,
+                         std::to_string(now.size()) + " members",
+                         "as many as were transcribed; another number needs a new transcription");
+  }
+  impl_->problem = problem;
+  fill_data(problem, impl_->data);
+  fill_variable_limits(problem, impl_->data.layout, impl_->data.structure.variable_scale,
+                       impl_->data.limits);
+}
+
+std::vector<double> Transcription::point(const Trajectory& guess) const {
+  const Layout& layout = impl_->data.layout;
+  const auto& problem = impl_->problem;
+  check_guess(guess, problem);
+  const auto& scale = impl_->data.structure.variable_scale;
+  std::vector<double> x(layout.variables, 0.0);
+  for (std::size_t point = 0; point < layout.points(); ++point) {
+    for (std::size_t i = 0; i < layout.nx; ++i)
+      x[layout.state(point, i)] = interpolate(guess.tau, guess.states, i, layout.tau[point]);
+    for (std::size_t i = 0; i < layout.nu; ++i)
+      x[layout.control(point, i)] = interpolate(guess.tau, guess.controls, i, layout.tau[point]);
+  }
+  for (std::size_t i = 0; i < layout.slack.size(); ++i)
+    x[layout.slack[i]] = i < guess.slacks.size() ? guess.slacks[i] : problem.slacks()[i].guess;
+  x[layout.t0] = guess.t0;
+  x[layout.tf] = guess.tf;
+  for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
+    x[layout.static_parameters + i] = i < guess.static_parameters.size()
+                                          ? guess.static_parameters[i]
+                                          : problem.static_parameters()[i].guess;
+  for (std::size_t i = 0; i < layout.nx; ++i) {
+    if (layout.lifted_initial[i] != kNone) x[layout.lifted_initial[i]] = x[layout.state(0, i)];
+    if (layout.lifted_final[i] != kNone)
+      x[layout.lifted_final[i]] = x[layout.state(layout.points() - 1, i)];
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] /= scale[i];
+  return x;
+}
+
+Trajectory Transcription::straight_guess() const {
+  const auto& problem = impl_->problem;
+  Trajectory guess;
+  guess.t0 = problem.t0().guess;
+  guess.tf = problem.tf().guess;
+  guess.tau = {0, 1};
+  guess.states.assign(2, {});
+  guess.controls.assign(2, {});
+  for (const auto& state : problem.states()) {
+    guess.states[0].push_back(middle(intersection(state.bounds, state.initial)));
+    guess.states[1].push_back(middle(intersection(state.bounds, state.final)));
+  }
+  for (auto& controls : guess.controls)
+    for (const auto& control : problem.controls()) controls.push_back(middle(control.bounds));
+  return guess;
+}
+
+Trajectory Transcription::trajectory(std::span<const double> x) const {
+  const Layout& layout = impl_->data.layout;
+  const auto& scale = impl_->data.structure.variable_scale;
+  const auto value = [&](std::size_t index) { return x[index] * scale[index]; };
+  Trajectory result;
+  result.t0 = value(layout.t0);
+  result.tf = value(layout.tf);
+  result.tau = layout.tau;
+  for (std::size_t point = 0; point < layout.points(); ++point) {
+    auto& states = result.states.emplace_back();
+    for (std::size_t i = 0; i < layout.nx; ++i) states.push_back(value(layout.state(point, i)));
+    auto& controls = result.controls.emplace_back();
+    for (std::size_t i = 0; i < layout.nu; ++i) controls.push_back(value(layout.control(point, i)));
+  }
+  for (std::size_t i = 0; i < impl_->problem.static_parameters().size(); ++i)
+    result.static_parameters.push_back(value(layout.static_parameters + i));
+  for (std::size_t index : layout.slack) result.slacks.push_back(value(index));
+  return result;
+}
+
+std::vector<std::pair<std::string, double>> Transcription::cost_terms(std::span<const double> x) {
+  nlp::Evaluation at;
+  evaluate(x, 1, {}, {.values = true}, at);
+  std::vector<std::pair<std::string, double>> result;
+  for (std::size_t i = 0; i < impl_->terms.size(); ++i)
+    result.emplace_back(impl_->data.terms[i], impl_->terms[i]);
+  return result;
+}
+
+std::vector<std::vector<double>> Transcription::costates(std::span<const double> x,
+                                                         std::span<const double> y) {
+  nlp::Evaluation at;
+  evaluate(x, 1, {}, {.values = true, .derivatives = true}, at);
+  return impl_->costates(y, at);
+}
+
+std::size_t Transcription::first_defect_row(std::size_t interval) const {
+  return impl_->data.first_defect.at(interval);
+}
+
+const nlp::Structure& Transcription::structure() const {
+  return impl_->data.structure;
+}
+const nlp::Limits& Transcription::limits() const {
+  return impl_->data.limits;
+}
+
+nlp::Fault Transcription::evaluate(std::span<const double> x, double sigma,
+                                   std::span<const double> y, nlp::Parts parts,
+                                   nlp::Evaluation& out) {
+  nlp::Fault fault;
+  for (auto& batch : impl_->data.batches) {
+    batch.load(x);
+    if (parts.hessian) batch.set_weights(sigma, y);
+    batch.run(parts);
+    if (const auto bad = batch.find_bad_number(parts); bad.found && !fault)
+      fault = impl_->fault_of(batch, bad);
+  }
+  if (parts.values) impl_->sum_values(x, out);
+  if (parts.derivatives) impl_->sum_derivatives(out);
+  if (parts.hessian) impl_->sum_hessian(out);
+  return fault;
+}
+
+std::string Transcription::variable_name(std::size_t index) const {
+  return ocp::variable_name(impl_->problem, impl_->data.layout, index);
+}
+
+std::string Transcription::row_name(std::size_t index) const {
+  return impl_->data.row_names.at(index).in(impl_->problem);
+}
+
+}  // namespace slalom::ocp
