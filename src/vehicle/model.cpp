@@ -1,0 +1,149 @@
+#include "slalom/vehicle/model.hpp"
+
+#include <vector>
+
+namespace slalom::vehicle {
+namespace {
+
+using expr::Expr;
+
+/// Coefficients of the tyre formula, from the published ones (formulation section 2):
+/// PC1 = PCY1, PD1 = PDY1 - PDY2, PD2 = PDY2/FZ0, and so on.
+struct TyreCoefficients {
+  double PC1, PD1, PD2, PE1, PE2, PE3, PK1, PK2, PH1, PH2, PV1, PV2, EP;
+
+  explicit TyreCoefficients(const Parameters& p)
+      : PC1(p.PCY1),
+        PD1(p.PDY1 - p.PDY2),
+        PD2(p.PDY2 / p.FZ0),
+        PE1(p.PEY1 - p.PEY2),
+        PE2(p.PEY2 / p.FZ0),
+        PE3(p.tyre_asymmetry ? p.PEY3 : 0),
+        PK1(p.PKY1 * p.FZ0),
+        PK2(1 / (p.PKY2 * p.FZ0)),
+        PH1(p.tyre_asymmetry ? p.PHY1 - p.PHY2 : 0),
+        PH2(p.tyre_asymmetry ? p.PHY2 / p.FZ0 : 0),
+        PV1(p.tyre_asymmetry ? p.PVY1 - p.PVY2 : 0),
+        PV2(p.tyre_asymmetry ? p.PVY2 / p.FZ0 : 0),
+        EP(p.EP) {}
+};
+
+/// Lateral force [N] of an axle at slip angle `alpha` [rad] and load Fz [N]: pure-slip Pacejka,
+/// formulation section 2.
+///   a = alpha + PH2 Fz + PH1                        D = (PD2 Fz + PD1) Fz
+///   B = PK1 sin(2 atan(PK2 Fz)) / (PC1 D)           E = (PE2 Fz + PE1)(1 - PE3 a/sqrt(a² + EP²))
+///   Fy = D sin(PC1 atan(B a - E (B a - atan(B a)))) + (PV2 Fz + PV1) Fz + F_offset
+Expr lateral_force(const TyreCoefficients& c, const Expr& alpha, const Expr& Fz, double F_offset) {
+  const Expr a = alpha + c.PH2 * Fz + c.PH1;
+  const Expr D = (c.PD2 * Fz + c.PD1) * Fz;
+  const Expr B = c.PK1 * sin(2 * atan(c.PK2 * Fz)) / (c.PC1 * D);
+  const Expr E = (c.PE2 * Fz + c.PE1) * (1 - c.PE3 * a / sqrt(square(a) + c.EP * c.EP));
+  const Expr Ba = B * a;
+  return D * sin(c.PC1 * atan(Ba - E * (Ba - atan(Ba)))) + (c.PV2 * Fz + c.PV1) * Fz + F_offset;
+}
+
+/// The same force linearised at zero slip: cornering stiffness B PC1 D = PK1 sin(2 atan(PK2 Fz))
+/// times slip angle.
+Expr linear_force(const TyreCoefficients& c, const Expr& alpha, const Expr& Fz) {
+  return c.PK1 * sin(2 * atan(c.PK2 * Fz)) * alpha;
+}
+
+/// A cubic, highest power first (formulation section 2, limits of ax).
+Expr cubic(const std::array<double, 4>& c, const Expr& x) {
+  return ((c[0] * x + c[1]) * x + c[2]) * x + c[3];
+}
+
+template <std::size_t N>
+std::vector<Expr> list(const std::array<Expr, N>& from) {
+  return {from.begin(), from.end()};
+}
+
+std::vector<Expr> state_and_control(const Model& model) {
+  auto inputs = list(model.state);
+  inputs.insert(inputs.end(), model.control.begin(), model.control.end());
+  return inputs;
+}
+
+}  // namespace
+
+Model make_model(const Parameters& p) {
+  Model model;
+  for (std::size_t i = 0; i < kStates; ++i) model.state[i] = Expr::symbol(kStateNames[i]);
+  for (std::size_t i = 0; i < kControls; ++i) model.control[i] = Expr::symbol(kControlNames[i]);
+  const Expr &v = model.state[V], &r = model.state[R], &psi = model.state[PSI],
+             &sa = model.state[SA], &ux = model.state[UX], &ax = model.state[AX];
+  const Expr &sr = model.control[SR], &jx = model.control[JX];
+
+  // Slip angles, formulation section 2:
+  //   af = atan((v + la r)/(ux + EP)) - sa         ar = atan((v - lb r)/(ux + EP))
+  model.alpha_f = atan((v + p.la * r) / (ux + p.EP)) - sa;
+  model.alpha_r = atan((v - p.lb * r) / (ux + p.EP));
+
+  // Axle loads, formulation section 2 (the paper's equations of vertical load, which lost a
+  // bracket):   FzF = FzF0 - KZX (ax - v r)        FzR = FzR0 + KZX (ax - v r)
+  const Expr transfer = p.KZX * (ax - v * r);
+  const Expr FzF = p.FzF0 - transfer, FzR = p.FzR0 + transfer;
+
+  const TyreCoefficients tyre(p);
+  model.Fyf = lateral_force(tyre, model.alpha_f, FzF, p.tyre_asymmetry ? p.F_offset_front : 0);
+  model.Fyr = lateral_force(tyre, model.alpha_r, FzR, p.tyre_asymmetry ? p.F_offset_rear : 0);
+  model.Fyf_linear = linear_force(tyre, model.alpha_f, FzF);
+  model.Fyr_linear = linear_force(tyre, model.alpha_r, FzR);
+
+  // Wheel loads, formulation section 2:
+  //   rl, rr = FzR/2 -+ KZYR (Fyf + Fyr)/m         fl, fr = FzF/2 -+ KZYF (Fyf + Fyr)/m
+  const Expr lateral = (model.Fyf + model.Fyr) / p.m;
+  model.wheel_loads[RL] = FzR / 2 - p.KZYR * lateral;
+  model.wheel_loads[RR] = FzR / 2 + p.KZYR * lateral;
+  model.wheel_loads[FL] = FzF / 2 - p.KZYF * lateral;
+  model.wheel_loads[FR] = FzF / 2 + p.KZYF * lateral;
+
+  // Equations of motion, paper Eqn. (6), formulation section 1; x, y of the front axle's centre:
+  //   x' = ux cos(psi) - (v + la r) sin(psi)       y' = ux sin(psi) + (v + la r) cos(psi)
+  //   v' = (Fyf + Fyr)/m - ux r                    r' = (la Fyf - lb Fyr)/Izz
+  //   psi' = r        sa' = sr        ux' = ax     ax' = jx
+  const Expr front = v + p.la * r;
+  model.derivative[X] = ux * cos(psi) - front * sin(psi);
+  model.derivative[Y] = ux * sin(psi) + front * cos(psi);
+  model.derivative[V] = lateral - ux * r;
+  model.derivative[R] = (p.la * model.Fyf - p.lb * model.Fyr) / p.Izz;
+  model.derivative[PSI] = r;
+  model.derivative[SA] = sr;
+  model.derivative[UX] = ax;
+  model.derivative[AX] = jx;
+
+  // Limits of acceleration, formulation section 2: ax_min(ux) <= ax <= ax_max(ux).
+  model.ax_max = cubic(p.ax_max, ux);
+  model.ax_min = cubic(p.ax_min, ux);
+  return model;
+}
+
+Dynamics::Dynamics(const Parameters& parameters) {
+  const Model model = make_model(parameters);
+  derivative_ = expr::Function(state_and_control(model), {}, list(model.derivative));
+  loads_ = expr::Function(list(model.state), {}, list(model.wheel_loads));
+  forces_ = expr::Function(list(model.state), {}, {model.Fyf, model.Fyr});
+}
+
+State Dynamics::derivative(const State& state, const Control& control) const {
+  std::array<double, std::size_t{kStates} + std::size_t{kControls}> inputs;
+  for (std::size_t i = 0; i < kStates; ++i) inputs[i] = state[i];
+  for (std::size_t i = 0; i < kControls; ++i) inputs[kStates + i] = control[i];
+  State result;
+  derivative_(inputs, {}, result);
+  return result;
+}
+
+WheelLoads Dynamics::wheel_loads(const State& state) const {
+  WheelLoads result;
+  loads_(state, {}, result);
+  return result;
+}
+
+std::array<double, 2> Dynamics::tyre_forces(const State& state) const {
+  std::array<double, 2> result;
+  forces_(state, {}, result);
+  return result;
+}
+
+}  // namespace slalom::vehicle
