@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "slalom/planner/goal.hpp"
+#include "slalom/planner/obstacle.hpp"
+#include "slalom/planner/plan.hpp"
+#include "slalom/planner/settings.hpp"
+#include "slalom/vehicle/parameters.hpp"
+
+namespace slalom::planner {
+
+/// What one planning cycle knows.
+struct Request {
+  vehicle::State X0p{};                                         ///< predicted state at t0 + tex
+  double t0 = 0;                                                ///< absolute time of planning [s]
+  double tex = 0.5;                                             ///< execution horizon [s]
+  double time_limit = std::numeric_limits<double>::infinity();  ///< wall clock [s]
+  std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
+};
+
+/// Plans one trajectory a cycle by solving the OCP of section 3, warm-started from the last solved
+/// plan. Not thread-safe; use one planner a thread.
+class Planner {
+ public:
+  Planner(const Settings& settings, const vehicle::Parameters& vehicle, const Goal& goal,
+          const Region& region, std::vector<Obstacle> obstacles);
+  ~Planner();
+  Planner(Planner&&) noexcept;
+  Planner& operator=(Planner&&) noexcept;
+
+  /// Solves; a plan whose report says it is not solved is returned too, with its last iterate.
+  Plan plan(const Request& request);
+  /// Forgets the last plan, so that the next one starts from the straight-on guess.
+  void reset();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace slalom::planner

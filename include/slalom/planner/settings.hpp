@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "slalom/base/options.hpp"
+
+namespace slalom::planner {
+
+enum class SchemeChoice { trapezoidal, hermite_simpson };
+/// The method that solves the NLP; names as nlp::backends() has them.
+enum class SolverChoice { ipopt, interior_point };
+/// Form of the wheel-load cost: the paper's tanh pair, or with 2 added (zero when safe).
+enum class WheelLoadCost { paper, shifted };
+
+/// Settings of the trajectory-planning OCP; names as in section 3 of docs/formulation.md.
+struct Settings {
+  std::string name = "P_D";
+
+  // What tells the planners P_A to P_D apart.
+  double w_t = 100;              ///< weight of final time [1/s]
+  double w_ce = 1;               ///< weight of control effort [1]
+  bool moving_avoidance = true;  ///< predict obstacle motion over the horizon
+
+  // The other weights.
+  double w_g = 10;
+  double w_haf = 1;
+  double w_Fz = 0.5;
+  double w_sa = 0.1, w_sr = 1, w_jx = 0.01;
+  double w_ax = 0;   ///< optional; 0 leaves the term out
+  double w_psi = 0;  ///< optional; 0 leaves the term out
+  double w_ic = 100;
+  std::array<double, 8> w_s0 = {1, 1, 10, 10, 10, 2, 0.1, 0.1};
+  double w_xf = 100;
+  double Fz_a = 1300, Fz_b = 100;  ///< of the wheel-load cost [N]
+  WheelLoadCost wheel_load_cost = WheelLoadCost::paper;
+  double tyre_force_limit = 0;  ///< optional limit on linear tyre forces [N]; 0 leaves it out
+
+  // Horizon and mesh.
+  int N = 10;  ///< mesh intervals
+  SchemeChoice scheme = SchemeChoice::trapezoidal;
+  double tf_min = 0.1, tf_max = 10;   ///< [s]
+  double L_range = 50, kappa = 5;     ///< LiDAR range and its relaxation [m]
+  double sm_start = 2.5, sm_end = 4;  ///< safety margin at the first and last node [m]
+
+  // Tolerances of the slacked conditions.
+  std::array<double, 8> X0_tol = {0.5, 0.5, 0.5, 0.005, 0.5, 0.025, 0.5, 0.5};
+  double XF_tol = 5;  ///< [m]
+
+  // Solver.
+  SolverChoice solver = SolverChoice::ipopt;
+  double floor = 0.9;  ///< barrier floor mu [cost units]; 0: solve to `tol`
+  double tol = 1e-6;   ///< optimality tolerance
+  int max_iterations = 500;
+};
+
+/// The registered options of Settings with unit, range, meaning and source.
+const OptionTable<Settings>& setting_options();
+
+/// Throws InvalidValue, naming `where`, when a value is outside its registered range or not finite,
+/// or when values contradict each other: L_range <= kappa, tf_min >= tf_max.
+void check(const Settings& settings, const std::string& where);
+
+}  // namespace slalom::planner

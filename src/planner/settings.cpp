@@ -1,0 +1,150 @@
+#include "slalom/planner/settings.hpp"
+
+#include <fmt/format.h>
+
+#include "slalom/base/error.hpp"
+
+namespace slalom::planner {
+namespace {
+
+using Table = OptionTable<Settings>;
+using Range = OptionRange;
+constexpr const char* kTable = "paper, table of simulation parameters; formulation section 3";
+constexpr const char* kSection = "formulation section 3";
+
+void add_what_tells_planners_apart(Table& table) {
+  using S = Settings;
+  table.text("name", &S::name, "Name of the planner, shown in reports.")
+      .real("w_t", &S::w_t, Range::non_negative(), "1/s",
+            "Weight of the final time tf in the cost (paper Eqn. 5, first term): 0 for P_A, 100 "
+            "for P_B, P_C and P_D.",
+            kTable)
+      .real("w_ce", &S::w_ce, Range::non_negative(), "1",
+            "Weight of the control effort (paper Eqn. 5, third term, there w_cf): 0 for P_A and "
+            "P_B, 1 for P_C and P_D.",
+            kTable)
+      .boolean("moving_avoidance", &S::moving_avoidance,
+               "true: obstacles move over the horizon (paper Eqn. 7); false: they are held where "
+               "they are at the moment of planning (paper Eqn. 21). Only P_D has it.",
+               kTable);
+}
+
+void add_weights(Table& table) {
+  using S = Settings;
+  const auto weight = Range::non_negative();
+  table
+      .real("w_g", &S::w_g, weight, "1",
+            "Weight of the distance from the horizon's end to the goal while the goal is out of "
+            "range (paper Eqn. 5, second term).",
+            kTable)
+      .real("w_haf", &S::w_haf, weight, "1/(m^2 s)",
+            "Weight of the squared distance to the line through the goal in its direction (paper "
+            "Eqn. 5, last term).",
+            kTable)
+      .real("w_Fz", &S::w_Fz, weight, "1/s",
+            "Weight of the rear wheels' nearness to their least load (paper Eqn. 5, fourth term).",
+            kTable)
+      .real("w_sa", &S::w_sa, weight, "1/(rad^2 s)",
+            "Weight of the squared steering angle in the control effort (paper Eqn. 5).", kTable)
+      .real("w_sr", &S::w_sr, weight, "s/rad^2",
+            "Weight of the squared steering rate in the control effort (paper Eqn. 5).", kTable)
+      .real("w_jx", &S::w_jx, weight, "s^5/m^2",
+            "Weight of the squared longitudinal jerk in the control effort (paper Eqn. 5).", kTable)
+      .real("w_ax", &S::w_ax, weight, "s^3/m^2",
+            "Weight of the squared longitudinal acceleration; 0 leaves the term out, as the "
+            "paper's cost does, though its table lists 0.1.",
+            kSection)
+      .real("w_psi", &S::w_psi, weight, "1/(rad^2 s)",
+            "Weight of the squared heading off the goal's direction; 0 leaves the term out.",
+            kSection)
+      .real("w_ic", &S::w_ic, weight, "1",
+            "Common weight of the slacks on the initial state (paper Eqn. 15).", kTable)
+      .vector("w_s0", &S::w_s0, weight, "1/(unit of the state)",
+              "Weights of the slacks on the initial state, in the order x, y, v, r, psi, sa, ux, "
+              "ax (paper Eqn. 15).",
+              kTable)
+      .real("w_xf", &S::w_xf, weight, "1/m",
+            "Weight of the slacks on the final position while the goal is in range (paper Eqn. "
+            "15).",
+            kTable)
+      .real("Fz_a", &S::Fz_a, Range::any(), "N",
+            "Wheel load at which the wheel-load cost is half-way (a in paper Eqn. 5).", kTable)
+      .real("Fz_b", &S::Fz_b, Range::positive(), "N",
+            "Width over which the wheel-load cost falls off (b in paper Eqn. 5).", kTable)
+      .choice("wheel_load_cost", &S::wheel_load_cost, {"paper", "shifted"},
+              "paper: the pair of tanh, -2 w_Fz a second when safe; shifted: 2 added, so zero when "
+              "safe. It changes P_A, which has w_t = 0.")
+      .real("tyre_force_limit", &S::tyre_force_limit, Range::non_negative(), "N",
+            "Limit on the axles' linear tyre forces, 7500 N in the authors' code; 0 leaves it out.",
+            kSection);
+}
+
+void add_horizon(Table& table) {
+  using S = Settings;
+  table
+      .integer("N", &S::N, Range::closed(1, 1000), "1",
+               "Mesh intervals of the horizon: 10, and 15 in E_C.", kTable)
+      .choice("scheme", &S::scheme, {"trapezoidal", "hermite_simpson"},
+              "Collocation scheme; the paper's is trapezoidal.")
+      .real("tf_min", &S::tf_min, Range::positive(), "s", "Shortest horizon.", kSection)
+      .real("tf_max", &S::tf_max, Range::positive(), "s", "Longest horizon, the paper's tfMax.",
+            kSection)
+      .real("L_range", &S::L_range, Range::positive(), "m",
+            "Range of the LiDAR, which bounds the plan (paper Eqn. 8, 19, 20): 50, and 90 in E_C.",
+            kTable)
+      .real("kappa", &S::kappa, Range::non_negative(), "m",
+            "Relaxation of the LiDAR's range (paper Eqn. 8, 19, 20): 5, and 10 in E_C.", kTable)
+      .real("sm_start", &S::sm_start, Range::non_negative(), "m",
+            "Margin by which obstacles grow at the first node (sm_1 in paper Eqn. 7).", kTable)
+      .real("sm_end", &S::sm_end, Range::non_negative(), "m",
+            "Margin by which obstacles grow at the last node (sm_2 in paper Eqn. 7).", kTable);
+}
+
+void add_tolerances_and_solver(Table& table) {
+  using S = Settings;
+  table
+      .vector("X0_tol", &S::X0_tol, Range::positive(), "unit of the state",
+              "Largest slack on the initial state, in the order x, y, v, r, psi, sa, ux, ax (paper "
+              "Eqn. 16). The paper's table prints .25 for sa; with it the solver lives off the "
+              "slack and the loop fails.",
+              kSection)
+      .real("XF_tol", &S::XF_tol, Range::positive(), "m",
+            "Largest slack on the final position while the goal is in range (paper Eqn. 17, 18).",
+            kTable)
+      .choice("solver", &S::solver, {"ipopt", "interior_point"},
+              "The method that solves the NLP: Ipopt, or the interior-point method on the "
+              "stage-structured factorisation.")
+      .real("floor", &S::floor, Range::non_negative(), "cost",
+            "Barrier floor mu: how far a plan stays off the limits. 0 solves to tol. The paper's "
+            "solver stopped at about 1; every drive of the paper comes out within .78 to 1.05.",
+            "formulation section 5")
+      .real("tol", &S::tol, Range::positive(), "1", "Optimality tolerance of the solver.", kSection)
+      .integer("max_iterations", &S::max_iterations, Range::closed(1, 1000000), "1",
+               "Iterations after which the NLP counts as not solved.", kSection);
+}
+
+}  // namespace
+
+const OptionTable<Settings>& setting_options() {
+  static const auto table = [] {
+    Table options;
+    add_what_tells_planners_apart(options);
+    add_weights(options);
+    add_horizon(options);
+    add_tolerances_and_solver(options);
+    return options;
+  }();
+  return table;
+}
+
+void check(const Settings& settings, const std::string& where) {
+  setting_options().check(settings, where);
+  if (settings.L_range <= settings.kappa)
+    throw InvalidValue(where, fmt::format("L_range = {}", settings.L_range),
+                       fmt::format("a number above kappa = {}", settings.kappa));
+  if (settings.tf_min >= settings.tf_max)
+    throw InvalidValue(where, fmt::format("tf_min = {}", settings.tf_min),
+                       fmt::format("a number below tf_max = {}", settings.tf_max));
+}
+
+}  // namespace slalom::planner

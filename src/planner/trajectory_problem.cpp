@@ -1,0 +1,205 @@
+#include "trajectory_problem.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace slalom::planner {
+
+using ocp::Bounds;
+using ocp::End;
+using ocp::Points;
+using namespace vehicle;
+
+namespace {
+
+/// The model's expressions with the problem's own symbols in place of the model's.
+template <std::size_t N>
+std::array<ocp::Expr, N> in_terms_of(const std::array<ocp::Expr, N>& values, const Model& model,
+                                     const std::array<ocp::Expr, kStates>& states,
+                                     const std::array<ocp::Expr, kControls>& controls) {
+  std::vector<ocp::Expr> from(model.state.begin(), model.state.end());
+  from.insert(from.end(), model.control.begin(), model.control.end());
+  std::vector<ocp::Expr> to(states.begin(), states.end());
+  to.insert(to.end(), controls.begin(), controls.end());
+  const auto replaced = expr::substitute({values.begin(), values.end()}, from, to);
+  std::array<ocp::Expr, N> result;
+  std::copy(replaced.begin(), replaced.end(), result.begin());
+  return result;
+}
+
+}  // namespace
+
+TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters& vehicle,
+                                     const Goal& goal, const Region& region,
+                                     const std::vector<Obstacle>& obstacles, bool goal_in_range)
+    : settings_(settings),
+      vehicle_(vehicle),
+      goal_(goal),
+      obstacles_(obstacles),
+      goal_in_range_(goal_in_range),
+      problem_("trajectory") {
+  const Model model = make_model(vehicle);
+  add_variables(region);
+  add_dynamics(model);
+  add_cost(model);
+  add_initial_state();
+  add_vehicle_limits(model);
+  add_obstacles();
+  add_lidar_region();
+  add_goal();
+}
+
+void TrajectoryProblem::add_variables(const Region& region) {
+  std::array<Bounds, kStates> bounds;
+  bounds[X] = {region.x_min, region.x_max};
+  bounds[Y] = {region.y_min, region.y_max};
+  bounds[PSI] = {-vehicle_.psi_max, vehicle_.psi_max};
+  bounds[SA] = {-vehicle_.sa_max(), vehicle_.sa_max()};
+  bounds[UX] = {vehicle_.ux_min, vehicle_.ux_max};
+  for (std::size_t i = 0; i < kStates; ++i) {
+    const std::string name = kStateNames[i];
+    X_[i] = problem_.state(name, bounds[i]);
+    X0p_[i] = problem_.parameter("X0p_" + name, 0);
+    x0s_[i] = problem_.slack("x0s_" + name, End::initial, Bounds::at_most(settings_.X0_tol[i]));
+  }
+  U_[SR] = problem_.control("sr", {-vehicle_.sr_max(), vehicle_.sr_max()});
+  U_[JX] = problem_.control("jx", {-vehicle_.jx_max, vehicle_.jx_max});
+  t_start_ = problem_.parameter("t_start", 0);
+  problem_.initial_time(Bounds::equal(0), 0);
+  problem_.final_time({settings_.tf_min, settings_.tf_max}, settings_.tf_max / 2);
+  if (goal_in_range_)
+    for (std::size_t i : {0, 1})
+      xfs_[i] =
+          problem_.slack(i == 0 ? "xfs_x" : "xfs_y", End::final, Bounds::at_most(settings_.XF_tol));
+}
+
+void TrajectoryProblem::add_dynamics(const Model& model) {
+  const auto rate = in_terms_of(model.derivative, model, X_, U_);
+  for (std::size_t i = 0; i < kStates; ++i) problem_.dynamics(X_[i], rate[i]);
+}
+
+/// The cost functional J, term by term; a term of weight zero is absent.
+void TrajectoryProblem::add_cost(const Model& model) {
+  const Settings& s = settings_;
+  const Expr tf = problem_.final_time();
+  if (s.w_t != 0) problem_.mayer("final_time", s.w_t * tf);
+
+  if (!goal_in_range_ && s.w_g != 0) {
+    const Expr to_go =
+        square(problem_.final(X_[X]) - goal_.x) + square(problem_.final(X_[Y]) - goal_.y);
+    const Expr at_start =
+        square(problem_.initial(X_[X]) - goal_.x) + square(problem_.initial(X_[Y]) - goal_.y);
+    problem_.mayer("goal", s.w_g * to_go / (at_start + 0.01));
+  }
+  if (s.w_ce != 0)
+    problem_.lagrange(
+        "control_effort",
+        s.w_ce * (s.w_sa * square(X_[SA]) + s.w_sr * square(U_[SR]) + s.w_jx * square(U_[JX])));
+  if (s.w_Fz != 0) {
+    const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
+    const Expr pair = tanh((s.Fz_a - Fz[RL]) / s.Fz_b) + tanh((s.Fz_a - Fz[RR]) / s.Fz_b);
+    problem_.lagrange("wheel_load",
+                      s.w_Fz * (s.wheel_load_cost == WheelLoadCost::shifted ? pair + 2 : pair));
+  }
+  if (s.w_haf != 0)
+    problem_.lagrange("heading_area", s.w_haf * square(std::sin(goal_.psi) * (X_[X] - goal_.x) -
+                                                       std::cos(goal_.psi) * (X_[Y] - goal_.y)));
+  if (s.w_ax != 0) problem_.lagrange("acceleration", s.w_ax * square(X_[AX]));
+  if (s.w_psi != 0) problem_.lagrange("heading", s.w_psi * square(X_[PSI] - goal_.psi));
+
+  Expr initial_slacks;
+  for (std::size_t i = 0; i < kStates; ++i) initial_slacks += s.w_s0[i] * x0s_[i];
+  problem_.mayer("initial_slack", s.w_ic * initial_slacks);
+  if (goal_in_range_) problem_.mayer("final_slack", s.w_xf * (xfs_[0] + xfs_[1]));
+}
+
+/// |X0p - X(0)| <= x0s, two rows a state (the paper's soft constraints on the initial state, signs
+/// as section 3 settles them).
+void TrajectoryProblem::add_initial_state() {
+  for (std::size_t i = 0; i < kStates; ++i) {
+    const std::string name = kStateNames[i];
+    const Expr gap = problem_.initial(X_[i]) - X0p_[i];
+    problem_.boundary("initial " + name + " from below", gap + x0s_[i], Bounds::at_least(0));
+    problem_.boundary("initial " + name + " from above", x0s_[i] - gap, Bounds::at_least(0));
+  }
+}
+
+void TrajectoryProblem::add_vehicle_limits(const Model& model) {
+  const auto limits = in_terms_of(std::array{model.ax_min, model.ax_max}, model, X_, U_);
+  problem_.path("ax above ax_min", X_[AX] - limits[0], Bounds::at_least(0));
+  problem_.path("ax below ax_max", limits[1] - X_[AX], Bounds::at_least(0));
+  const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
+  for (std::size_t w = 0; w < kWheels; ++w)
+    problem_.path(std::string("wheel load ") + kWheelNames[w], Fz[w] - vehicle_.Fz_min,
+                  Bounds::at_least(0));
+  if (settings_.tyre_force_limit > 0) {
+    const auto linear = in_terms_of(std::array{model.Fyf_linear, model.Fyr_linear}, model, X_, U_);
+    const Bounds both{-settings_.tyre_force_limit, settings_.tyre_force_limit};
+    problem_.path("linear tyre force, front", linear[0], both);
+    problem_.path("linear tyre force, rear", linear[1], both);
+  }
+}
+
+/// Time-varying elliptical obstacle constraints with the growing safety margin sm (the paper's
+/// Eqn. for obstacle avoidance), at every node after the first.
+void TrajectoryProblem::add_obstacles() {
+  const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
+  const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
+  std::vector<Expr> numbers{xo, yo, a, b};
+  Expr x = xo, y = yo;
+  if (settings_.moving_avoidance) {
+    const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
+    const Expr t = t_start_ + problem_.time();  // absolute time of the node
+    x = xo + vx * t;
+    y = yo + vy * t;
+    numbers.insert(numbers.end(), {vx, vy});
+  }
+  const Expr sm = settings_.sm_start + (settings_.sm_end - settings_.sm_start) * problem_.tau();
+  const Expr outside = square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
+  obstacle_rows_ = problem_.path_family("obstacle", numbers, outside - 1, Bounds::at_least(0),
+                                        Points::after_first);
+}
+
+/// The trajectory stays in the region the LiDAR sees (the paper's LiDAR region constraint).
+void TrajectoryProblem::add_lidar_region() {
+  const double reach = settings_.L_range + settings_.kappa;
+  const Expr distance =
+      square(X_[X] - problem_.initial(X_[X])) + square(X_[Y] - problem_.initial(X_[Y]));
+  problem_.path("LiDAR region", reach * reach - distance, Bounds::at_least(0), Points::after_first);
+}
+
+/// In range: the goal within xfs. Out of range: the end within kappa of the LiDAR region's edge.
+void TrajectoryProblem::add_goal() {
+  const Expr xf = problem_.final(X_[X]), yf = problem_.final(X_[Y]);
+  if (goal_in_range_) {
+    for (const auto& [name, gap, slack] : {std::tuple{"goal x", xf - goal_.x, xfs_[0]},
+                                           std::tuple{"goal y", yf - goal_.y, xfs_[1]}}) {
+      problem_.boundary(std::string(name) + " from below", gap + slack, Bounds::at_least(0));
+      problem_.boundary(std::string(name) + " from above", slack - gap, Bounds::at_least(0));
+    }
+    return;
+  }
+  const double inner = settings_.L_range - settings_.kappa;
+  const double outer = settings_.L_range + settings_.kappa;
+  const Expr distance = square(xf - problem_.initial(X_[X])) + square(yf - problem_.initial(X_[Y]));
+  problem_.boundary("LiDAR edge, inner", distance - inner * inner, Bounds::at_least(0));
+  problem_.boundary("LiDAR edge, outer", outer * outer - distance, Bounds::at_least(0));
+}
+
+void TrajectoryProblem::update(const Request& request) {
+  for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], request.X0p[i]);
+  problem_.set_parameter(t_start_, request.t0 + request.tex);
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> numbers;
+  for (const auto& o : obstacles_) {
+    names.push_back(o.name);
+    if (settings_.moving_avoidance)
+      numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
+    else
+      numbers.push_back({o.x_at(request.t0), o.y_at(request.t0), o.a, o.b});
+  }
+  problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
+}
+
+}  // namespace slalom::planner

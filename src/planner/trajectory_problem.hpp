@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "slalom/ocp/problem.hpp"
+#include "slalom/planner/goal.hpp"
+#include "slalom/planner/obstacle.hpp"
+#include "slalom/planner/planner.hpp"
+#include "slalom/planner/settings.hpp"
+#include "slalom/vehicle/model.hpp"
+#include "slalom/vehicle/parameters.hpp"
+
+namespace slalom::planner {
+
+/// The trajectory-planning OCP of section 3 of docs/formulation.md (the paper's section II-B), in
+/// one of its two forms: goal within the LiDAR range, or beyond it. What a form does not have is
+/// absent from it, not switched to zero.
+class TrajectoryProblem {
+ public:
+  TrajectoryProblem(const Settings& settings, const vehicle::Parameters& vehicle, const Goal& goal,
+                    const Region& region, const std::vector<Obstacle>& obstacles,
+                    bool goal_in_range);
+
+  /// Sets what changes from cycle to cycle: X0p, the absolute time of node 0, and the obstacles.
+  void update(const Request& request);
+
+  const ocp::Problem& problem() const { return problem_; }
+
+ private:
+  using Expr = ocp::Expr;
+
+  void add_variables(const Region& region);
+  void add_dynamics(const vehicle::Model& model);
+  void add_cost(const vehicle::Model& model);
+  void add_initial_state();
+  void add_vehicle_limits(const vehicle::Model& model);
+  void add_obstacles();
+  void add_lidar_region();
+  void add_goal();
+
+  const Settings settings_;
+  const vehicle::Parameters vehicle_;
+  const Goal goal_;
+  const std::vector<Obstacle> obstacles_;
+  const bool goal_in_range_;
+
+  ocp::Problem problem_;
+  std::array<Expr, vehicle::kStates> X_;    ///< states
+  std::array<Expr, vehicle::kControls> U_;  ///< controls
+  std::array<Expr, vehicle::kStates> X0p_;  ///< predicted state (run-time parameters)
+  std::array<Expr, vehicle::kStates> x0s_;  ///< slacks on the initial state
+  std::array<Expr, 2> xfs_;                 ///< slacks on the final position
+  Expr t_start_;                            ///< absolute time of node 0
+  ocp::ConstraintId obstacle_rows_{};
+};
+
+}  // namespace slalom::planner

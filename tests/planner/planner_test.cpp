@@ -1,0 +1,308 @@
+#include "slalom/planner/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/scenes.hpp"
+
+namespace slalom::planner {
+namespace {
+
+using namespace vehicle;
+
+void expect_solved(const Plan& plan) {
+  EXPECT_TRUE(plan.report.solved) << plan.report.status << ", " << plan.report.worst_constraint;
+  // Section 3, "Solved": what the checker recomputed from the answer.
+  EXPECT_LE(plan.report.worst_violation, 1e-6) << plan.report.worst_constraint;
+  EXPECT_LE(plan.report.stationarity, 1e-3);
+  EXPECT_LE(plan.report.complementarity, 0.01);
+}
+
+void expect_same(const Plan& a, const Plan& b) {
+  EXPECT_EQ(a.tf, b.tf);
+  EXPECT_EQ(a.states, b.states);
+  EXPECT_EQ(a.controls, b.controls);
+  EXPECT_EQ(a.report.iterations, b.report.iterations);
+}
+
+TEST(Planner, FirstPlansAreSolvedByEveryBackEnd) {
+  for (const auto solver : solvers())
+    for (auto scene : {E_A(), E_B(), E_C()}) {
+      scene.settings.solver = solver;
+      const Plan plan = scene.planner().plan(scene.first);
+      SCOPED_TRACE(plan.report.backend);
+      expect_solved(plan);
+      EXPECT_FALSE(plan.goal_in_range);
+      EXPECT_EQ(plan.t_start, 0.5);
+      ASSERT_EQ(plan.t.size(), static_cast<std::size_t>(scene.settings.N) + 1);
+      EXPECT_EQ(plan.states.size(), plan.t.size());
+      EXPECT_EQ(plan.controls.size(), plan.t.size());
+      EXPECT_EQ(plan.t.front(), 0);
+      EXPECT_EQ(plan.t.back(), plan.tf);
+      EXPECT_GT(least_obstacle_row(scene, plan), 0);
+      double sum = 0;
+      for (const auto& [name, value] : plan.report.cost_terms) sum += value;
+      EXPECT_NEAR(sum, plan.report.cost, 1e-9 * std::fabs(plan.report.cost));
+      for (const auto& state : plan.states) {
+        EXPECT_GT(state[X], scene.region.x_min);
+        EXPECT_LT(state[X], scene.region.x_max);
+      }
+    }
+}
+
+TEST(Planner, AgreesWithThePublishedFirstOcp) {
+  const Plan plan = E_A().planner().plan(E_A().first);
+  EXPECT_NEAR(plan.report.phi, -157.7753, 1e-3);  // stationary at the central point
+  EXPECT_NEAR(plan.tf, 2.515208, 2e-3);
+  EXPECT_NEAR(plan.states.back()[X], 196.49608, 0.02);
+  EXPECT_NEAR(plan.states.back()[Y], 53.46048, 0.02);
+}
+
+TEST(Planner, StaysSolvedAndWarmAcrossTheSwitchIntoRange) {
+  for (const auto solver : solvers())
+    for (auto scene : {E_A(), E_B()}) {
+      scene.settings.solver = solver;
+      auto planner = scene.planner();
+      Request request = scene.first;
+      int switches = 0, warm = 0, cold = 0;
+      bool was_in_range = false;
+      for (int cycle = 0; cycle < 10; ++cycle) {
+        const Plan plan = planner.plan(request);
+        SCOPED_TRACE(plan.report.backend + ", cycle " + std::to_string(cycle));
+        expect_solved(plan);
+        if (!plan.report.solved) return;
+        const double to_go =
+            std::hypot(request.X0p[X] - scene.goal.x, request.X0p[Y] - scene.goal.y);
+        EXPECT_EQ(plan.goal_in_range, to_go < scene.settings.L_range);
+        switches += plan.goal_in_range != was_in_range ? 1 : 0;
+        was_in_range = plan.goal_in_range;
+        if (plan.goal_in_range) {
+          EXPECT_LT(std::fabs(plan.states.back()[X] - scene.goal.x), scene.settings.XF_tol);
+          EXPECT_LT(std::fabs(plan.states.back()[Y] - scene.goal.y), scene.settings.XF_tol);
+        } else {
+          const double reach = std::hypot(plan.states.back()[X] - plan.states.front()[X],
+                                          plan.states.back()[Y] - plan.states.front()[Y]);
+          EXPECT_GT(reach, scene.settings.L_range - scene.settings.kappa);
+          EXPECT_LT(reach, scene.settings.L_range + scene.settings.kappa);
+        }
+        EXPECT_GT(least_obstacle_row(scene, plan), 0);
+        if (cycle > 0) {
+          warm += plan.report.iterations;
+          cold += scene.planner().plan(request).report.iterations;
+        }
+        request = next_cycle(request, plan);
+        if (std::hypot(request.X0p[X] - scene.goal.x, request.X0p[Y] - scene.goal.y) < 15) break;
+      }
+      EXPECT_EQ(switches, 1);
+      EXPECT_LT(warm, cold) << "iterations with and without the last plan";
+    }
+}
+
+TEST(Planner, HeldObstaclesStandWhereTheyAreAtPlanning) {
+  Scene held = E_B();
+  held.settings.moving_avoidance = false;
+  held.first.t0 = 0.75;
+  const Plan plan = held.planner().plan(held.first);
+  expect_solved(plan);
+  EXPECT_EQ(plan.obstacle_time_held, 0.75);
+
+  Scene standing = held;
+  for (auto& o : standing.obstacles) o = {o.name, o.x_at(0.75), o.y_at(0.75), o.a, o.b, 0, 0};
+  expect_same(plan, standing.planner().plan(held.first));
+
+  Scene moving = held;
+  moving.settings.moving_avoidance = true;
+  const Plan other = moving.planner().plan(held.first);
+  expect_solved(other);
+  EXPECT_LT(other.obstacle_time_held, 0);
+  EXPECT_GT(least_obstacle_row(moving, other), 0) << "clear of them where they will be";
+  EXPECT_GT(distance(plan, other, [](const State& s) { return std::pair{s[X], s[Y]}; }), 1);
+}
+
+/// An obstacle's motion is given in absolute time, and node 0 is at t0 + tex.
+TEST(Planner, MovingObstaclesAreMetInAbsoluteTime) {
+  Scene early = E_B(), late = E_B();
+  late.first.t0 = 20;
+  for (auto& o : late.obstacles) {
+    o.x -= 20 * o.vx;
+    o.y -= 20 * o.vy;
+  }
+  const Plan a = early.planner().plan(early.first), b = late.planner().plan(late.first);
+  EXPECT_EQ(b.t_start, 20.5);
+  EXPECT_LT(distance(a, b, [](const State& s) { return std::pair{s[X], s[Y]}; }), 1e-6);
+}
+
+TEST(Planner, MovedSceneGivesTheMovedPlan) {
+  for (const auto& scene : {E_A(), E_B(), E_C()}) {
+    Scene moved = scene;
+    const double dx = 10e3, dy = 7e3;
+    moved.first.X0p[X] += dx;
+    moved.first.X0p[Y] += dy;
+    moved.goal.x += dx;
+    moved.goal.y += dy;
+    moved.region.x_min += dx;
+    moved.region.x_max += dx;
+    for (auto& o : moved.obstacles) {
+      o.x += dx;
+      o.y += dy;
+    }
+    auto here = scene.planner(), there = moved.planner();
+    Request request = scene.first, request_there = moved.first;
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      const Plan plan = here.plan(request), other = there.plan(request_there);
+      expect_solved(other);
+      EXPECT_LT(distance(plan, other,
+                         [=](const State& s) {
+                           return std::pair{s[X] - dx, s[Y] - dy};
+                         }),
+                0.01)
+          << "cycle " << cycle;
+      request = next_cycle(request, plan);
+      request_there = next_cycle(request_there, other);
+    }
+  }
+}
+
+TEST(Planner, MirroredSceneGivesTheMirroredPlan) {
+  for (auto scene : {E_A(), E_B()}) {
+    scene.vehicle.tyre_asymmetry = false;
+    scene.first.X0p = {200, 8.5, 0.1, 0.02, 1.5, 0.01, 17, 0.2};
+    Scene mirrored = scene;
+    const auto mirror = [](double x) { return 400 - x; };
+    for (auto& o : mirrored.obstacles) {
+      o.x = mirror(o.x);
+      o.vx = -o.vx;
+    }
+    mirrored.goal.x = mirror(scene.goal.x);
+    mirrored.goal.psi = std::numbers::pi - scene.goal.psi;
+    State& s = mirrored.first.X0p;
+    s[X] = mirror(s[X]);
+    s[PSI] = std::numbers::pi - s[PSI];
+    for (auto i : {V, R, SA}) s[i] = -s[i];
+    const Plan plan = scene.planner().plan(scene.first);
+    const Plan other = mirrored.planner().plan(mirrored.first);
+    expect_solved(plan);
+    expect_solved(other);
+    EXPECT_NEAR(plan.tf, other.tf, 1e-4);
+    EXPECT_LT(distance(plan, other,
+                       [&](const State& state) {
+                         return std::pair{mirror(state[X]), state[Y]};
+                       }),
+              0.01);
+  }
+}
+
+TEST(Planner, HermiteSimpsonSolvesToo) {
+  for (const auto solver : solvers())
+    for (auto scene : {E_A(), E_C()}) {
+      scene.settings.solver = solver;
+      scene.settings.scheme = SchemeChoice::hermite_simpson;
+      const Plan plan = scene.planner().plan(scene.first);
+      expect_solved(plan);
+      EXPECT_EQ(plan.t.size(), 2 * static_cast<std::size_t>(scene.settings.N) + 1)
+          << "with the intervals' midpoints";
+      EXPECT_GT(least_obstacle_row(scene, plan), 0);
+    }
+}
+
+/// The plan's controls through another model and another integrator. Ten or fifteen intervals are
+/// coarse: this bounds what a plan may promise, not what the plant does. Hermite-Simpson's controls
+/// are quadratic over an interval; taken as linear between its points they miss by more.
+TEST(Planner, ReplayedPlansEndNearTheirLastNode) {
+  for (auto scene : {E_A(), E_B(), E_C()})
+    for (const bool coarse : {true, false}) {
+      scene.settings.scheme = coarse ? SchemeChoice::trapezoidal : SchemeChoice::hermite_simpson;
+      const Plan plan = scene.planner().plan(scene.first);
+      const State end = integrate(plan, plan.tf, coarse ? Controls::linear : Controls::quadratic);
+      const State& last = plan.states.back();
+      EXPECT_LT(std::hypot(end[X] - last[X], end[Y] - last[Y]), coarse ? 0.6 : 0.15);
+      EXPECT_NEAR(end[PSI], last[PSI], coarse ? 0.05 : 0.02);
+      EXPECT_NEAR(end[UX], last[UX], coarse ? 0.05 : 1e-5);
+    }
+}
+
+TEST(Planner, ResetForgetsTheLastPlan) {
+  const Scene scene = E_A();
+  auto planner = scene.planner();
+  const Plan first = planner.plan(scene.first);
+  const Plan again = planner.plan(scene.first);
+  EXPECT_LT(again.report.iterations, first.report.iterations) << "warm";
+  planner.reset();
+  expect_same(planner.plan(scene.first), first);
+}
+
+/// A ring of obstacles too thick to be stepped over between two nodes, that drives off at once.
+Scene ring() {
+  Scene scene = E_A();
+  scene.settings.max_iterations = 120;
+  scene.obstacles.clear();
+  for (int i = 0; i < 16; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 16;
+    scene.obstacles.push_back({"R" + std::to_string(i), 200 + 30 * std::cos(angle),
+                               8.5 + 30 * std::sin(angle), 16, 16, 1000, 0});
+  }
+  return scene;
+}
+
+TEST(Planner, AnImpossiblePlanIsNotSolvedAndSaysWhy) {
+  for (const auto solver : solvers()) {
+    Scene scene = ring();
+    scene.settings.solver = solver;
+    const Plan plan = scene.planner().plan(scene.first);
+    SCOPED_TRACE(plan.report.backend + ": " + plan.report.status);
+    EXPECT_FALSE(plan.report.solved);
+    EXPECT_NE(plan.report.status, "solved");
+    EXPECT_GT(plan.report.worst_violation, 1e-3);
+    EXPECT_FALSE(plan.report.worst_constraint.empty());
+    EXPECT_EQ(plan.states.size(), 11u) << "the last iterate is returned";
+  }
+}
+
+TEST(Planner, AFailedPlanIsNoStartForTheNext) {
+  for (const auto solver : solvers()) {
+    Scene scene = ring();
+    scene.settings.solver = solver;
+    Request away = scene.first, later = scene.first;
+    away.t0 = 100;  // the ring has gone
+    later.t0 = 100.5;
+    auto failed_first = scene.planner(), fresh = scene.planner();
+    ASSERT_FALSE(failed_first.plan(scene.first).report.solved);
+    const Plan expected = fresh.plan(away);
+    expect_solved(expected);
+    expect_same(failed_first.plan(away), expected);
+
+    ASSERT_FALSE(failed_first.plan(scene.first).report.solved);
+    expect_same(failed_first.plan(later), fresh.plan(later));
+  }
+}
+
+TEST(Planner, TimeLimitEndsASolve) {
+  for (const auto solver : solvers()) {
+    Scene scene = E_C();
+    scene.settings.solver = solver;
+    scene.first.time_limit = 1e-6;
+    const Plan plan = scene.planner().plan(scene.first);
+    EXPECT_FALSE(plan.report.solved);
+    EXPECT_EQ(plan.report.status, "time_limit");
+  }
+}
+
+TEST(Planner, NoObstacles) {
+  Scene scene = E_A();
+  scene.obstacles.clear();
+  expect_solved(scene.planner().plan(scene.first));
+}
+
+TEST(Planner, WithoutAFloorItSolvesToTheOptimum) {
+  Scene scene = E_A();
+  scene.settings.floor = 0;
+  const Plan plan = scene.planner().plan(scene.first);
+  EXPECT_TRUE(plan.report.solved) << plan.report.status;
+  EXPECT_LT(plan.report.cost, 271.6379 - 1) << "the barrier's distance from the limits is gone";
+  EXPECT_LE(plan.report.worst_violation, 1e-6);
+}
+
+}  // namespace
+}  // namespace slalom::planner
