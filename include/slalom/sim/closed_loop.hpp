@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "slalom/planner/planner.hpp"
+#include "slalom/sim/drive.hpp"
+#include "slalom/sim/scenario.hpp"
+
+namespace slalom::sim {
+
+/// Hooks into a running drive.
+struct LoopHooks {
+  /// After each cycle, the warm-up solve (index 0) included.
+  std::function<void(const Cycle&)> on_cycle;
+  /// Polled at every cycle, sample and solver iteration; true ends the drive as interrupted.
+  std::function<bool()> interrupted;
+};
+
+/// One planning call; planner::Planner in earnest, anything in tests.
+using PlanFunction = std::function<planner::Plan(const planner::Request&)>;
+
+/// Drives `scenario` in closed loop with its own planner (section 4 of docs/formulation.md). Throws
+/// InvalidValue when check(scenario) does; how a drive fails is its outcome, never an exception.
+/// A plant whose state leaves the model's domain while no solved plan is left counts as
+/// not_optimal.
+Drive drive(const Scenario& scenario, const LoopHooks& hooks = {});
+
+/// The same with any planning function. Its first call is the warm-up solve if the scenario says
+/// so; then one call a cycle.
+Drive drive(const Scenario& scenario, const PlanFunction& plan, const LoopHooks& hooks = {});
+
+}  // namespace slalom::sim

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slalom/planner/plan.hpp"
+#include "slalom/vehicle/state.hpp"
+
+namespace slalom::sim {
+
+enum class Outcome { goal, crash, wheel_lift, not_optimal, solve_time, timeout, interrupted };
+
+/// "goal", "crash", ... as files have it.
+const char* to_string(Outcome outcome);
+/// All names, in the enum's order.
+const std::vector<std::string>& outcome_names();
+
+/// One recorded instant of the plant. Linear interpolation of the samples' controls is the control
+/// the plant drove: where signals swap, the sample at the swap has the new signal's control and one
+/// a nanosecond before it the old one's.
+struct PlantSample {
+  double t = 0;  ///< absolute time [s]
+  vehicle::State state{};
+  vehicle::Control control{};
+  vehicle::WheelLoads wheel_loads{};  ///< [N]
+  double clearance = 0;  ///< signed distance to the nearest grown obstacle's edge [m]; inf if none
+};
+
+/// One planning cycle.
+struct Cycle {
+  int index = 0;         ///< 1 is the first; 0 the warm-up solve, if any
+  double t0 = 0;         ///< when planning started [s]
+  double tex = 0;        ///< execution horizon [s]
+  vehicle::State X0p{};  ///< predicted state at t0 + tex
+  planner::Plan plan;    ///< with its solve report; nodes as the solver left them
+  bool used = false;     ///< the plant took this plan over at t0 + tex (false: warm-up, failed, or
+                         ///< the drive ended first)
+};
+
+/// A closed-loop drive.
+struct Drive {
+  Outcome outcome = Outcome::timeout;
+  double time = 0;  ///< when the drive ended [s]
+  /// When the goal square was first entered [s], located in time; the drive goes on to the check at
+  /// the end of the execution horizon, and may fail on the way or have left the square by then.
+  std::optional<double> goal_time;
+  std::string hit;             ///< obstacle hit, or wheel that lifted; empty otherwise
+  std::string message;         ///< one sentence on how it ended
+  double least_clearance = 0;  ///< over the drive [m]
+  double least_clearance_t = 0;
+  std::string least_clearance_obstacle;
+  double least_wheel_load = 0;  ///< [N]
+  std::vector<PlantSample> plant;
+  std::vector<Cycle> cycles;
+};
+
+}  // namespace slalom::sim

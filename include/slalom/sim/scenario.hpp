@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slalom/base/options.hpp"
+#include "slalom/planner/goal.hpp"
+#include "slalom/planner/obstacle.hpp"
+#include "slalom/planner/settings.hpp"
+#include "slalom/vehicle/parameters.hpp"
+#include "slalom/vehicle/state.hpp"
+
+namespace slalom::sim {
+
+/// What the vehicle does in a cycle whose NLP is not solved.
+enum class OnFailure { stop, last_plan };
+
+/// Settings of the closed loop; section 4 of docs/formulation.md.
+struct LoopSettings {
+  double tex = 0.5;               ///< execution horizon [s]
+  double timeout = 60;            ///< longest drive [s]
+  double solve_time_limit = 300;  ///< of one solve, wall clock [s]
+  OnFailure on_failure = OnFailure::stop;
+  bool warm_up = true;            ///< solve the first OCP once before the clock starts
+  double sm_crash = 2;            ///< margin by which obstacles grow in the crash check [m]
+  double Fz_failure = 100;        ///< least wheel load in the plant [N]
+  double plant_tolerance = 1e-9;  ///< relative and absolute, of the adaptive integrator
+  double sample_step = 0.02;      ///< longest step between recorded plant samples [s]
+};
+
+const OptionTable<LoopSettings>& loop_options();
+
+/// Everything a drive needs.
+struct Scenario {
+  std::string name;
+  std::string title;
+  vehicle::State start = {0, 0, 0, 0, 1.5707963267948966, 0, 17, 0};
+  planner::Goal goal;
+  planner::Region region;
+  std::vector<planner::Obstacle> obstacles;
+  vehicle::Parameters vehicle;
+  planner::Settings planner;
+  LoopSettings loop;
+};
+
+/// Throws InvalidValue for contradictions no single option shows: start outside its bounds or
+/// inside a grown obstacle, tex above tf_max, L_range <= kappa. `where` names the file.
+void check(const Scenario& scenario, const std::string& where);
+
+}  // namespace slalom::sim

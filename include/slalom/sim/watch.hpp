@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slalom/planner/goal.hpp"
+#include "slalom/planner/obstacle.hpp"
+#include "slalom/sim/drive.hpp"
+#include "slalom/sim/plant.hpp"
+#include "slalom/sim/scenario.hpp"
+
+namespace slalom::sim {
+
+/// One stretch of a drive between two neighbouring samples.
+struct Stretch {
+  double t0 = 0, t1 = 0;                     ///< absolute times of its ends [s]
+  vehicle::State state0{}, state1{};         ///< states there
+  std::function<vehicle::State(double)> at;  ///< state at any time in between
+};
+
+/// What ends a drive while the plant moves.
+struct Event {
+  Outcome outcome = Outcome::crash;  ///< crash or wheel_lift
+  double t = 0;                      ///< located in time to 1e-9 s [s]
+  std::string what;                  ///< name of the obstacle or wheel
+};
+
+/// Watches a drive stretch by stretch for the events of section 4 of docs/formulation.md, and keeps
+/// its extremes. An obstacle moving at constant velocity, grown to an ellipse, and the goal's
+/// square are convex, and over one stretch (at most .02 s) the plant's path is straight but for
+/// millimetres: the distance to them has one minimum a stretch, which is searched for wherever the
+/// speeds allow it to matter. A graze between two samples is therefore not missed.
+class Watch {
+ public:
+  Watch(const Scenario& scenario, const Plant& plant);
+
+  /// Takes in the start of the drive.
+  void begin(double t, const vehicle::State& state);
+  /// Takes in one stretch; the first event in it, if any. Extremes and the goal's crossing count up
+  /// to that event only.
+  std::optional<Event> pass(const Stretch& stretch);
+
+  /// Signed distance [m] from the front axle's centre to the edge of the nearest obstacle, grown by
+  /// sm_crash, at time t [s]; infinity without obstacles.
+  double clearance(double t, const vehicle::State& state) const;
+
+  /// When the goal's square was first entered [s].
+  std::optional<double> goal_time() const { return goal_time_; }
+  double least_clearance() const { return least_clearance_; }      ///< [m]
+  double least_clearance_t() const { return least_clearance_t_; }  ///< [s]
+  const std::string& least_clearance_obstacle() const { return least_clearance_obstacle_; }
+  double least_wheel_load() const { return least_wheel_load_; }  ///< [N]
+
+ private:
+  double clearance_of(const planner::Obstacle& obstacle, double t,
+                      const vehicle::State& state) const;
+  double outside_goal(const vehicle::State& state) const;
+  std::optional<Event> first_crash(const Stretch& stretch) const;
+  std::optional<Event> first_wheel_lift(const Stretch& stretch) const;
+  void note_clearance(const Stretch& stretch);
+  void note_wheel_loads(const Stretch& stretch);
+  void note_goal(const Stretch& stretch);
+
+  const Plant& plant_;
+  std::vector<planner::Obstacle> obstacles_;
+  planner::Goal goal_;
+  double sm_crash_, Fz_failure_;
+  std::optional<double> goal_time_;
+  double least_clearance_ = std::numeric_limits<double>::infinity();
+  double least_clearance_t_ = 0;
+  std::string least_clearance_obstacle_;
+  double least_wheel_load_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace slalom::sim

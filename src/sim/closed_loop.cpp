@@ -1,0 +1,198 @@
+#include "slalom/sim/closed_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "slalom/base/timer.hpp"
+#include "slalom/sim/control_signal.hpp"
+#include "slalom/sim/plant.hpp"
+#include "slalom/sim/watch.hpp"
+
+namespace slalom::sim {
+namespace {
+
+/// Times nearer than this are the same end of an execution horizon [s].
+constexpr double kSameTime = 1e-9;
+
+/// The framework of the paper's Fig. 2, section 4 of docs/formulation.md: state prediction, OCP and
+/// plant take turns until the goal is reached or the drive fails.
+class ClosedLoop {
+ public:
+  ClosedLoop(const Scenario& scenario, const PlanFunction& plan, const LoopHooks& hooks)
+      : scenario_(scenario),
+        loop_(scenario.loop),
+        plan_(plan),
+        hooks_(hooks),
+        plant_(scenario.vehicle, loop_.plant_tolerance, loop_.sample_step),
+        watch_(scenario, plant_),
+        state_(scenario.start) {}
+
+  Drive run() {
+    watch_.begin(0, state_);
+    record();
+    if (loop_.warm_up && !interrupted()) warm_up();
+    for (int index = 1; !ended_; ++index) cycle(index);
+    return finish();
+  }
+
+ private:
+  void warm_up() {
+    Cycle cycle = plan_ahead(0, 0);
+    drive_.cycles.push_back(std::move(cycle));
+    if (hooks_.on_cycle) hooks_.on_cycle(drive_.cycles.back());
+  }
+
+  /// Predict, plan, drive [t0, t0 + tex] on the old signal, check, and swap signals.
+  void cycle(int index) {
+    const double t0 = (index - 1) * loop_.tex, t1 = index * loop_.tex;
+    if (interrupted()) return end(Outcome::interrupted, "interrupted");
+    Cycle cycle = plan_ahead(index, t0);
+    judge(cycle);
+    if (!ended_) drive_until(std::min(t1, loop_.timeout));
+    if (!ended_ && t1 <= loop_.timeout + kSameTime) check_goal();
+    if (!ended_ && t1 >= loop_.timeout - kSameTime)
+      end(Outcome::timeout, fmt::format("not at the goal after {:.6g} s", loop_.timeout));
+    if (!ended_ && solved(cycle.plan)) {
+      signal_ = ControlSignal(cycle.plan);
+      drive_.plant.back().control = signal_.at(t_);
+      cycle.used = true;
+    }
+    drive_.cycles.push_back(std::move(cycle));
+    if (hooks_.on_cycle) hooks_.on_cycle(drive_.cycles.back());
+  }
+
+  /// Predicts the state at t0 + tex on the current signal and plans from there.
+  Cycle plan_ahead(int index, double t0) {
+    Cycle cycle;
+    cycle.index = index;
+    cycle.t0 = t0;
+    cycle.tex = loop_.tex;
+    solve_time_ = 0;
+    try {
+      cycle.X0p = plant_.predict(state_, signal_, t0, t0 + loop_.tex);
+    } catch (const PlantError& error) {
+      cycle.X0p.fill(std::nan(""));
+      cycle.plan.report.status = fmt::format("no prediction: {}", error.what());
+      return cycle;
+    }
+    planner::Request request;
+    request.X0p = cycle.X0p;
+    request.t0 = t0;
+    request.tex = loop_.tex;
+    request.time_limit = loop_.solve_time_limit;
+    request.interrupted = hooks_.interrupted;
+    const Timer timer;
+    cycle.plan = plan_(request);
+    solve_time_ = std::max(timer.wall(), cycle.plan.report.wall_s);
+    return cycle;
+  }
+
+  static bool solved(const planner::Plan& plan) {
+    return plan.report.solved && ControlSignal::usable(plan);
+  }
+
+  /// Ends the drive at t0 when planning took too long or failed.
+  void judge(const Cycle& cycle) {
+    if (interrupted()) return end(Outcome::interrupted, "interrupted while planning");
+    const bool is_solved = solved(cycle.plan);
+    // A solve cut off by its time limit may stop a little short of it.
+    const double limit = loop_.solve_time_limit * (is_solved ? 1 : 0.99);
+    if (solve_time_ > limit)
+      return end(Outcome::solve_time,
+                 fmt::format("the solve of cycle {} took {:.3g} s, over {:.6g} s", cycle.index,
+                             solve_time_, loop_.solve_time_limit));
+    if (is_solved || loop_.on_failure == OnFailure::last_plan) return;
+    end(Outcome::not_optimal,
+        fmt::format("the NLP of cycle {} was not solved: {}", cycle.index,
+                    cycle.plan.report.solved ? "the plan has no usable controls"
+                                             : cycle.plan.report.status));
+  }
+
+  /// Lets the plant drive on the current signal until `t_end` or the first event.
+  void drive_until(double t_end) {
+    for (const double t1 : plant_.instants(signal_, t_, t_end)) {
+      if (interrupted()) return end(Outcome::interrupted, "interrupted while driving");
+      Stretch stretch{
+          t_, t1, state_, {}, [&](double t) { return plant_.advance(state_, signal_, t_, t); }};
+      try {
+        stretch.state1 = stretch.at(t1);
+        const auto event = watch_.pass(stretch);
+        state_ = event ? stretch.at(event->t) : stretch.state1;
+        t_ = event ? event->t : t1;
+        record();
+        if (event) return end_by(*event);
+      } catch (const PlantError& error) {
+        return end(Outcome::not_optimal, fmt::format("no usable plan was left: {}", error.what()));
+      }
+    }
+  }
+
+  void check_goal() {
+    const double dx = std::abs(state_[vehicle::X] - scenario_.goal.x);
+    const double dy = std::abs(state_[vehicle::Y] - scenario_.goal.y);
+    if (dx > scenario_.goal.sigma || dy > scenario_.goal.sigma) return;
+    end(Outcome::goal, fmt::format("entered the goal's square at {:.6g} s, arrived at the check at "
+                                   "{:.6g} s",
+                                   watch_.goal_time().value_or(t_), t_));
+  }
+
+  void end_by(const Event& event) {
+    drive_.hit = event.what;
+    const auto place = fmt::format("at {:.6g} s at ({:.6g}, {:.6g}), {:.4g} m/s", t_,
+                                   state_[vehicle::X], state_[vehicle::Y], state_[vehicle::UX]);
+    end(event.outcome, event.outcome == Outcome::crash
+                           ? fmt::format("hit {} {}", event.what, place)
+                           : fmt::format("the {} wheel's load fell below {:.6g} N {}", event.what,
+                                         loop_.Fz_failure, place));
+  }
+
+  void end(Outcome outcome, std::string message) {
+    drive_.outcome = outcome;
+    drive_.message = std::move(message);
+    ended_ = true;
+  }
+
+  bool interrupted() const { return hooks_.interrupted && hooks_.interrupted(); }
+
+  void record() {
+    if (!drive_.plant.empty() && t_ <= drive_.plant.back().t) return;
+    drive_.plant.push_back({t_, state_, signal_.at(t_), plant_.dynamics().wheel_loads(state_),
+                            watch_.clearance(t_, state_)});
+  }
+
+  Drive finish() {
+    drive_.time = t_;
+    drive_.goal_time = watch_.goal_time();
+    if (drive_.outcome == Outcome::goal && !drive_.goal_time) drive_.goal_time = t_;
+    drive_.least_clearance = watch_.least_clearance();
+    drive_.least_clearance_t = watch_.least_clearance_t();
+    drive_.least_clearance_obstacle = watch_.least_clearance_obstacle();
+    drive_.least_wheel_load = watch_.least_wheel_load();
+    return std::move(drive_);
+  }
+
+  const Scenario& scenario_;
+  const LoopSettings& loop_;
+  const PlanFunction& plan_;
+  const LoopHooks& hooks_;
+  Plant plant_;
+  Watch watch_;
+  vehicle::State state_;
+  double t_ = 0;
+  ControlSignal signal_;  // straight on at constant speed until the first plan takes over
+  double solve_time_ = 0;
+  bool ended_ = false;
+  Drive drive_;
+};
+
+}  // namespace
+
+Drive drive(const Scenario& scenario, const PlanFunction& plan, const LoopHooks& hooks) {
+  check(scenario, scenario.name.empty() ? "scenario" : scenario.name);
+  return ClosedLoop(scenario, plan, hooks).run();
+}
+
+}  // namespace slalom::sim

@@ -1,0 +1,104 @@
+#include "slalom/sim/plant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+
+namespace slalom::sim {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using vehicle::Control;
+using vehicle::State;
+
+/// Attempts an interval may take before the state counts as lost.
+constexpr int kMaxAttempts = 20000;
+/// Knots nearer than this to another instant are no instants of their own [s].
+constexpr double kSameInstant = 1e-7;
+
+using Method = odeint::runge_kutta_fehlberg78<State>;
+/// Copied for every integration; static, so that its scratch arrays start as zeros.
+const Method kMethod;
+
+bool finite(const State& state) {
+  return std::all_of(state.begin(), state.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+Plant::Plant(const vehicle::Parameters& vehicle, double tolerance, double sample_step)
+    : dynamics_(vehicle), tolerance_(tolerance), sample_step_(sample_step) {}
+
+State Plant::advance(const State& state, const ControlSignal& signal, double t0, double t1) const {
+  const double length = t1 - t0;
+  if (!(length > 0)) return state;
+  const Control first = signal.at(t0), last = signal.at(t1);
+  const auto rhs = [&](const State& x, State& dxdt, double t) {
+    Control control;
+    for (std::size_t i = 0; i < vehicle::kControls; ++i)
+      control[i] = first[i] + (last[i] - first[i]) * (t / length);
+    dxdt = dynamics_.derivative(x, control);
+  };
+
+  auto stepper = odeint::make_controlled(tolerance_, tolerance_, kMethod);
+  State x = state;
+  x[vehicle::X] = x[vehicle::Y] = 0;
+  double t = 0, dt = length;
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+    const bool reaches_end = dt >= length - t;
+    dt = std::min(dt, length - t);
+    const State before = x;
+    const double t_before = t, dt_before = dt;
+    const auto result = stepper.try_step(rhs, x, t, dt);
+    if (!finite(x)) {
+      x = before;
+      t = t_before;
+      dt = dt_before / 4;
+      continue;
+    }
+    if (result == odeint::success && reaches_end) {
+      x[vehicle::X] += state[vehicle::X];
+      x[vehicle::Y] += state[vehicle::Y];
+      return x;
+    }
+  }
+  throw PlantError(fmt::format(
+      "the plant cannot be integrated past t = {:.9g} s (ux = {:.6g} m/s, ax = {:.6g} m/s^2)",
+      t0 + t, x[vehicle::UX], x[vehicle::AX]));
+}
+
+std::vector<double> Plant::instants(const ControlSignal& signal, double t0, double t1) const {
+  std::vector<double> corners;
+  const double end = t1 - t0 > 10 * kSwapGap ? t1 - kSwapGap : t1;
+  for (const double knot : signal.knots())
+    if (knot > (corners.empty() ? t0 : corners.back()) + kSameInstant && knot < end - kSameInstant)
+      corners.push_back(knot);
+  corners.push_back(end);
+  if (end < t1) corners.push_back(t1);
+
+  std::vector<double> result;
+  double from = t0;
+  for (const double to : corners) {
+    const auto pieces = std::max(1., std::ceil((to - from) / sample_step_ - 1e-9));
+    for (double i = 1; i < pieces; ++i) result.push_back(from + (to - from) * (i / pieces));
+    result.push_back(to);
+    from = to;
+  }
+  return result;
+}
+
+State Plant::predict(State state, const ControlSignal& signal, double t0, double t1) const {
+  for (const double t : instants(signal, t0, t1)) {
+    state = advance(state, signal, t0, t);
+    t0 = t;
+  }
+  return state;
+}
+
+}  // namespace slalom::sim

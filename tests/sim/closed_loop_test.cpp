@@ -1,0 +1,361 @@
+// How the loop takes turns, and every way a drive can end.
+
+#include "slalom/sim/closed_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include "sim/fakes.hpp"
+#include "sim/reintegrate.hpp"
+#include "slalom/base/error.hpp"
+
+namespace slalom::sim {
+namespace {
+
+using testing::open_field;
+using testing::plan_of;
+using testing::straight_on;
+using testing::unsolved;
+using vehicle::Control;
+
+/// What a fake planner was asked.
+struct Requests {
+  std::vector<planner::Request> all;
+  PlanFunction answering(const PlanFunction& plan) {
+    return [this, plan](const planner::Request& request) {
+      all.push_back(request);
+      return plan(request);
+    };
+  }
+};
+
+TEST(ClosedLoop, OneRequestACycleWithThePredictedState) {
+  auto s = open_field();
+  s.loop.timeout = 2;
+  s.loop.solve_time_limit = 7;
+  Requests requests;
+  const Drive d = drive(s, requests.answering(testing::wavy));
+  ASSERT_EQ(requests.all.size(), 4u);
+  ASSERT_EQ(d.cycles.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(requests.all[i].t0, .5 * static_cast<double>(i));
+    EXPECT_EQ(requests.all[i].tex, .5);
+    EXPECT_EQ(requests.all[i].time_limit, 7);
+    EXPECT_EQ(d.cycles[i].index, static_cast<int>(i) + 1);
+    EXPECT_EQ(d.cycles[i].t0, requests.all[i].t0);
+    EXPECT_EQ(d.cycles[i].X0p, requests.all[i].X0p);
+    EXPECT_EQ(d.cycles[i].used, i < 3);  // the drive ended before the fourth took over
+  }
+}
+
+TEST(ClosedLoop, PredictionIsWhereThePlantArrives) {
+  auto s = open_field();
+  s.vehicle.tyre_asymmetry = true;
+  s.loop.tex = .37;
+  const Drive d = drive(s, testing::wavy);
+  int compared = 0;
+  for (const auto& cycle : d.cycles)
+    for (const auto& sample : d.plant)
+      if (std::abs(sample.t - (cycle.t0 + cycle.tex)) < 1e-12) {
+        ++compared;
+        for (std::size_t i = 0; i < vehicle::kStates; ++i)
+          EXPECT_NEAR(sample.state[i], cycle.X0p[i], 1e-8) << vehicle::kStateNames[i];
+      }
+  EXPECT_GE(compared, 12);
+}
+
+TEST(ClosedLoop, WarmUpIsOneMoreCallWithTheFirstRequest) {
+  auto s = open_field();
+  s.loop.timeout = 1;
+  s.loop.warm_up = true;
+  Requests requests;
+  const Drive d = drive(s, requests.answering(straight_on));
+  ASSERT_EQ(requests.all.size(), 3u);
+  EXPECT_EQ(requests.all[0].t0, 0);
+  EXPECT_EQ(requests.all[0].X0p, requests.all[1].X0p);
+  ASSERT_EQ(d.cycles.size(), 3u);
+  EXPECT_EQ(d.cycles[0].index, 0);
+  EXPECT_FALSE(d.cycles[0].used);
+  EXPECT_EQ(d.cycles[1].index, 1);
+  EXPECT_TRUE(d.cycles[1].used);
+}
+
+TEST(ClosedLoop, FailedWarmUpDoesNotEndTheDrive) {
+  auto s = open_field();
+  s.loop.warm_up = true;
+  int calls = 0;
+  const Drive d =
+      drive(s, [&](const auto& r) { return calls++ == 0 ? unsolved(r) : straight_on(r); });
+  EXPECT_EQ(d.outcome, Outcome::timeout);
+}
+
+TEST(ClosedLoop, FirstHorizonIsStraightOnAndEachPlanTakesOverAtItsStart) {
+  auto s = open_field();
+  s.loop.timeout = 2;
+  // The plan of cycle n has steering rate n/100 at its start.
+  int calls = 0;
+  const Drive d = drive(s, [&](const planner::Request& r) {
+    const double rate = .01 * ++calls;
+    return plan_of(
+        r,
+        [rate](double t) {
+          return Control{rate * (1 + t), 0};
+        },
+        2, 1);
+  });
+  for (const auto& p : d.plant) {
+    const auto horizon = std::floor(p.t / .5);  // 0: no plan yet; n: driven on plan n
+    const double expected = p.t == 2 ? .03 * 1.5 : .01 * horizon * (1 + p.t - .5 * horizon);
+    EXPECT_NEAR(p.control[vehicle::SR], expected, 1e-12) << p.t;
+  }
+  // Steering angle: the integral of those rates.
+  EXPECT_NEAR(d.plant.back().state[vehicle::SA], .06 * (.5 + .125), 1e-9);
+}
+
+TEST(ClosedLoop, SamplesAreCloseUniqueAndIncludeEveryHorizonsEnd) {
+  auto s = open_field();
+  s.loop.tex = .3;
+  s.loop.timeout = 2;  // cuts the seventh horizon short
+  const Drive d = drive(s, testing::wavy);
+  EXPECT_EQ(d.plant.front().t, 0);
+  EXPECT_EQ(d.plant.back().t, 2);
+  EXPECT_EQ(d.time, 2);
+  std::set<double> times;
+  for (std::size_t i = 0; i < d.plant.size(); ++i) {
+    EXPECT_TRUE(times.insert(d.plant[i].t).second);
+    if (i > 0) {
+      EXPECT_LE(d.plant[i].t - d.plant[i - 1].t, .02 + 1e-12);
+      EXPECT_GT(d.plant[i].t, d.plant[i - 1].t);
+    }
+  }
+  for (int n = 1; n <= 6; ++n) EXPECT_EQ(times.count(n * .3), 1u) << n;
+}
+
+TEST(ClosedLoop, TimeoutEndsTheDrive) {
+  auto s = open_field();
+  s.loop.timeout = 1.2;
+  const Drive d = drive(s, straight_on);
+  EXPECT_EQ(d.outcome, Outcome::timeout);
+  EXPECT_EQ(d.time, 1.2);
+  EXPECT_FALSE(d.goal_time);
+}
+
+TEST(ClosedLoop, GoalAtTheLastCheckBeatsTheTimeout) {
+  auto s = open_field();
+  s.loop.timeout = 2;
+  s.goal = {0, 34, 1.5, 1};
+  EXPECT_EQ(drive(s, straight_on).outcome, Outcome::goal);
+  s.loop.timeout = 1.95;  // within the square, but not at the end of an execution horizon
+  EXPECT_EQ(drive(s, straight_on).outcome, Outcome::timeout);
+}
+
+TEST(ClosedLoop, UnsolvedStopsAtTheTimeItWasPlanned) {
+  auto s = open_field();
+  int calls = 0;
+  const Drive d =
+      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : unsolved(r); });
+  EXPECT_EQ(d.outcome, Outcome::not_optimal);
+  EXPECT_EQ(d.time, 1.5);
+  EXPECT_EQ(d.plant.back().t, 1.5);
+  ASSERT_EQ(d.cycles.size(), 4u);
+  EXPECT_FALSE(d.cycles.back().used);
+  EXPECT_NE(d.message.find("cycle 4"), std::string::npos);
+  EXPECT_NE(d.message.find("iteration limit"), std::string::npos);
+}
+
+TEST(ClosedLoop, SolvedPlanWithoutUsableControlsCountsAsUnsolved) {
+  const Drive d = drive(open_field(), [](const auto& r) {
+    auto plan = straight_on(r);
+    plan.controls[2][0] = std::nan("");
+    return plan;
+  });
+  EXPECT_EQ(d.outcome, Outcome::not_optimal);
+  EXPECT_NE(d.message.find("no usable controls"), std::string::npos);
+}
+
+TEST(ClosedLoop, LastPlanGoesOnAndHoldsItsLastControl) {
+  auto s = open_field();
+  s.loop.on_failure = OnFailure::last_plan;
+  s.loop.timeout = 3;
+  int calls = 0;
+  const Drive d = drive(s, [&](const planner::Request& r) {
+    if (++calls > 1) return unsolved(r);
+    return plan_of(
+        r,
+        [](double t) {
+          return Control{0, .4 * t};
+        },
+        1, 1);
+  });
+  EXPECT_EQ(d.outcome, Outcome::timeout);
+  EXPECT_EQ(d.cycles.size(), 6u);
+  EXPECT_TRUE(d.cycles[0].used);
+  for (std::size_t i = 1; i < 6; ++i) EXPECT_FALSE(d.cycles[i].used);
+  for (const auto& p : d.plant) {
+    const double expected = p.t < .5 ? 0 : .4 * std::min(p.t - .5, 1.);
+    EXPECT_NEAR(p.control[vehicle::JX], expected, 1e-12) << p.t;
+  }
+  EXPECT_NEAR(d.plant.back().state[vehicle::AX], .2 + .4 * 1.5, 1e-9);
+}
+
+TEST(ClosedLoop, LastPlanBeforeAnyPlanIsStraightOn) {
+  auto s = open_field();
+  s.loop.on_failure = OnFailure::last_plan;
+  s.goal = {0, 34, 1.5, 1};
+  EXPECT_EQ(drive(s, unsolved).outcome, Outcome::goal);
+}
+
+TEST(ClosedLoop, SolveTimeOverTheLimitEndsTheDriveEvenIfSolved) {
+  auto s = open_field();
+  s.loop.on_failure = OnFailure::last_plan;  // the limit is a failure of its own
+  int calls = 0;
+  const Drive d = drive(s, [&](const auto& r) {
+    auto plan = straight_on(r);
+    plan.report.wall_s = ++calls < 3 ? 299 : 301;
+    return plan;
+  });
+  EXPECT_EQ(d.outcome, Outcome::solve_time);
+  EXPECT_EQ(d.time, 1);
+}
+
+TEST(ClosedLoop, SolveCutOffByItsTimeLimitIsSolveTime) {
+  auto s = open_field();
+  s.loop.solve_time_limit = .05;
+  const Drive d = drive(s, [](const planner::Request& r) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(r.time_limit));
+    return unsolved(r);
+  });
+  EXPECT_EQ(d.outcome, Outcome::solve_time);
+  EXPECT_EQ(d.time, 0);
+}
+
+TEST(ClosedLoop, InterruptedBetweenCyclesWhilePlanningAndWhileDriving) {
+  const auto s = open_field();
+  // At once: nothing is planned.
+  Requests requests;
+  LoopHooks hooks;
+  hooks.interrupted = [] { return true; };
+  Drive d = drive(s, requests.answering(straight_on), hooks);
+  EXPECT_EQ(d.outcome, Outcome::interrupted);
+  EXPECT_EQ(d.time, 0);
+  EXPECT_TRUE(requests.all.empty());
+  EXPECT_EQ(d.plant.size(), 1u);
+
+  // While planning: the solver is handed the hook; its unsolved answer does not hide the reason.
+  bool pressed = false;
+  hooks.interrupted = [&] { return pressed; };
+  d = drive(
+      s,
+      [&](const planner::Request& r) {
+        if (r.t0 < 1) return straight_on(r);
+        pressed = true;
+        EXPECT_TRUE(r.interrupted && r.interrupted());
+        return unsolved(r);
+      },
+      hooks);
+  EXPECT_EQ(d.outcome, Outcome::interrupted);
+  EXPECT_EQ(d.time, 1);
+
+  // While driving: within the horizon, at a sample.
+  int polls_after_plan = 0;
+  hooks.interrupted = [&] { return !requests.all.empty() && ++polls_after_plan > 10; };
+  d = drive(s, requests.answering(straight_on), hooks);
+  EXPECT_EQ(d.outcome, Outcome::interrupted);
+  EXPECT_GT(d.time, .1);
+  EXPECT_LT(d.time, .3);
+  EXPECT_EQ(d.plant.back().t, d.time);
+}
+
+TEST(ClosedLoop, OnCycleIsCalledOncePerCycle) {
+  auto s = open_field();
+  s.loop.warm_up = true;
+  s.loop.timeout = 1;
+  std::vector<int> seen;
+  LoopHooks hooks;
+  hooks.on_cycle = [&](const Cycle& cycle) { seen.push_back(cycle.index); };
+  (void)drive(s, straight_on, hooks);
+  EXPECT_EQ(seen, (std::vector<int>{0, 1, 2}));
+}
+
+TEST(ClosedLoop, LostPlantIsAnOutcomeNotAnException) {
+  auto s = open_field();
+  s.loop.on_failure = OnFailure::last_plan;
+  s.loop.timeout = 60;
+  int calls = 0;
+  const Drive d = drive(s, [&](const planner::Request& r) {
+    if (++calls > 1) return unsolved(r);
+    return plan_of(r, [](double) { return Control{.5, 1e200}; });
+  });
+  EXPECT_EQ(d.outcome, Outcome::not_optimal) << d.message;
+  EXPECT_NE(d.message.find("no usable plan was left"), std::string::npos) << d.message;
+}
+
+// A drive's controls, re-integrated by another method, step and model, give its states.
+TEST(ClosedLoop, ReintegratedPlansGiveTheDrive) {
+  auto s = open_field();
+  s.vehicle.tyre_asymmetry = true;
+  s.loop.timeout = 6;
+  s.loop.tex = .4;
+  const Drive d = drive(s, testing::wavy);
+  ASSERT_EQ(d.outcome, Outcome::timeout) << d.message;
+  vehicle::State x = s.start;
+  double t = 0;
+  for (const auto& cycle : d.cycles) {
+    const double end = cycle.t0 + cycle.tex;
+    // Driven until `end`: the plan of the cycle before, which starts at this cycle's t0.
+    const auto* plan =
+        cycle.index == 1 ? nullptr : &d.cycles[static_cast<std::size_t>(cycle.index) - 2].plan;
+    std::vector<double> corners = {t};
+    if (plan)
+      for (const double node : plan->t)
+        if (plan->t_start + node > t + 1e-9 && plan->t_start + node < end - 1e-9)
+          corners.push_back(plan->t_start + node);
+    corners.push_back(end);
+    x = testing::integrate_rk4(
+        x, [&](double at) { return plan ? ControlSignal(*plan).at(at) : Control{}; }, corners);
+    t = end;
+    for (const auto& sample : d.plant) {
+      if (std::abs(sample.t - end) > 1e-12) continue;
+      EXPECT_NEAR(sample.state[vehicle::X], x[vehicle::X], 1e-4 / 100);
+      EXPECT_NEAR(sample.state[vehicle::Y], x[vehicle::Y], 1e-4 / 100);
+      EXPECT_NEAR(sample.state[vehicle::PSI], x[vehicle::PSI], 1e-5 / 100);
+      EXPECT_NEAR(sample.state[vehicle::SA], x[vehicle::SA], 1e-5 / 100);
+    }
+  }
+}
+
+// The same from the recorded samples alone, as somebody with the table of the drive would do it.
+TEST(ClosedLoop, ReintegratedSamplesGiveTheDrive) {
+  auto s = open_field();
+  s.vehicle.tyre_asymmetry = true;
+  s.loop.timeout = 6;
+  const Drive d = drive(s, testing::wavy);
+  vehicle::State x = s.start;
+  for (std::size_t i = 0; i + 1 < d.plant.size(); ++i) {
+    const auto &a = d.plant[i], &b = d.plant[i + 1];
+    const auto control = [&](double t) {
+      const double share = (t - a.t) / (b.t - a.t);
+      return Control{a.control[0] + share * (b.control[0] - a.control[0]),
+                     a.control[1] + share * (b.control[1] - a.control[1])};
+    };
+    x = testing::integrate_rk4(x, control, {a.t, b.t});
+    EXPECT_NEAR(b.state[vehicle::X], x[vehicle::X], 1e-4 / 100);
+    EXPECT_NEAR(b.state[vehicle::Y], x[vehicle::Y], 1e-4 / 100);
+    EXPECT_NEAR(b.state[vehicle::PSI], x[vehicle::PSI], 1e-5 / 100);
+  }
+}
+
+TEST(ClosedLoop, OutcomesHaveTheNamesFilesUse) {
+  EXPECT_STREQ(to_string(Outcome::goal), "goal");
+  EXPECT_STREQ(to_string(Outcome::wheel_lift), "wheel_lift");
+  EXPECT_STREQ(to_string(Outcome::not_optimal), "not_optimal");
+  EXPECT_STREQ(to_string(Outcome::interrupted), "interrupted");
+  EXPECT_EQ(outcome_names().size(), 7u);
+}
+
+}  // namespace
+}  // namespace slalom::sim

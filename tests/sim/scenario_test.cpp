@@ -1,0 +1,122 @@
+#include "slalom/sim/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <set>
+
+#include "sim/fakes.hpp"
+#include "slalom/base/error.hpp"
+
+namespace slalom::sim {
+namespace {
+
+std::string message(const std::function<void(Scenario&)>& change) {
+  Scenario s = testing::open_field();
+  s.obstacles = {testing::circle("O1", 3, 30, 4)};
+  change(s);
+  try {
+    check(s, "E.yaml");
+  } catch (const InvalidValue& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+void expect_refused(const std::function<void(Scenario&)>& change, const std::string& part) {
+  const auto text = message(change);
+  EXPECT_EQ(text.rfind("E.yaml", 0), 0u) << text;
+  EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Scenario, DefaultsAndLimitsAreAccepted) {
+  EXPECT_EQ(message([](Scenario&) {}), "accepted");
+  EXPECT_EQ(message([](Scenario& s) {
+              s.start[vehicle::UX] = 29;
+              s.start[vehicle::AX] = -.5;
+            }),
+            "accepted");
+  EXPECT_EQ(message([](Scenario& s) { s.loop.tex = 10; }), "accepted");
+  EXPECT_EQ(message([](Scenario& s) { s.region.x_min = 0; }), "accepted");
+  // On the grown edge is outside.
+  EXPECT_EQ(message([](Scenario& s) { s.obstacles[0] = testing::circle("O1", 6, 0, 4); }),
+            "accepted");
+}
+
+TEST(Scenario, StartOutsideItsBoundsIsRefused) {
+  expect_refused([](Scenario& s) { s.start[vehicle::PSI] = 7; }, "start psi: found 7, expected");
+  expect_refused([](Scenario& s) { s.start[vehicle::SA] = -.6; }, "start sa: found -0.6");
+  expect_refused([](Scenario& s) { s.start[vehicle::UX] = 29.5; }, "start ux: found 29.5");
+  expect_refused([](Scenario& s) { s.start[vehicle::UX] = 0; }, "start ux: found 0");
+  expect_refused([](Scenario& s) { s.start[vehicle::AX] = 2; }, "start ax: found 2");
+  expect_refused([](Scenario& s) { s.start[vehicle::AX] = -6; }, "start ax: found -6");
+  expect_refused([](Scenario& s) { s.region.x_min = .5; }, "start x: found 0");
+  expect_refused([](Scenario& s) { s.region.y_max = -1; }, "start y: found 0");
+  expect_refused([](Scenario& s) { s.start[vehicle::V] = kNaN; }, "start v: found nan");
+  expect_refused([](Scenario& s) { s.loop.Fz_failure = 6500; }, "Fz_r");
+}
+
+TEST(Scenario, StartInsideAGrownObstacleIsRefused) {
+  expect_refused([](Scenario& s) { s.obstacles[0] = testing::circle("O1", 5.9, 0, 4); },
+                 "inside obstacle O1 grown by sm_crash = 2 m");
+  expect_refused([](Scenario& s) { s.obstacles[0] = {"O2", 0, 4.9, 50, 3, 0, 0}; }, "O2");
+}
+
+TEST(Scenario, ObstaclesGoalAndRegionAreChecked) {
+  expect_refused([](Scenario& s) { s.obstacles[0].a = 0; }, "obstacle O1 a: found 0");
+  expect_refused([](Scenario& s) { s.obstacles[0].b = -4; }, "obstacle O1 b: found -4");
+  expect_refused([](Scenario& s) { s.obstacles[0].vy = kNaN; }, "obstacle O1 vy: found nan");
+  expect_refused([](Scenario& s) { s.obstacles[0].x = 1 / 0.; }, "obstacle O1 x: found inf");
+  expect_refused([](Scenario& s) { s.goal.sigma = 0; }, "goal sigma: found 0");
+  expect_refused([](Scenario& s) { s.goal.y = kNaN; }, "goal y");
+  expect_refused([](Scenario& s) { s.goal.psi = kNaN; }, "goal psi");
+  expect_refused(
+      [](Scenario& s) {
+        s.region.x_min = 3;
+        s.region.x_max = 2;
+      },
+      "region");
+  expect_refused([](Scenario& s) { s.region.y_min = kNaN; }, "region");
+}
+
+TEST(Scenario, SettingsOfEveryPartAreChecked) {
+  expect_refused([](Scenario& s) { s.loop.tex = 0; }, "tex = 0");
+  expect_refused([](Scenario& s) { s.loop.tex = -.5; }, "tex = -0.5");
+  expect_refused([](Scenario& s) { s.loop.tex = kNaN; }, "tex = nan");
+  expect_refused([](Scenario& s) { s.loop.tex = 10.5; },
+                 "tex = 10.5, expected at most tf_max = 10");
+  expect_refused([](Scenario& s) { s.loop.timeout = 0; }, "timeout = 0");
+  expect_refused([](Scenario& s) { s.loop.solve_time_limit = -1; }, "solve_time_limit");
+  expect_refused([](Scenario& s) { s.loop.plant_tolerance = 1e-3; }, "plant_tolerance");
+  expect_refused([](Scenario& s) { s.loop.sample_step = .1; }, "sample_step");
+  expect_refused([](Scenario& s) { s.planner.kappa = 60; }, "L_range");
+  expect_refused([](Scenario& s) { s.vehicle.Izz = 0; }, "Izz = 0");
+}
+
+TEST(Scenario, DriveRefusesWhatCheckRefuses) {
+  auto s = testing::open_field();
+  s.loop.tex = -1;
+  EXPECT_THROW((void)drive(s, testing::straight_on), InvalidValue);
+}
+
+TEST(Scenario, EveryLoopSettingIsAnOption) {
+  std::set<std::string> names;
+  const LoopSettings defaults;
+  for (const auto& entry : loop_options().entries()) {
+    EXPECT_TRUE(names.insert(entry.info.name).second);
+    EXPECT_FALSE(entry.info.doc.empty());
+    EXPECT_NO_THROW((void)entry.info.checked(entry.get(defaults), "defaults")) << entry.info.name;
+  }
+  EXPECT_EQ(names,
+            (std::set<std::string>{"tex", "timeout", "solve_time_limit", "on_failure", "warm_up",
+                                   "sm_crash", "Fz_failure", "plant_tolerance", "sample_step"}));
+  LoopSettings loop;
+  loop_options().set(loop, *loop_options().find("on_failure"), std::string("last_plan"), "test");
+  EXPECT_EQ(loop.on_failure, OnFailure::last_plan);
+}
+
+}  // namespace
+}  // namespace slalom::sim
