@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slalom/sim/drive.hpp"
+#include "slalom/sim/scenario.hpp"
+#include "slalom/study/reproduction.hpp"
+#include "slalom/study/svg.hpp"
+
+namespace slalom::study {
+
+/// One vehicle of a map: its path, and itself at some instants.
+struct MapVehicle {
+  const sim::Drive* drive = nullptr;
+  std::string label;  ///< in the legend; empty: not there
+  Stroke stroke;
+  std::vector<double> instants;             ///< [s]; those after the drive's end are left out
+  std::vector<PaperDrive::Snapshot> paper;  ///< positions to mark beside it
+};
+
+/// A top view of a scenario for print, to scale.
+struct Map {
+  const sim::Scenario* scenario = nullptr;
+  std::vector<MapVehicle> vehicles;
+  std::vector<double> obstacle_instants;  ///< [s]; the last is drawn darkest
+};
+
+/// Thirds of a drive, its start and end included [s].
+std::vector<double> thirds(const sim::Drive& drive);
+
+/// The whole course: upright, or, if it is long and narrow, in three strips that lie one below the
+/// other, driven from left to right.
+std::string map_svg(const std::string& name, const std::string& title, const Map& map);
+
+/// A square of `half` metres to each side about (x, y), at the maps' instants.
+std::string zoom_svg(const std::string& name, const std::string& title, const Map& map, double x,
+                     double y, double half);
+
+}  // namespace slalom::study

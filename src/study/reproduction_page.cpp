@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "claims.hpp"
+#include "comparison.hpp"
+#include "html.hpp"
+#include "reproduction_tables.hpp"
+#include "slalom/study/reproduction.hpp"
+#include "viewer_assets.hpp"
+
+namespace slalom::study {
+namespace {
+
+std::string plain_svg(const std::string& document) {
+  const auto start = document.find("<svg");
+  return start == document.npos ? document : document.substr(start);
+}
+
+std::string figure_html(const Figure& figure) {
+  return fmt::format("<figure class=\"figure card\">\n{}<figcaption>{} {}</figcaption></figure>\n",
+                     plain_svg(figure.svg), escape(figure.caption),
+                     link("figures/" + figure.file, "SVG"));
+}
+
+/// One row of figures an environment, as the paper sets them: traces, paths, a closer look.
+std::string figures_html(const std::vector<ReproducedDrive>& drives, const PaperData& paper) {
+  std::string html;
+  const auto figures = reproduction_figures(drives, paper);
+  for (const auto& group : by_environment(drives)) {
+    const auto& scenario = group.front()->scenario;
+    html += fmt::format("<h3 id=\"{}\">{}</h3><p class=\"sub\">{}</p><div class=\"figures\">\n",
+                        plain_name(scenario.name), escape(scenario.name), escape(scenario.title));
+    for (const auto& figure : figures)
+      if (figure.file.rfind(plain_name(scenario.name) + "_", 0) == 0) html += figure_html(figure);
+    html += "</div>\n";
+  }
+  return html;
+}
+
+/// "as in the paper" counts for the page's head.
+std::string summary(const std::vector<ReproducedDrive>& drives, const PaperData& paper) {
+  int printed = 0, same = 0, compared = 0, within = 0;
+  for (const auto& one : drives) {
+    const auto* drive = find(paper, one);
+    if (drive == nullptr) continue;
+    ++printed;
+    same += drive->outcome == sim::to_string(one.drive.outcome) &&
+            (drive->hit.empty() || drive->hit == one.drive.hit);
+    for (const auto& snapshot : drive->snapshots) {
+      const auto ours = compare(one.drive, *drive, snapshot);
+      if (!ours || !ours->comparable || snapshot.t == 0) continue;
+      ++compared;
+      within += ours->within;
+    }
+  }
+  const auto list = claims(drives);
+  const auto holding =
+      std::count_if(list.begin(), list.end(), [](const auto& c) { return c.holds; });
+  const auto fact = [](const std::string& name, long count, long of) {
+    return fmt::format("<div><dt>{}</dt><dd class=\"{}\">{} <small>of {}</small></dd></div>\n",
+                       name, count == of ? "good" : "bad", count, of);
+  };
+  return fact("Drives that end as the paper’s", same, printed) +
+         fact("Findings that hold", holding, static_cast<long>(list.size())) +
+         fact("Comparable positions within tolerance", within, compared);
+}
+
+std::string settings_line(const std::vector<ReproducedDrive>& drives) {
+  if (drives.empty()) return "No drive.";
+  const auto& s = drives.front().scenario;
+  return fmt::format(
+      "{} drives by the same settings: barrier floor {:g}, execution horizon {:g} s.",
+      drives.size(), s.planner.floor, s.loop.tex);
+}
+
+std::string note_html(const PaperData& paper, const char* topic) {
+  const auto text = note(paper, topic);
+  return text.empty() ? "" : fmt::format("<p class=\"remark\">{}</p>\n", escape(text));
+}
+
+}  // namespace
+
+std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const PaperData& paper) {
+  return fill(viewer::reproduction_html,
+              {{"css", fmt::format("{}\n{}", viewer::base_css, viewer::reproduction_css)},
+               {"settings", escape(settings_line(drives))},
+               {"summary", summary(drives, paper)},
+               {"floor_note", note_html(paper, "floor")},
+               {"claims", claims_table(drives)},
+               {"outcomes", outcome_table(drives, paper) + note_html(paper, "outcomes")},
+               {"positions", position_table(drives, paper) + note_html(paper, "positions")},
+               {"effort", effort_table(drives, paper) + note_html(paper, "effort")},
+               {"speeds", speed_table(drives, paper) + note_html(paper, "speeds")},
+               {"solve_times", solve_time_table(drives) + note_html(paper, "solve_times")},
+               {"figures", figures_html(drives, paper)}});
+}
+
+}  // namespace slalom::study

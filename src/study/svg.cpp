@@ -1,0 +1,132 @@
+#include "slalom/study/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "html.hpp"
+
+namespace slalom::study {
+namespace {
+
+bool finite(Point p) {
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+/// A coordinate: two decimals are 1/7200 inch; without trailing zeros.
+std::string coordinate(double value) {
+  auto text = fmt::format("{:.2f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string attributes(const Fill& fill) {
+  if (fill.colour.empty()) return " fill=\"none\"";
+  auto text = fmt::format(" fill=\"{}\"", fill.colour);
+  if (fill.opacity < 1) text += fmt::format(" fill-opacity=\"{}\"", coordinate(fill.opacity));
+  return text;
+}
+
+std::string attributes(const Stroke& stroke) {
+  if (stroke.colour.empty()) return "";
+  auto text =
+      fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", stroke.colour, coordinate(stroke.width));
+  if (!stroke.dash.empty()) text += fmt::format(" stroke-dasharray=\"{}\"", stroke.dash);
+  if (stroke.opacity < 1) text += fmt::format(" stroke-opacity=\"{}\"", coordinate(stroke.opacity));
+  return text;
+}
+
+std::string joined(const std::vector<Point>& points) {
+  std::string text;
+  for (const auto& p : points) {
+    if (!finite(p)) continue;
+    if (!text.empty()) text += ' ';
+    text += coordinate(p.x) + "," + coordinate(p.y);
+  }
+  return text;
+}
+
+}  // namespace
+
+Svg::Svg(const std::string& name, double width, double height, std::string title)
+    : name_(plain_name(name)), title_(std::move(title)), width_(width), height_(height) {}
+
+void Svg::line(Point a, Point b, const Stroke& stroke) {
+  if (!finite(a) || !finite(b)) return;
+  body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"{}/>\n", coordinate(a.x),
+                       coordinate(a.y), coordinate(b.x), coordinate(b.y), attributes(stroke));
+}
+
+void Svg::polyline(const std::vector<Point>& points, const Stroke& stroke) {
+  std::vector<Point> part;
+  const auto flush = [&] {
+    if (part.size() > 1)
+      body_ += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke-linejoin=\"round\"{}/>\n",
+                           joined(part), attributes(stroke));
+    part.clear();
+  };
+  for (const auto& p : points) {
+    if (finite(p))
+      part.push_back(p);
+    else
+      flush();
+  }
+  flush();
+}
+
+void Svg::polygon(const std::vector<Point>& points, const Fill& fill, const Stroke& stroke) {
+  body_ += fmt::format("<polygon points=\"{}\"{}{}/>\n", joined(points), attributes(fill),
+                       attributes(stroke));
+}
+
+void Svg::rect(Point corner, double width, double height, const Fill& fill, const Stroke& stroke) {
+  if (!finite(corner) || !(width >= 0) || !(height >= 0) || !finite({width, height})) return;
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}{}/>\n",
+                       coordinate(corner.x), coordinate(corner.y), coordinate(width),
+                       coordinate(height), attributes(fill), attributes(stroke));
+}
+
+void Svg::ellipse(Point centre, double rx, double ry, const Fill& fill, const Stroke& stroke) {
+  if (!finite(centre) || !finite({rx, ry})) return;
+  body_ += fmt::format("<ellipse cx=\"{}\" cy=\"{}\" rx=\"{}\" ry=\"{}\"{}{}/>\n",
+                       coordinate(centre.x), coordinate(centre.y), coordinate(rx), coordinate(ry),
+                       attributes(fill), attributes(stroke));
+}
+
+void Svg::text(Point at, std::string_view text, const Font& font) {
+  if (!finite(at)) return;
+  const auto turned = font.rotate == 0
+                          ? std::string()
+                          : fmt::format(" transform=\"rotate({} {} {})\"", coordinate(-font.rotate),
+                                        coordinate(at.x), coordinate(at.y));
+  body_ += fmt::format(
+      "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}{}>{}</text>\n",
+      coordinate(at.x), coordinate(at.y), coordinate(font.size), font.anchor, font.colour,
+      font.bold ? " font-weight=\"600\"" : "", turned, escape(text));
+}
+
+void Svg::begin_clip(Point corner, double width, double height) {
+  const auto id = fmt::format("{}-clip{}", name_, clips_++);
+  body_ += fmt::format(
+      "<clipPath id=\"{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n"
+      "<g clip-path=\"url(#{})\">\n",
+      id, coordinate(corner.x), coordinate(corner.y), coordinate(width), coordinate(height), id);
+}
+
+void Svg::end_clip() {
+  body_ += "</g>\n";
+}
+
+std::string Svg::str() const {
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}pt\" height=\"{}pt\" "
+      "viewBox=\"0 0 {} {}\" role=\"img\" "
+      "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n<title>{}</title>\n{}</svg>\n",
+      coordinate(width_), coordinate(height_), coordinate(width_), coordinate(height_),
+      escape(title_), body_);
+}
+
+}  // namespace slalom::study

@@ -1,0 +1,97 @@
+#include "slalom/study/plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <regex>
+
+#include "study/markup.hpp"
+
+namespace slalom::study {
+namespace {
+
+TEST(Ticks, AreMultiplesOfOneTwoOrFive) {
+  for (const auto& [lo, hi, count] :
+       {std::tuple{0., 1., 5}, {-3.2, 7.9, 4}, {16.9, 19.7, 6}, {1e-5, 3e-5, 4}, {-7e6, 9e7, 5}}) {
+    const auto ticks = nice_ticks(lo, hi, count);
+    const double mantissa = ticks.step / std::pow(10., std::floor(std::log10(ticks.step) + 1e-9));
+    EXPECT_TRUE(std::abs(mantissa - 1) < 1e-9 || std::abs(mantissa - 2) < 1e-9 ||
+                std::abs(mantissa - 5) < 1e-9)
+        << ticks.step;
+    ASSERT_GE(ticks.at.size(), 2u);
+    EXPECT_LE(ticks.at.size(), static_cast<std::size_t>(count) + 1);
+    for (const double v : ticks.at) {
+      EXPECT_NEAR(v / ticks.step, std::round(v / ticks.step), 1e-9);
+      EXPECT_GE(v, lo - 1e-9 * ticks.step);
+      EXPECT_LE(v, hi + 1e-9 * ticks.step);
+    }
+  }
+}
+
+TEST(Ticks, CoverTheRange) {
+  const auto ticks = nice_ticks(0, 10, 5);
+  EXPECT_DOUBLE_EQ(ticks.step, 2);
+  EXPECT_EQ(ticks.at, (std::vector<double>{0, 2, 4, 6, 8, 10}));
+}
+
+TEST(Ticks, HaveEnoughDigitsToBeToldApart) {
+  EXPECT_EQ(nice_ticks(0, 1, 5).digits(), 1);
+  EXPECT_EQ(nice_ticks(0, .1, 4).digits(), 2);
+  EXPECT_EQ(nice_ticks(0, 500, 5).digits(), 0);
+}
+
+TEST(Ticks, OfAnEmptyRangeAreOne) {
+  EXPECT_EQ(nice_ticks(3, 3, 5).at, std::vector<double>{3});
+  EXPECT_EQ(nice_ticks(-1, 1, 0).at, std::vector<double>{0});
+}
+
+TEST(PlotSvg, IsWellFormedAndEightCentimetresWide) {
+  Plot plot{.x_label = "t [s]", .y_label = "<ux> & \"more\""};
+  plot.series = {{"a & b", {0, 1, 2}, {1, 3, 2}, {colours::blue}, true, false}};
+  plot.levels = {{2.5, "limit <1>"}};
+  const auto svg = plot_svg("name", "A title < B", plot);
+  const auto tree = testing::parse_xml(svg);
+  EXPECT_EQ(tree.get<std::string>("svg.<xmlattr>.width"), "226.77pt");
+  EXPECT_EQ(tree.get<std::string>("svg.title"), "A title < B");
+  EXPECT_EQ(testing::count(svg, "<script"), 0);
+}
+
+TEST(PlotSvg, KeepsEveryNumberFinite) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Plot plot{.x_label = "t", .y_label = "y"};
+  plot.series = {{"", {0, 1, 2, 3, 4}, {1, inf, NAN, -inf, 2}, {colours::blue}, true, false}};
+  for (const bool log : {false, true}) {
+    plot.log_y = log;
+    const auto svg = plot_svg("name", "title", plot);
+    EXPECT_NO_THROW(testing::parse_xml(svg));
+    EXPECT_FALSE(std::regex_search(svg, std::regex("\"[^\"]*\\b(nan|inf)\\b"))) << svg;
+  }
+}
+
+TEST(PlotSvg, OfNothingIsStillAPicture) {
+  for (const bool log : {false, true}) {
+    Plot plot{.x_label = "t", .y_label = "y"};
+    plot.log_y = log;
+    EXPECT_NO_THROW(testing::parse_xml(plot_svg("name", "title", plot)));
+    plot.series = {{"", {1}, {log ? 0. : 5.}, {colours::blue}, true, false}};
+    EXPECT_NO_THROW(testing::parse_xml(plot_svg("name", "title", plot)));
+  }
+  EXPECT_NO_THROW(testing::parse_xml(stacked_svg("name", "title", {})));
+}
+
+TEST(Svg, BreaksLinesAtMissingPoints) {
+  Svg svg("name", 10, 10, "title");
+  svg.polyline({{0, 0}, {1, 1}, {NAN, 0}, {2, 2}, {3, 3}, {NAN, NAN}, {4, 4}}, {colours::ink});
+  EXPECT_EQ(testing::count(svg.str(), "<polyline"), 2);
+}
+
+TEST(Svg, KeepsIdsOfDocumentsApart) {
+  Plot plot{.x_label = "t", .y_label = "y"};
+  const auto a = plot_svg("first", "title", plot), b = plot_svg("second", "title", plot);
+  EXPECT_GT(testing::count(a, "id=\"first-"), 0);
+  EXPECT_GT(testing::count(b, "id=\"second-"), 0);
+}
+
+}  // namespace
+}  // namespace slalom::study

@@ -1,0 +1,118 @@
+#include "slalom/study/reproduction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "study/markup.hpp"
+#include "study/synthetic_drive.hpp"
+
+namespace slalom::study {
+namespace {
+
+using namespace testing;
+
+ReproducedDrive reproduced(const std::string& environment, const std::string& planner,
+                           sim::Drive drive = synthetic_drive()) {
+  auto scenario = synthetic_scenario();
+  scenario.name = environment;
+  scenario.planner.name = planner;
+  return {scenario, std::move(drive), environment + "/" + planner};
+}
+
+std::vector<ReproducedDrive> all_drives() {
+  auto crash = synthetic_drive();
+  crash.outcome = sim::Outcome::crash;
+  crash.goal_time.reset();
+  crash.hit = "O2";
+  return {reproduced("E_A", "P_A"),        reproduced("E_A", "P_B"),
+          reproduced("E_A", "P_C"),        reproduced("E_A-figure", "P_A"),
+          reproduced("E_A-figure", "P_B"), reproduced("E_A-figure", "P_C"),
+          reproduced("E_B", "P_C", crash), reproduced("E_B", "P_D"),
+          reproduced("E_C", "P_C", crash), reproduced("E_C", "P_D")};
+}
+
+PaperData paper_data() {
+  PaperData paper;
+  PaperDrive drive;
+  drive.environment = "E_C";
+  drive.planner = "P_D";
+  drive.outcome = "goal";
+  drive.time = 4.5;
+  drive.note = "a note on <this> drive";
+  drive.snapshots = {{0, 0, 0, 0, 1.57, true, 2.5},
+                     {2, 2.0, 1.9, 34, 1.57, true, 2.5},
+                     {3, 3.0, 30, 34, 1.57, true, 2.5},
+                     {4.5, 4.5, 0, 76, 1.57, true, 2.5}};
+  paper.drives = {drive};
+  paper.notes = {{"effort", "why the effort differs"}};
+  paper.effort_P_B = {5.86e-4, 1.29e-3, .530, .532};
+  paper.effort_P_C = {4.22e-4, 9.22e-4, .420, .421};
+  return paper;
+}
+
+TEST(ReproductionPage, SetsOursBesideThePapers) {
+  const auto page = reproduction_page(all_drives(), paper_data());
+  EXPECT_GT(count(page, "href=\"E_C/P_D/report.html\""), 0);
+  EXPECT_GT(count(page, "href=\"E_C/P_D/report.html#t=2.0000\""), 0);
+  EXPECT_EQ(count(page, "a note on &lt;this&gt; drive"), 1);
+  EXPECT_EQ(count(page, "why the effort differs"), 1);
+  EXPECT_EQ(count(page, "−20.9 %"), 1);
+  EXPECT_EQ(count(page, "✓ within"), 1);
+  EXPECT_EQ(count(page, "✕ outside"), 1);
+  EXPECT_EQ(count(page, "over at 4.00 s"), 1);
+  EXPECT_EQ(count(page, "{{"), 0);
+}
+
+TEST(ReproductionPage, IsSelfContained) {
+  const auto page = reproduction_page(all_drives(), paper_data());
+  EXPECT_FALSE(std::regex_search(page, std::regex("src=|@import|url\\((?!#)")));
+  EXPECT_FALSE(std::regex_search(page, std::regex("https?://(?!www\\.w3\\.org)")));
+  EXPECT_EQ(count(page, "<script"), 0);
+}
+
+TEST(ReproductionPage, MarksSnapshotsOfSeriesThatLag) {
+  auto paper = paper_data();
+  auto& drive = paper.drives.front();
+  drive.lag = 0.4;
+  for (auto& snapshot : drive.snapshots) snapshot.comparable = false;
+  const auto page = reproduction_page(all_drives(), paper);
+  EXPECT_EQ(count(page, "✓ within"), 0);
+  EXPECT_EQ(count(page, "the series lags</span>"), 2);
+}
+
+TEST(ReproductionPage, WithstandsOddDrives) {
+  EXPECT_NO_THROW(reproduction_page({}, {}));
+  EXPECT_NO_THROW(reproduction_page({}, paper_data()));
+  for (const auto& odd : odd_drives()) {
+    SCOPED_TRACE(odd.name);
+    auto drives = all_drives();
+    for (auto& one : drives) one.drive = odd.drive;
+    drives.push_back({odd.scenario, odd.drive, "odd & <name>/P_D"});
+    const auto page = reproduction_page(drives, paper_data());
+    EXPECT_EQ(count(page, "<script"), 0);
+    for (const auto& figure : reproduction_figures(drives, paper_data()))
+      EXPECT_NO_THROW(parse_xml(figure.svg)) << figure.file;
+  }
+}
+
+TEST(ReproductionFigures, AreOneGroupAnEnvironment) {
+  std::vector<std::string> names;
+  for (const auto& figure : reproduction_figures(all_drives(), paper_data())) {
+    names.push_back(figure.file);
+    EXPECT_NO_THROW(parse_xml(figure.svg)) << figure.file;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"E_A_traces.svg", "E_A_path.svg",
+                                             "E_A-figure_traces.svg", "E_A-figure_path.svg",
+                                             "E_B_traces.svg", "E_B_path.svg", "E_B_crash.svg",
+                                             "E_C_traces.svg", "E_C_path.svg", "E_C_crash.svg"}));
+}
+
+TEST(ReproductionFigures, MarkThePapersPositions) {
+  for (const auto& figure : reproduction_figures(all_drives(), paper_data()))
+    EXPECT_EQ(count(figure.svg, ">paper’s positions</text>"), figure.file == "E_C_path.svg")
+        << figure.file;
+}
+
+}  // namespace
+}  // namespace slalom::study

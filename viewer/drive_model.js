@@ -1,0 +1,142 @@
+// The drive as data: reads what the page carries and answers questions about an instant.
+(function (slalom) {
+  'use strict';
+
+  const data = JSON.parse(document.getElementById('drive-data').textContent);
+  const plant = data.plant;
+  const start = plant.t.length ? plant.t[0] : 0;
+  const end = plant.t.length ? Math.max(plant.t[plant.t.length - 1], start) : 0;
+
+  /** Index of the last element of the ascending `values` that is <= v; -1 before the first. */
+  function lastAtOrBefore(values, v) {
+    let lo = 0;
+    let hi = values.length;
+    while (lo < hi) {
+      const mid = (lo + hi) >> 1;
+      if (values[mid] <= v) lo = mid + 1; else hi = mid;
+    }
+    return lo - 1;
+  }
+
+  function between(values, i, w) {
+    const a = values[i];
+    const b = values[Math.min(i + 1, values.length - 1)];
+    if (a === null || a === undefined || b === null || b === undefined) return a === undefined ? null : a;
+    return a + (b - a) * w;
+  }
+
+  /** All columns at absolute time t [s], interpolated linearly; null when nothing was recorded. */
+  function sampleAt(columns, t) {
+    const times = columns.t;
+    if (!times.length) return null;
+    const i = Math.min(Math.max(lastAtOrBefore(times, t), 0), times.length - 1);
+    const next = Math.min(i + 1, times.length - 1);
+    const h = times[next] - times[i];
+    const w = h > 0 ? Math.min(Math.max((t - times[i]) / h, 0), 1) : 0;
+    const sample = {};
+    for (const name of Object.keys(columns)) sample[name] = between(columns[name], i, w);
+    return sample;
+  }
+
+  const driven = data.cycles.filter((c) => c.used && c.plan.t.length);
+  const takeover = driven.map((c) => c.plan.t_start);
+
+  /** The cycle whose plan is being driven at t, or null while the vehicle goes straight on. */
+  function cycleAt(t) {
+    const i = lastAtOrBefore(takeover, t + 1e-9);
+    return i < 0 ? null : driven[i];
+  }
+
+  /** The cycle that is being solved while the vehicle drives through t, or null. */
+  function solvingAt(t) {
+    const clocked = data.cycles.filter((c) => c.index > 0);
+    const i = lastAtOrBefore(clocked.map((c) => c.t0), t + 1e-9);
+    return i < 0 ? null : clocked[i];
+  }
+
+  /** Centre of an obstacle at absolute time t. */
+  function obstacleAt(o, t) {
+    return { x: o.x + o.vx * t, y: o.y + o.vy * t };
+  }
+
+  function moves(o) {
+    return o.vx !== 0 || o.vy !== 0;
+  }
+
+  /** Velocity of the front axle's centre; section 1 of the formulation. */
+  function velocity(p, k) {
+    const lateral = p.v[k] + data.vehicle.la * p.r[k];
+    const c = Math.cos(p.psi[k]);
+    const s = Math.sin(p.psi[k]);
+    return [p.ux[k] * c - lateral * s, p.ux[k] * s + lateral * c];
+  }
+
+  /** Points along a plan: cubic Hermite between its nodes, whose slopes the model gives. */
+  function planPath(plan) {
+    const points = [];
+    for (let k = 0; k + 1 < plan.t.length; ++k) {
+      const h = plan.t[k + 1] - plan.t[k];
+      const [ax, ay] = velocity(plan, k);
+      const [bx, by] = velocity(plan, k + 1);
+      for (let j = 0; j < 8; ++j) {
+        const s = j / 8;
+        const s2 = s * s;
+        const s3 = s2 * s;
+        const h00 = 2 * s3 - 3 * s2 + 1;
+        const h10 = s3 - 2 * s2 + s;
+        const h01 = 3 * s2 - 2 * s3;
+        const h11 = s3 - s2;
+        points.push([
+          h00 * plan.x[k] + h10 * h * ax + h01 * plan.x[k + 1] + h11 * h * bx,
+          h00 * plan.y[k] + h10 * h * ay + h01 * plan.y[k + 1] + h11 * h * by,
+        ]);
+      }
+    }
+    const n = plan.t.length - 1;
+    if (n >= 0) points.push([plan.x[n], plan.y[n]]);
+    return points;
+  }
+
+  /** The box around everything there is to see on the course [m]. */
+  function courseBox() {
+    const box = { x0: Infinity, x1: -Infinity, y0: Infinity, y1: -Infinity };
+    const add = (x, y, rx, ry) => {
+      box.x0 = Math.min(box.x0, x - rx);
+      box.x1 = Math.max(box.x1, x + rx);
+      box.y0 = Math.min(box.y0, y - ry);
+      box.y1 = Math.max(box.y1, y + ry);
+    };
+    add(data.start.x, data.start.y, 5, 5);
+    add(data.goal.x, data.goal.y, data.goal.sigma, data.goal.sigma);
+    for (let i = 0; i < plant.t.length; ++i) add(plant.x[i], plant.y[i], 4, 4);
+    for (const o of data.obstacles) add(o.x, o.y, o.a + data.loop.sm_crash, o.b + data.loop.sm_crash);
+    const r = data.region;
+    if (r.x_min !== null) box.x0 = Math.min(box.x0, r.x_min - 2);
+    if (r.x_max !== null) box.x1 = Math.max(box.x1, r.x_max + 2);
+    return box;
+  }
+
+  /** A number with a fixed number of digits and a proper minus sign; a dash for none. */
+  function number(v, digits) {
+    if (v === null || v === undefined || !Number.isFinite(v)) return '–';
+    const text = v.toFixed(digits);
+    return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
+  }
+
+  /** Steps of 1, 2 or 5 times a power of ten that cut [lo, hi] into about `count` parts. */
+  function ticks(lo, hi, count) {
+    const raw = (hi - lo) / Math.max(count, 1);
+    if (!(raw > 0)) return [lo];
+    const power = Math.pow(10, Math.floor(Math.log10(raw)));
+    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
+    const out = [];
+    for (let i = Math.ceil(lo / step - 1e-9); i * step <= hi + step * 1e-9; ++i) out.push(i * step);
+    out.step = step;
+    return out;
+  }
+
+  Object.assign(slalom, {
+    data, start, end, lastAtOrBefore, sampleAt, cycleAt, solvingAt, obstacleAt, moves, planPath,
+    courseBox, number, ticks,
+  });
+})(window.slalom = window.slalom || {});
