@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slalom/sim/scenario.hpp"
+
+namespace slalom::io {
+
+/// A scenario as the command line asks for it.
+struct ScenarioRequest {
+  std::string name_or_file;            ///< built-in name (E_A, E_A-figure, E_B, E_C) or a path
+  std::optional<std::string> planner;  ///< built-in planner name or file; overrides the file's
+  std::optional<double> tex;           ///< [s]
+  std::vector<std::string> overrides;  ///< "key.path=value", applied last, in order
+};
+
+/// Reads, overrides and checks a scenario. Throws InvalidValue with file:line:column (or
+/// "--set key.path" for overrides), what was found and what was expected; unknown keys name the
+/// nearest known one.
+sim::Scenario load_scenario(const ScenarioRequest& request);
+
+/// The whole scenario as one YAML file that load_scenario reads back to the same bits.
+std::string to_yaml(const sim::Scenario& scenario);
+
+/// A built-in configuration file.
+struct BuiltIn {
+  std::string name;
+  std::string title;
+  std::string path;
+};
+std::vector<BuiltIn> built_in_scenarios();
+std::vector<BuiltIn> built_in_planners();
+std::vector<BuiltIn> built_in_vehicles();
+
+/// Markdown reference of every key, generated from the option tables (docs/scenario-reference.md).
+std::string scenario_reference();
+
+}  // namespace slalom::io

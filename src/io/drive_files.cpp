@@ -1,0 +1,161 @@
+#include "slalom/io/drive_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "file_set.hpp"
+#include "slalom/io/scenario_file.hpp"
+#include "slalom/io/version.hpp"
+#include "slalom/study/report.hpp"
+
+namespace slalom::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no infinity and no NaN.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json text_or_null(const std::string& text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const auto n = values.size();
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+double greatest(const std::vector<double>& values) {
+  return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
+}
+
+/// Median and greatest time of the solves on the clock; the warm-up stands by itself.
+void add_solve_times(Json& summary, const sim::Drive& drive) {
+  std::vector<double> wall, cpu;
+  for (const auto& cycle : drive.cycles) {
+    if (cycle.index == 0) continue;
+    wall.push_back(cycle.plan.report.wall_s);
+    cpu.push_back(cycle.plan.report.cpu_s);
+  }
+  summary["cycles"] = wall.size();
+  summary["solve_time_median_s"] = number(median(wall));
+  summary["solve_time_max_s"] = number(greatest(wall));
+  summary["cpu_time_median_s"] = number(median(cpu));
+  summary["cpu_time_max_s"] = number(greatest(cpu));
+  Json warm_up = nullptr;
+  for (const auto& cycle : drive.cycles)
+    if (cycle.index == 0)
+      warm_up = {{"status", cycle.plan.report.status},
+                 {"iterations", cycle.plan.report.iterations},
+                 {"solve_time_s", number(cycle.plan.report.wall_s)},
+                 {"cpu_time_s", number(cycle.plan.report.cpu_s)}};
+  summary["warm_up"] = warm_up;
+}
+
+Json state_json(const vehicle::State& state) {
+  Json json;
+  for (std::size_t i = 0; i < state.size(); ++i) json[vehicle::kStateNames[i]] = number(state[i]);
+  return json;
+}
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string summary_json(const sim::Scenario& scenario, const sim::Drive& drive) {
+  Json summary;
+  summary["scenario"] = scenario.name;
+  summary["title"] = scenario.title;
+  summary["planner"] = scenario.planner.name;
+  summary["vehicle"] = scenario.vehicle.name;
+  summary["outcome"] = sim::to_string(drive.outcome);
+  summary["time_s"] = number(drive.time);
+  summary["goal_time_s"] = drive.goal_time ? number(*drive.goal_time) : Json(nullptr);
+  summary["hit"] = text_or_null(drive.hit);
+  summary["message"] = drive.message;
+  summary["least_clearance_m"] = number(drive.least_clearance);
+  summary["least_clearance_t_s"] =
+      std::isfinite(drive.least_clearance) ? number(drive.least_clearance_t) : Json(nullptr);
+  summary["least_clearance_obstacle"] = text_or_null(drive.least_clearance_obstacle);
+  summary["least_wheel_load_N"] = number(drive.least_wheel_load);
+  summary["tex_s"] = number(scenario.loop.tex);
+  summary["floor"] = number(scenario.planner.floor);
+  add_solve_times(summary, drive);
+  summary["version"] = kVersion;
+  return dump(summary);
+}
+
+std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle) {
+  const auto& report = cycle.plan.report;
+  Json json;
+  json["scenario"] = scenario.name;
+  json["planner"] = scenario.planner.name;
+  json["vehicle"] = scenario.vehicle.name;
+  json["solved"] = report.solved;
+  json["status"] = report.status;
+  json["backend"] = report.backend;
+  json["iterations"] = report.iterations;
+  json["solve_time_s"] = number(report.wall_s);
+  json["cpu_time_s"] = number(report.cpu_s);
+  json["t0_s"] = number(cycle.t0);
+  json["tex_s"] = number(cycle.tex);
+  json["t_start_s"] = number(cycle.plan.t_start);
+  json["tf_s"] = number(cycle.plan.tf);
+  json["goal_in_range"] = cycle.plan.goal_in_range;
+  json["X0p"] = state_json(cycle.X0p);
+  json["end"] = cycle.plan.empty() ? Json(nullptr) : state_json(cycle.plan.states.back());
+  json["cost"] = number(report.cost);
+  Json terms = Json::object();
+  for (const auto& [name, value] : report.cost_terms) terms[name] = number(value);
+  json["cost_terms"] = terms;
+  json["phi"] = number(report.phi);
+  json["floor"] = number(scenario.planner.floor);
+  json["worst_constraint"] = text_or_null(report.worst_constraint);
+  json["worst_violation"] = number(report.worst_violation);
+  json["stationarity"] = number(report.stationarity);
+  json["complementarity"] = number(report.complementarity);
+  json["version"] = kVersion;
+  return dump(json);
+}
+
+void write_drive(const std::filesystem::path& folder, const sim::Scenario& scenario,
+                 const sim::Drive& drive) {
+  FileSet files;
+  files.add(folder / "plant.csv", plant_csv(drive));
+  files.add(folder / "plans.csv", plans_csv(drive));
+  files.add(folder / "cycles.csv", cycles_csv(drive));
+  files.add(folder / "summary.json", summary_json(scenario, drive));
+  files.add(folder / "resolved.yaml", to_yaml(scenario));
+  files.add(folder / "report.html", study::drive_page(scenario, drive));
+  for (const auto& figure : study::drive_figures(scenario, drive))
+    files.add(folder / "figures" / figure.file, figure.svg);
+  files.commit();
+}
+
+void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenario,
+                const sim::Cycle& cycle) {
+  FileSet files;
+  files.add(folder / "plan.csv", plan_csv(cycle.plan));
+  files.add(folder / "plan.json", plan_json(scenario, cycle));
+  files.add(folder / "resolved.yaml", to_yaml(scenario));
+  files.commit();
+}
+
+void write_reproduction(const std::filesystem::path& folder,
+                        const std::vector<study::ReproducedDrive>& drives,
+                        const study::PaperData& paper) {
+  FileSet files;
+  files.add(folder / "index.html", study::reproduction_page(drives, paper));
+  for (const auto& figure : study::reproduction_figures(drives, paper))
+    files.add(folder / "figures" / figure.file, figure.svg);
+  files.commit();
+}
+
+}  // namespace slalom::io

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "slalom/io/drive_files.hpp"
+
+namespace slalom::io {
+namespace {
+
+/// A text cell: quoted when it holds what would break a row.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+template <class Range>
+void append_all(std::string& row, const Range& values) {
+  for (const auto& value : values) row += fmt::format(",{}", value);
+}
+
+/// The names of all cost terms, in order of first appearance: a term may be absent from the cycles
+/// in which it is switched off.
+std::vector<std::string> cost_term_names(const sim::Drive& drive) {
+  std::vector<std::string> names;
+  for (const auto& cycle : drive.cycles)
+    for (const auto& [name, value] : cycle.plan.report.cost_terms)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
+double cost_term(const planner::SolveReport& report, const std::string& name) {
+  for (const auto& [term, value] : report.cost_terms)
+    if (term == name) return value;
+  return 0;
+}
+
+}  // namespace
+
+std::string plant_csv(const sim::Drive& drive) {
+  std::string text = "t";
+  append_all(text, vehicle::kStateNames);
+  append_all(text, vehicle::kControlNames);
+  append_all(text, vehicle::kWheelNames);
+  text += ",clearance\n";
+  for (const auto& sample : drive.plant) {
+    text += fmt::format("{}", sample.t);
+    append_all(text, sample.state);
+    append_all(text, sample.control);
+    append_all(text, sample.wheel_loads);
+    text += fmt::format(",{}\n", sample.clearance);
+  }
+  return text;
+}
+
+std::string plans_csv(const sim::Drive& drive) {
+  std::string text = "cycle,t_start,node,t";
+  append_all(text, vehicle::kStateNames);
+  append_all(text, vehicle::kControlNames);
+  text += "\n";
+  for (const auto& cycle : drive.cycles) {
+    if (cycle.index == 0) continue;
+    const auto& plan = cycle.plan;
+    for (std::size_t k = 0; k < plan.t.size(); ++k) {
+      text += fmt::format("{},{},{},{}", cycle.index, plan.t_start, k, plan.t_start + plan.t[k]);
+      append_all(text, plan.states[k]);
+      append_all(text, plan.controls[k]);
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string plan_csv(const planner::Plan& plan) {
+  std::string text = "node,t";
+  append_all(text, vehicle::kStateNames);
+  append_all(text, vehicle::kControlNames);
+  text += "\n";
+  for (std::size_t k = 0; k < plan.t.size(); ++k) {
+    text += fmt::format("{},{}", k, plan.t_start + plan.t[k]);
+    append_all(text, plan.states[k]);
+    append_all(text, plan.controls[k]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string cycles_csv(const sim::Drive& drive) {
+  const auto terms = cost_term_names(drive);
+  std::string text = "cycle,t0,tex,solve_time_s,iterations,status,cpu_time_s,cost";
+  for (const auto& term : terms) text += "," + cell("cost_" + term);
+  text +=
+      ",worst_constraint,worst_violation,stationarity,complementarity,phi,tf,goal_in_range,used,"
+      "backend\n";
+  for (const auto& cycle : drive.cycles) {
+    if (cycle.index == 0) continue;
+    const auto& report = cycle.plan.report;
+    text += fmt::format("{},{},{},{},{},{},{},{}", cycle.index, cycle.t0, cycle.tex, report.wall_s,
+                        report.iterations, cell(report.status), report.cpu_s, report.cost);
+    for (const auto& term : terms) text += fmt::format(",{}", cost_term(report, term));
+    text += fmt::format(",{},{},{},{},{},{},{},{},{}\n", cell(report.worst_constraint),
+                        report.worst_violation, report.stationarity, report.complementarity,
+                        report.phi, cycle.plan.tf, cycle.plan.goal_in_range ? 1 : 0,
+                        cycle.used ? 1 : 0, cell(report.backend));
+  }
+  return text;
+}
+
+}  // namespace slalom::io

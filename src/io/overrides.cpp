@@ -1,0 +1,108 @@
+#include "overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "document.hpp"
+#include "scenario_tables.hpp"
+#include "text_file.hpp"
+
+namespace slalom::io {
+namespace {
+
+/// One assignment, split: section "obstacles.O2", key "vy".
+struct Assignment {
+  std::string section, key, text;
+  Place place;
+};
+
+Assignment split(const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InvalidValue("--set", fmt::format("'{}'", assignment), "key.path=value");
+  const auto path = assignment.substr(0, equals);
+  Assignment result;
+  result.place = {"--set " + path, 0, 0};
+  result.text = assignment.substr(equals + 1);
+  // The last dot parts section and key, so that an obstacle's name may hold dots.
+  const auto dot = path.rfind('.');
+  result.section = dot == std::string::npos ? "" : path.substr(0, dot);
+  result.key = dot == std::string::npos ? path : path.substr(dot + 1);
+  return result;
+}
+
+void set_field(const Section& section, const Assignment& a, Places& places) {
+  for (const auto& field : section.fields())
+    if (field.info.name == a.key && field.info.kind == OptionKind::text) {
+      // Text is taken as it stands: 'title=a: b' is no map.
+      check_text(a.text, a.place.source, "text");
+      field.store(a.text);
+      return;
+    }
+  section.set(a.key, parse_argument(a.text, a.place.source), a.place, places);
+}
+
+void set_obstacle(const Assignment& a, sim::Scenario& scenario, Places& places) {
+  const auto dot = a.section.find('.');
+  const auto name = dot == std::string::npos ? a.key : a.section.substr(dot + 1);
+  std::vector<std::string> names;
+  for (const auto& obstacle : scenario.obstacles) names.push_back(obstacle.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) unknown_key(name, a.place, "obstacles", names);
+  if (dot == std::string::npos)
+    throw InvalidValue(a.place.to_string(), "no key of the obstacle", "obstacles.NAME.KEY=value");
+  if (a.key == "name")
+    throw InvalidValue(a.place.to_string(), "a new name", "one of x, y, r, a, b, vx, vy");
+  auto& obstacle = scenario.obstacles[static_cast<std::size_t>(found - names.begin())];
+  set_field(obstacle_section(obstacle, a.section), a, places);
+  places[a.section] = a.place;
+}
+
+void set_top_level(const Assignment& a, sim::Scenario& scenario) {
+  if (a.key == "name" || a.key == "title") {
+    check_text(a.text, a.place.source, "text");
+    (a.key == "name" ? scenario.name : scenario.title) = a.text;
+    return;
+  }
+  static const std::vector<std::string> sections = {"planner", "loop",      "vehicle", "start",
+                                                    "goal",    "obstacles", "region"};
+  if (std::find(sections.begin(), sections.end(), a.key) == sections.end())
+    unknown_key(
+        a.key, a.place, "",
+        {"name", "title", "planner", "loop", "vehicle", "start", "goal", "region", "obstacles"});
+  throw InvalidValue(a.place.to_string(), "a whole section",
+                     fmt::format("one key of it, {}.KEY=value", a.key));
+}
+
+}  // namespace
+
+void apply_override(const std::string& assignment, sim::Scenario& scenario, Places& places) {
+  const Assignment a = split(assignment);
+  const auto head = a.section.substr(0, a.section.find('.'));
+  if (a.section == "planner") {
+    set_field(Section(a.section).add(planner::setting_options(), scenario.planner), a, places);
+  } else if (a.section == "loop") {
+    set_field(Section(a.section).add(sim::loop_options(), scenario.loop), a, places);
+  } else if (a.section == "vehicle") {
+    set_field(Section(a.section).add(vehicle::parameter_options(), scenario.vehicle), a, places);
+  } else if (a.section == "start") {
+    Start start(scenario.start);
+    set_field(start_section(start), a, places);
+    scenario.start = start.state();
+    places["start"] = a.place;
+  } else if (a.section == "goal") {
+    set_field(goal_section(scenario.goal), a, places);
+  } else if (a.section == "region") {
+    set_field(region_section(scenario.region), a, places);
+  } else if (head == "obstacles") {
+    set_obstacle(a, scenario, places);
+  } else if (a.section.empty()) {
+    set_top_level(a, scenario);
+  } else {
+    unknown_key(a.section, a.place, "",
+                {"planner", "loop", "vehicle", "start", "goal", "region", "obstacles"});
+  }
+}
+
+}  // namespace slalom::io

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "section.hpp"
+#include "slalom/sim/scenario.hpp"
+
+namespace slalom::io {
+
+/// Applies "key.path=value" from the command line: planner.w_t=50, loop.tex=.25, vehicle.m=3000,
+/// start.x=6.1, goal.sigma=5, region.x_min=0, obstacles.O2.vy=-20, title=text. Throws InvalidValue
+/// naming "--set key.path".
+void apply_override(const std::string& assignment, sim::Scenario& scenario, Places& places);
+
+}  // namespace slalom::io

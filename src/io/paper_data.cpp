@@ -1,0 +1,131 @@
+#include "slalom/io/paper_data.hpp"
+
+#include <algorithm>
+
+#include "config_dir.hpp"
+#include "section.hpp"
+
+namespace slalom::io {
+namespace {
+
+using study::PaperData;
+using study::PaperDrive;
+
+const OptionTable<PaperDrive>& drive_options() {
+  static const auto table = [] {
+    OptionTable<PaperDrive> t;
+    t.text("environment", &PaperDrive::environment, "Scenario.")
+        .text("planner", &PaperDrive::planner, "Planner.")
+        .text("outcome", &PaperDrive::outcome, "How the drive ended.")
+        .text("hit", &PaperDrive::hit, "Obstacle crashed into.")
+        .real("time", &PaperDrive::time, OptionRange::positive(), "s", "End of the drive.")
+        .real("end_ux", &PaperDrive::end_ux, OptionRange::any(), "m/s", "Speed at the end.")
+        .real("lag", &PaperDrive::lag, OptionRange::non_negative(), "s", "Lag of the series.")
+        .text("note", &PaperDrive::note, "Where and why ours differs.");
+    return t;
+  }();
+  return table;
+}
+
+const OptionTable<PaperDrive::Snapshot>& snapshot_options() {
+  using S = PaperDrive::Snapshot;
+  static const auto table = [] {
+    const auto any = OptionRange::any();
+    OptionTable<S> t;
+    t.real("t", &S::t, OptionRange::non_negative(), "s", "The instant meant.")
+        .real("t_printed", &S::t_printed, OptionRange::non_negative(), "s", "As printed.")
+        .real("x", &S::x, any, "m", "East position.")
+        .real("y", &S::y, any, "m", "North position.")
+        .real("psi", &S::psi, any, "rad", "Heading.")
+        .boolean("comparable", &S::comparable, "False where the series lags.")
+        .real("tolerance", &S::tolerance, OptionRange::positive(), "m", "How far ours may be.");
+    return t;
+  }();
+  return table;
+}
+
+const OptionTable<PaperData::Effort>& effort_options() {
+  using E = PaperData::Effort;
+  static const auto table = [] {
+    const auto range = OptionRange::non_negative();
+    OptionTable<E> t;
+    t.real("steering_angle", &E::steering_angle, range, "1", "Of the steering angle.")
+        .real("steering_rate", &E::steering_rate, range, "1", "Of the steering rate.")
+        .real("jerk", &E::jerk, range, "1", "Of the jerk.")
+        .real("total", &E::total, range, "1", "Sum.");
+    return t;
+  }();
+  return table;
+}
+
+const OptionTable<PaperData::Note>& note_options() {
+  using N = PaperData::Note;
+  static const auto table = [] {
+    OptionTable<N> t;
+    t.text("topic", &N::topic, "Table of the page.").text("text", &N::text, "What to know.");
+    return t;
+  }();
+  return table;
+}
+
+const std::vector<Value>& items_of(const Value& list, const std::string& content) {
+  if (list.kind != Value::Kind::sequence)
+    throw InvalidValue(list.place.to_string(), list.describe(), content);
+  return list.items;
+}
+
+/// Each item of a list of maps, as the table has it.
+template <class S>
+std::vector<S> read_list(const Value& list, const std::string& path, const OptionTable<S>& table) {
+  std::vector<S> result;
+  Places places;
+  for (const auto& item : items_of(list, "a list of " + path)) {
+    S one;
+    Section(path).add(table, one).read(item, places);
+    result.push_back(std::move(one));
+  }
+  return result;
+}
+
+PaperDrive read_drive(const Value& map) {
+  PaperDrive drive;
+  Places places;
+  Section("drives").add(drive_options(), drive).read(map, places, {"snapshots"});
+  if (const Value* snapshots = map.find("snapshots"))
+    drive.snapshots = read_list(*snapshots, "snapshots", snapshot_options());
+  return drive;
+}
+
+/// The members of a file's map, none but `known`.
+Value read_map(const std::string& file, const std::vector<std::string>& known) {
+  Value root = parse_file(config_dir() / "paper" / file, "the paper's figures");
+  require_map(root, "the paper's figures (a map)");
+  for (const auto& member : root.members)
+    if (std::find(known.begin(), known.end(), member.key) == known.end())
+      unknown_key(member.key, member.place, "", known);
+  return root;
+}
+
+void read_effort(const Value& root, const std::string& key, PaperData::Effort& effort) {
+  Places places;
+  if (const Value* map = root.find(key))
+    Section(key).add(effort_options(), effort).read(*map, places);
+}
+
+}  // namespace
+
+PaperData load_paper_data() {
+  PaperData paper;
+  const Value drives = read_map("drives.yaml", {"drives"});
+  if (const Value* list = drives.find("drives"))
+    for (const auto& item : items_of(*list, "a list of drives"))
+      paper.drives.push_back(read_drive(item));
+  const Value results = read_map("results.yaml", {"effort_P_B", "effort_P_C", "notes"});
+  read_effort(results, "effort_P_B", paper.effort_P_B);
+  read_effort(results, "effort_P_C", paper.effort_P_C);
+  if (const Value* notes = results.find("notes"))
+    paper.notes = read_list(*notes, "notes", note_options());
+  return paper;
+}
+
+}  // namespace slalom::io

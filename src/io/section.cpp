@@ -1,0 +1,201 @@
+#include "section.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace slalom::io {
+namespace {
+
+/// A number in YAML's spelling, or nothing. Overflow is infinity, which every range refuses.
+std::optional<OptionValue> to_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const bool negative = text.starts_with('-');
+  const auto magnitude = text.substr(negative ? 1 : 0);
+  for (const char* infinity : {".inf", ".Inf", ".INF"})
+    if (magnitude == infinity) return negative ? -HUGE_VAL : HUGE_VAL;
+  for (const char* nan : {".nan", ".NaN", ".NAN"})
+    if (text == nan) return std::nan("");
+
+  const char* end = text.data() + text.size();
+  std::int64_t integer = 0;
+  const auto as_integer = std::from_chars(text.data(), end, integer);
+  // -0 stays a real number, so that it keeps its sign.
+  if (as_integer.ec == std::errc() && as_integer.ptr == end && (integer != 0 || !negative))
+    return integer;
+  double number = 0;
+  const auto as_real = std::from_chars(text.data(), end, number);
+  if (text.empty() || as_real.ptr != end) return std::nullopt;
+  if (as_real.ec == std::errc::result_out_of_range) return negative ? -HUGE_VAL : HUGE_VAL;
+  if (as_real.ec != std::errc()) return std::nullopt;
+  return number;
+}
+
+OptionValue scalar_value(const Value& value) {
+  if (!value.quoted) {
+    if (value.text == "true") return true;
+    if (value.text == "false") return false;
+    if (const auto number = to_number(value.text)) return *number;
+  }
+  return "'" + value.text + "'";
+}
+
+OptionValue list_value(const Value& value) {
+  std::vector<double> numbers;
+  for (const auto& item : value.items) {
+    const auto number =
+        item.kind == Value::Kind::scalar && !item.quoted ? to_number(item.text) : std::nullopt;
+    if (!number) throw InvalidValue(item.place.to_string(), item.describe(), "a number");
+    numbers.push_back(std::holds_alternative<double>(*number)
+                          ? std::get<double>(*number)
+                          : static_cast<double>(std::get<std::int64_t>(*number)));
+  }
+  return numbers;
+}
+
+std::string expected_of(const OptionInfo& info) {
+  switch (info.kind) {
+    case OptionKind::boolean:
+      return "true or false";
+    case OptionKind::integer:
+      return "an integer";
+    case OptionKind::real:
+      return info.range.to_string();
+    case OptionKind::text:
+      return "text";
+    case OptionKind::choice:
+      return fmt::format("one of {}", fmt::join(info.choices, ", "));
+    case OptionKind::vector:
+      return fmt::format("a list of {} numbers", info.length);
+  }
+  return "a value";
+}
+
+/// The inner value of {value: ..., unit: ..., source: ...}.
+const Value& unwrap(const OptionInfo& info, const Value& map) {
+  for (const auto& member : map.members)
+    if (member.key != "value" && member.key != "unit" && member.key != "source")
+      unknown_key(member.key, member.place, info.name, {"value", "unit", "source"});
+  const Value* value = map.find("value");
+  if (value == nullptr)
+    throw InvalidValue(map.place.to_string(), fmt::format("a map without value for {}", info.name),
+                       fmt::format("{} or {{value: ..., unit: ...}}", expected_of(info)));
+  if (const Value* unit = map.find("unit")) {
+    const auto& text = to_text(*unit, "a unit");
+    if (text != info.unit)
+      throw InvalidValue(unit->place.to_string(), fmt::format("unit '{}' of {}", text, info.name),
+                         info.unit.empty() ? "no unit" : fmt::format("'{}'", info.unit));
+  }
+  if (const Value* source = map.find("source")) to_text(*source, "a source");
+  return *value;
+}
+
+}  // namespace
+
+void unknown_key(const std::string& key, const Place& place, const std::string& path,
+                 const std::vector<std::string>& known) {
+  const auto nearest = nearest_name(key, known);
+  const auto of = path.empty() ? std::string() : " of " + path;
+  throw InvalidValue(place.to_string(), fmt::format("unknown key '{}'{}", key, of),
+                     nearest.empty() ? fmt::format("one of {}", fmt::join(known, ", "))
+                                     : fmt::format("a known one (did you mean '{}'?)", nearest));
+}
+
+void require_map(const Value& value, const std::string& content) {
+  if (value.kind != Value::Kind::map)
+    throw InvalidValue(value.place.to_string(), value.describe(), content);
+}
+
+const std::string& to_text(const Value& value, const std::string& what) {
+  if (value.kind != Value::Kind::scalar)
+    throw InvalidValue(value.place.to_string(), value.describe(), what);
+  return value.text;
+}
+
+OptionValue to_option_value(const OptionInfo& info, const Value& value) {
+  switch (value.kind) {
+    case Value::Kind::null:
+      throw InvalidValue(value.place.to_string(), fmt::format("nothing for {}", info.name),
+                         expected_of(info));
+    case Value::Kind::map:
+      if (const Value& inner = unwrap(info, value); inner.kind != Value::Kind::map)
+        return to_option_value(info, inner);
+      throw InvalidValue(value.place.to_string(), fmt::format("a map for {}", info.name),
+                         expected_of(info));
+    case Value::Kind::sequence:
+      if (info.kind != OptionKind::vector)
+        throw InvalidValue(value.place.to_string(), fmt::format("a list for {}", info.name),
+                           expected_of(info));
+      return list_value(value);
+    case Value::Kind::scalar:
+      if (info.kind == OptionKind::text || info.kind == OptionKind::choice) return value.text;
+      return scalar_value(value);
+  }
+  return value.text;
+}
+
+Section& Section::add(Field field) {
+  fields_.push_back(std::move(field));
+  return *this;
+}
+
+Section& Section::add_degrees(const std::string& key) {
+  const Field base = *find(key);
+  Field degrees = base;
+  degrees.info.name = key + "_deg";
+  degrees.info.unit = "deg";
+  degrees.info.range = OptionRange::any();
+  degrees.info.doc = "The same in degrees.";
+  // Division first: 90 / 180 is exact, so 90 gives pi/2 to the bit.
+  degrees.store = [base](const OptionValue& value) {
+    base.store(std::get<double>(value) / 180 * std::numbers::pi);
+  };
+  degrees.load = [base] {
+    return OptionValue(std::get<double>(base.load()) / std::numbers::pi * 180);
+  };
+  degrees.excludes = {key};
+  return add(std::move(degrees));
+}
+
+std::vector<std::string> Section::keys() const {
+  std::vector<std::string> names;
+  for (const auto& field : fields_) names.push_back(field.info.name);
+  return names;
+}
+
+const Field* Section::find(const std::string& key) const {
+  for (const auto& field : fields_)
+    if (field.info.name == key) return &field;
+  return nullptr;
+}
+
+void Section::read(const Value& map, Places& places, const std::vector<std::string>& others) const {
+  require_map(map, fmt::format("the map of {}", path_));
+  auto known = keys();
+  known.insert(known.end(), others.begin(), others.end());
+  for (const auto& member : map.members) {
+    if (std::find(others.begin(), others.end(), member.key) != others.end()) continue;
+    const Field* field = find(member.key);
+    if (field == nullptr) unknown_key(member.key, member.place, path_, known);
+    for (const auto& other : field->excludes)
+      if (map.find(other) != nullptr)
+        throw InvalidValue(member.place.to_string(),
+                           fmt::format("both {} and {}", member.key, other), "one of them");
+    set(member.key, member.value, member.place, places);
+  }
+}
+
+void Section::set(const std::string& key, const Value& value, const Place& key_place,
+                  Places& places) const {
+  const Field* field = find(key);
+  if (field == nullptr) unknown_key(key, key_place, path_, keys());
+  field->store(field->info.checked(to_option_value(field->info, value), value.place.to_string()));
+  places[path_ + "." + key] = value.place;
+}
+
+}  // namespace slalom::io
