@@ -1,0 +1,20 @@
+#include "commands.hpp"
+#include "exit_code.hpp"
+
+namespace slalom::app {
+
+void add_docs(CLI::App& app, Command& run) {
+  // Not shown: it serves those who build the documentation.
+  auto* command = app.add_subcommand("docs", "Print a generated page of the documentation");
+  command->group("");
+  command->require_subcommand(1);
+  command->add_subcommand("scenario-reference", "Every key of a scenario file, as Markdown")
+      ->callback([&run] {
+        run = [] {
+          print(io::scenario_reference());
+          return kOk;
+        };
+      });
+}
+
+}  // namespace slalom::app

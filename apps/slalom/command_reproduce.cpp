@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "slalom/io/drive_files.hpp"
+#include "slalom/io/paper_data.hpp"
+#include "slalom/sim/closed_loop.hpp"
+
+namespace slalom::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Drives = std::vector<study::ReproducedDrive>;
+
+/// The drives of the paper's figures.
+constexpr std::pair<const char*, const char*> kDrives[] = {
+    {"E_A", "P_A"},        {"E_A", "P_B"},        {"E_A", "P_C"}, {"E_A-figure", "P_A"},
+    {"E_A-figure", "P_B"}, {"E_A-figure", "P_C"}, {"E_B", "P_C"}, {"E_B", "P_D"},
+    {"E_C", "P_C"},        {"E_C", "P_D"},
+};
+
+/// All scenarios, before the first is driven: a mistake in --set shows at once.
+Drives load_all(const CommonOptions& options) {
+  Drives drives;
+  for (const auto& [environment, planner] : kDrives) {
+    auto request = options.request;
+    request.name_or_file = environment;
+    request.planner = planner;
+    drives.push_back({io::load_scenario(request), {}, fmt::format("{}/{}", environment, planner)});
+  }
+  return drives;
+}
+
+sim::Drive drive_one(const study::ReproducedDrive& one, std::size_t index,
+                     const CommonOptions& options) {
+  Progress progress(fmt::format("{}/{} {}", index + 1, std::size(kDrives), one.folder),
+                    options.quiet);
+  sim::LoopHooks hooks;
+  hooks.on_cycle = [&](const sim::Cycle& cycle) { progress.show(cycle); };
+  hooks.interrupted = interrupted;
+  return sim::drive(one.scenario, hooks);
+}
+
+/// What the paper says of this drive, or nullptr.
+const study::PaperDrive* paper_of(const study::PaperData& paper,
+                                  const study::ReproducedDrive& one) {
+  for (const auto& drive : paper.drives)
+    if (drive.environment + "/" + drive.planner == one.folder) return &drive;
+  return nullptr;
+}
+
+std::string row(const study::ReproducedDrive& one, const study::PaperDrive* paper) {
+  const auto& drive = one.drive;
+  const auto end =
+      fmt::format("{} {}", sim::to_string(drive.outcome), drive.hit.empty() ? "" : drive.hit);
+  auto text = fmt::format("{:<16} {:<14} {:>7.2f} s {:>9.2f} m", one.folder, end, drive.time,
+                          // A crash is located to rounding; "-0.00" would puzzle.
+                          std::abs(drive.least_clearance) < 0.005 ? 0.0 : drive.least_clearance);
+  if (paper != nullptr) text += fmt::format("   | {} {:.1f} s", paper->outcome, paper->time);
+  return text + "\n";
+}
+
+std::string table_head() {
+  return fmt::format("{:<16} {:<14} {:>9} {:>11}   | {}\n", "drive", "outcome", "time", "clearance",
+                     "paper");
+}
+
+int reproduce(const CommonOptions& options) {
+  check_expectations(options.expect, {"paper"});
+  auto drives = load_all(options);
+  const auto paper = io::load_paper_data();
+  const fs::path out = options.out;
+  if (options.writes())
+    write_or_fail([&] {
+      io::prepare_folder(out, options.force);
+      for (const auto& one : drives) io::prepare_folder(out / one.folder, options.force);
+    });
+
+  const bool text = !options.quiet && !options.json;
+  if (text) print(table_head());
+  bool as_paper = true;
+  auto json = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    auto& one = drives[i];
+    one.drive = drive_one(one, i, options);
+    if (options.writes())
+      write_or_fail([&] { io::write_drive(out / one.folder, one.scenario, one.drive); });
+    const auto* printed = paper_of(paper, one);
+    as_paper &= printed == nullptr || printed->outcome == sim::to_string(one.drive.outcome);
+    if (text) print(row(one, printed));
+    json.push_back(nlohmann::ordered_json::parse(io::summary_json(one.scenario, one.drive)));
+    if (one.drive.outcome == sim::Outcome::interrupted) {
+      if (text) print("interrupted: the page of all drives is not written\n");
+      return kInterrupted;
+    }
+  }
+  if (options.writes()) {
+    write_or_fail([&] { io::write_reproduction(out, drives, paper); });
+    if (text) print(fmt::format("written to {}\n", (out / "index.html").string()));
+  }
+  if (options.json) print(json.dump(2) + "\n");
+  return options.expect.empty() || as_paper ? kOk : kNotExpected;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, Command& run) {
+  auto options = std::make_shared<CommonOptions>();
+  auto* command =
+      app.add_subcommand("reproduce", "Drive all ten drives of the paper's figures and compare");
+  add_overrides(*command, *options, false);
+  add_output(*command, *options);
+  add_printing(*command, *options);
+  command
+      ->add_option("--expect", options->expect,
+                   "'paper': exit with 1 unless every drive ends as the paper's")
+      ->type_name("paper");
+  command->footer(std::string("Leaves DIR/SCENARIO/PLANNER/ for each drive and DIR/index.html.\n"
+                              "Example: slalom reproduce --out drives/paper\n\n") +
+                  kExitCodeHelp);
+  command->callback([options, &run] { run = [options] { return reproduce(*options); }; });
+}
+
+}  // namespace slalom::app

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "options.hpp"
+
+namespace slalom::app {
+
+/// Each adds one sub-command to `app` and, when it is chosen, sets `run`.
+void add_simulate(CLI::App& app, Command& run);
+void add_plan(CLI::App& app, Command& run);
+void add_reproduce(CLI::App& app, Command& run);
+void add_check(CLI::App& app, Command& run);
+void add_list(CLI::App& app, Command& run);
+void add_docs(CLI::App& app, Command& run);
+
+}  // namespace slalom::app

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "slalom/sim/drive.hpp"
+
+namespace slalom::app {
+
+/// One line on the terminal that follows a drive; nothing when stderr is no terminal.
+class Progress {
+ public:
+  /// `label` starts the line, e.g. "E_C P_D"; `quiet` keeps it away in any case.
+  Progress(std::string label, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(const sim::Cycle& cycle);
+  /// Takes the line away, so that what is printed next starts clean.
+  void clear();
+
+ private:
+  std::string label_;
+  bool on_;
+  bool shown_ = false;
+};
+
+}  // namespace slalom::app

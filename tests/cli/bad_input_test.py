@@ -1,0 +1,103 @@
+"""Bad input: one message that says where, what was found and what was expected; exit 2, soon."""
+
+import unittest
+
+from program import GOOD, SOURCE, ProgramTest, run
+
+E_C = (SOURCE / "config/scenarios/E_C.yaml").read_text()
+
+
+def alias_bomb():
+    lines = ["a: &a [x, x, x, x, x, x, x, x, x]"]
+    for before, name in zip("abcdefghi", "bcdefghij"):
+        lines.append(f"{name}: &{name} [" + ", ".join([f"*{before}"] * 9) + "]")
+    return "\n".join(lines) + "\n"
+
+
+# name: (file's content, parts of the message); the file is my.yaml.
+FILES = {
+    "empty": ("", ["my.yaml:1:1: found an empty file, expected a scenario"]),
+    "binary": (bytes(range(256)), ["my.yaml:1:1: found binary data", "expected a scenario"]),
+    "cut": (E_C[:E_C.index("kappa")], ["my.yaml:4:", "found a YAML error", "expected valid YAML"]),
+    "cut between keys": (E_C[:E_C.index("goal:")], ["my.yaml:1:1", "without 'goal'"]),
+    "alias bomb": (alias_bomb(), ["my.yaml:2:8: found a YAML alias"]),
+    "deep": ("a: " + "[" * 5000 + "]" * 5000, ["my.yaml:1:", "nesting"]),
+    "huge": ("#" * (2 << 20), ["my.yaml: found a file of more than 1048576 bytes"]),
+    "no map": ("- 1\n", ["my.yaml:1:1: found a list, expected a scenario"]),
+    "unknown key": (GOOD + "planner: {base: P_D, wt: 3}\n",
+                    ["my.yaml:3:22: found unknown key 'wt' of planner", "did you mean 'w_t'?"]),
+    "key with a line break": (GOOD + '"a\\n\\e[2J": 1\n', [r"unknown key 'a\x0a\x1b[2J'"]),
+    "doubled key": (GOOD + "start: {x: 1, y: 1}\n",
+                    ["my.yaml:3:1: found key 'start' a second time", "first at line 1"]),
+    "wrong type": (GOOD + "loop: {tex: soon}\n", ["my.yaml:3:13: found text 'soon'", "a number"]),
+    "wrong unit": (GOOD + "vehicle: {base: hmmwv, m: {value: 2, unit: t}}\n",
+                   ["my.yaml:3:44: found unit 't' of m, expected 'kg'"]),
+    "NaN": ("start: {x: .nan, y: 0}\ngoal: {x: 0, y: 9}\n",
+            ["my.yaml:1:12: found x = nan, expected a finite number"]),
+    "infinity": ("start: {x: 0, y: -.inf}\ngoal: {x: 0, y: 9}\n", ["my.yaml:1:18: found y = -inf"]),
+    "negative radius": (GOOD + "obstacles:\n  - {x: 9, y: 9, r: -1}\n",
+                        ["my.yaml:4:21: found r = -1, expected a number > 0"]),
+    "N < 1": (GOOD + "planner: {N: 0}\n", ["my.yaml:3:14: found N = 0, expected a number >= 1"]),
+    "tex <= 0": (GOOD + "loop: {tex: 0}\n", ["my.yaml:3:13: found tex = 0, expected a number >"]),
+    "tex > tf_max": (GOOD + "loop: {tex: 10.5}\n",
+                     ["my.yaml:3:13: found tex = 10.5, expected at most tf_max = 10"]),
+    "L_range <= kappa": (GOOD + "planner: {base: P_D, L_range: 5}\n",
+                         ["my.yaml:3:31: found L_range = 5, expected a number above kappa = 5"]),
+    "start outside": (GOOD + "region: {x_min: 1, x_max: 24}\n",
+                      ["my.yaml:1:12: found start x = 0, expected 1 to 24"]),
+    "start in obstacle": (GOOD + "obstacles: [{name: rock, x: 1, y: 1, r: 3}]\n",
+                          ["my.yaml:1:8: found start", "inside obstacle rock"]),
+}
+
+
+class BadInput(ProgramTest):
+    def test_files(self):
+        for name, (content, parts) in FILES.items():
+            with self.subTest(name):
+                path = self.write("my.yaml", content)
+                before = self.entries()
+                for command in (["simulate", path, "--out", self.folder / "out"], ["check", path],
+                                ["plan", path]):
+                    self.assert_refused(run(*command), 2, *parts)
+                self.assertEqual(self.entries(), before)
+
+    def test_paths(self):
+        for path, part in ((self.folder / "none.yaml", "none.yaml: found no such file"),
+                           (self.folder, "found a folder, expected a scenario"),
+                           ("E_Z", "found scenario 'E_Z', expected one of E_A, E_A-figure"),
+                           ("/dev/zero", "not a regular file")):
+            with self.subTest(str(path)):
+                out = self.folder / "out"
+                self.assert_refused(run("simulate", path, "--out", out), 2, part)
+                self.assertFalse(out.exists())
+
+    def test_arguments(self):
+        for arguments, parts in (
+                ([], ["A subcommand is required"]),
+                (["simulat", "E_B"], ["found 'simulat'", "did you mean 'simulate'?"]),
+                (["simulate"], ["SCENARIO"]),
+                (["simulate", "E_B", "--frce"], ["--frce"]),
+                (["simulate", "E_B", "--out", ""], ["--out: found '', expected a folder"]),
+                (["simulate", "E_B", "--tex", "soon"], ["--tex", "soon"]),
+                (["simulate", "E_B", "--tex", "0"], ["--tex: found tex = 0"]),
+                (["simulate", "E_B", "--tex", "nan"], ["--tex: found tex = nan"]),
+                (["simulate", "E_B", "--planner", "P_Z"], ["--planner: found planner 'P_Z'", "P_A"]),
+                (["simulate", "E_B", "--set", "planner.wt=3"],
+                 ["--set planner.wt: found unknown key 'wt'", "did you mean 'w_t'?"]),
+                (["simulate", "E_B", "--set", "planner.N=0"], ["--set planner.N: found N = 0"]),
+                (["simulate", "E_B", "--set", "planner"], ["--set: found 'planner'"]),
+                (["simulate", "E_B", "--expect", "gaol"], ["--expect: found 'gaol'", "'goal'"]),
+                (["plan", "E_B", "--expect", "goal"], ["--expect: found 'goal'", "solved"]),
+                (["reproduce", "--set", "planner.NN=3"], ["--set planner.NN"]),
+                (["reproduce", "--expect", "papre"], ["--expect", "'paper'"]),
+                (["simulate", "E_B", "--json", "--quiet"], ["--quiet"])):
+            with self.subTest(arguments):
+                self.assert_refused(run(*arguments), 2, *parts)
+
+    def test_a_missing_folder_of_built_ins_is_said(self):
+        result = run("list", env={"SLALOM_CONFIG_DIR": str(self.folder / "none")})
+        self.assert_refused(result, 2, "SLALOM_CONFIG_DIR", "expected an existing folder")
+
+
+if __name__ == "__main__":
+    unittest.main()

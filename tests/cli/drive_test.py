@@ -1,0 +1,182 @@
+"""Drives and plans from the command line: what is printed, what is written, what is returned."""
+
+import csv
+import json
+import re
+import unittest
+import xml.etree.ElementTree
+
+from program import SOURCE, ProgramTest, run
+
+COLUMNS = "t x y v r psi sa ux ax sr jx Fz_rl Fz_rr Fz_fl Fz_fr clearance".split()
+
+
+def read_table(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Simulate(ProgramTest):
+    def test_a_drive_leaves_its_folder(self):
+        out = self.folder / "deep" / "out"
+        result = run("simulate", "E_B", "--out", out)
+        self.assertEqual((result.code, result.err), (0, ""))
+        self.assertIn("E_B with P_D: goal at 6.50 s", result.out)
+        self.assertIn(str(out), result.out)
+
+        plant = read_table(out / "plant.csv")
+        self.assertEqual(list(plant[0]), COLUMNS)
+        times = [float(row["t"]) for row in plant]
+        self.assertTrue(all(0 < b - a <= 0.02 + 1e-12 for a, b in zip(times, times[1:])))
+
+        cycles = read_table(out / "cycles.csv")
+        self.assertEqual(list(cycles[0])[:6],
+                         ["cycle", "t0", "tex", "solve_time_s", "iterations", "status"])
+        self.assertEqual([int(row["cycle"]) for row in cycles], list(range(1, len(cycles) + 1)))
+        for row in cycles:
+            self.assertEqual(row["status"], "solved")
+            terms = sum(float(v) for k, v in row.items() if k.startswith("cost_"))
+            self.assertAlmostEqual(terms, float(row["cost"]), delta=1e-6)
+
+        plans = read_table(out / "plans.csv")
+        self.assertEqual(len(plans), 11 * len(cycles))
+
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertEqual((summary["scenario"], summary["planner"], summary["outcome"]),
+                         ("E_B", "P_D", "goal"))
+        self.assertEqual(summary["cycles"], len(cycles))
+        self.assertAlmostEqual(summary["least_clearance_m"],
+                               min(float(row["clearance"]) for row in plant), delta=0.02)
+        self.assertIn("<html", (out / "report.html").read_text())
+        for figure in (out / "figures").glob("*.svg"):
+            xml.etree.ElementTree.parse(figure)
+
+    def test_the_resolved_file_gives_the_same_drive_to_the_bit(self):
+        first, second = self.folder / "first", self.folder / "second"
+        set_ = ["--set", "obstacles.O2.vy=-9.87654321", "--set", "start.x=6.1",
+                "--set", "loop.timeout=6"]
+        self.assertEqual(run("simulate", "E_C", "--planner", "P_C", "--tex", ".37", *set_, "--out",
+                             first, "--quiet").code, 0)
+        self.assertEqual(run("simulate", first / "resolved.yaml", "--out", second, "--quiet").code, 0)
+        for name in ("plant.csv", "plans.csv", "resolved.yaml"):
+            self.assertEqual((first / name).read_bytes(), (second / name).read_bytes(), name)
+
+    def test_without_out_nothing_is_written(self):
+        result = run("simulate", "E_B", "--set", "loop.timeout=1", cwd=self.folder)
+        self.assertEqual(result.code, 0)
+        self.assertEqual(self.entries(), [])
+
+    def test_json_is_the_summary_and_nothing_else(self):
+        result = run("simulate", "E_B", "--planner", "P_C", "--json")
+        self.assertEqual((result.code, result.err), (0, ""))
+        summary = json.loads(result.out)
+        self.assertEqual((summary["outcome"], summary["hit"]), ("crash", "O1"))
+
+    def test_quiet_prints_nothing(self):
+        result = run("simulate", "E_B", "--quiet")
+        self.assertEqual((result.code, result.out, result.err), (0, "", ""))
+
+    def test_expectations(self):
+        for planner, expect, code in (("P_D", "goal", 0), ("P_D", "crash", 1),
+                                      ("P_C", "crash", 0), ("P_C", "goal", 1),
+                                      ("P_C", "goal,crash", 0), ("P_C", "wheel_lift,timeout", 1)):
+            with self.subTest(planner=planner, expect=expect):
+                result = run("simulate", "E_B", "--planner", planner, "--expect", expect, "--quiet")
+                self.assertEqual((result.code, result.err), (code, ""))
+        self.assertEqual(run("simulate", "E_B", "--planner", "P_C", "--quiet").code, 0)
+
+    def test_the_example_of_ten_lines(self):
+        example = SOURCE / "examples" / "crossing.yaml"
+        self.assertEqual(run("simulate", example, "--expect", "goal", "--quiet").code, 0)
+
+
+class Plan(ProgramTest):
+    def test_a_plan_is_printed_and_written(self):
+        out = self.folder / "out"
+        result = run("plan", "E_C", "--out", out, "--expect", "solved")
+        self.assertEqual((result.code, result.err), (0, ""))
+        self.assertIn("solved", result.out)
+        self.assertEqual(self.entries(out), ["plan.csv", "plan.json", "resolved.yaml"])
+        nodes = read_table(out / "plan.csv")
+        self.assertEqual(list(nodes[0]), "node t x y v r psi sa ux ax sr jx".split())
+        self.assertEqual(len(nodes), 16)
+        plan = json.loads((out / "plan.json").read_text())
+        self.assertTrue(plan["solved"])
+        self.assertEqual(plan["t_start_s"], 0.5)
+        self.assertAlmostEqual(plan["X0p"]["y"], 8.5, delta=1e-6)
+        self.assertAlmostEqual(float(nodes[-1]["t"]), 0.5 + plan["tf_s"], delta=1e-12)
+        self.assertAlmostEqual(sum(plan["cost_terms"].values()), plan["cost"], delta=1e-6)
+
+    def test_it_is_the_first_plan_of_the_drive(self):
+        out = self.folder / "out"
+        plan = json.loads(run("plan", "E_B", "--json").out)
+        self.assertEqual(run("simulate", "E_B", "--set", "loop.timeout=1", "--out", out,
+                             "--quiet").code, 0)
+        first = [row for row in read_table(out / "plans.csv") if row["cycle"] == "1"]
+        for name, value in plan["end"].items():
+            self.assertEqual(float(first[-1][name]), value, name)
+
+
+class Reproduce(ProgramTest):
+    def test_all_ten_drives_end_as_the_papers(self):
+        out = self.folder / "out"
+        result = run("reproduce", "--out", out, "--json", "--expect", "paper")
+        self.assertEqual((result.code, result.err), (0, ""))
+        drives = json.loads(result.out)
+        self.assertEqual(len(drives), 10)
+        for drive in drives:
+            folder = out / drive["scenario"] / drive["planner"]
+            self.assertEqual(json.loads((folder / "summary.json").read_text()), drive)
+            self.assertTrue((folder / "report.html").exists())
+        self.assertTrue((out / "index.html").exists())
+        self.assertTrue(list((out / "figures").glob("*.svg")))
+        self.assert_refused(run("reproduce", "--out", out), 3, "holds results already", "--force")
+
+
+class Others(ProgramTest):
+    def test_check_prints_what_it_resolved(self):
+        result = run("check", "E_C", "--planner", "P_B", "--set", "planner.w_t=42")
+        self.assertEqual((result.code, result.err), (0, ""))
+        self.assertIn("\n  w_t: 42\n", result.out)
+        self.assertIn('name: "P_B"', result.out)
+        again = self.write("again.yaml", result.out)
+        self.assertEqual(run("check", again).out, result.out)
+        resolved = json.loads(run("check", again, "--json").out)
+        self.assertEqual((resolved["valid"], resolved["obstacles"]), (True, 38))
+
+    def test_list(self):
+        listed = json.loads(run("list", "--json").out)
+        names = {kind: [entry["name"] for entry in entries] for kind, entries in listed.items()}
+        self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C"],
+                                 "planners": ["P_A", "P_B", "P_C", "P_D"],
+                                 "vehicles": ["hmmwv"]})
+        text = run("list").out
+        for entries in listed.values():
+            for entry in entries:
+                self.assertIn(entry["name"], text)
+                self.assertIn(entry["title"], text)
+
+    def test_the_version_is_the_projects(self):
+        project = (SOURCE / "CMakeLists.txt").read_text()
+        version = re.search(r"project\(slalom VERSION ([\d.]+)", project).group(1)
+        self.assertEqual(run("--version").out, f"slalom {version}\n")
+
+    def test_help_documents_exit_codes_and_every_command(self):
+        text = run("--help").out
+        for word in ("simulate", "plan", "reproduce", "check", "list", "Exit codes", "130"):
+            self.assertIn(word, text)
+        self.assertNotIn("docs", text)
+        for command in ("simulate", "plan", "reproduce", "check"):
+            with self.subTest(command):
+                result = run(command, "--help")
+                self.assertEqual(result.code, 0)
+                self.assertIn("Exit codes", result.out)
+                self.assertIn("Example:", result.out)
+
+    def test_the_generated_reference_is_up_to_date(self):
+        page = (SOURCE / "docs" / "scenario-reference.md").read_text()
+        self.assertEqual(run("docs", "scenario-reference").out, page)
+
+
+if __name__ == "__main__":
+    unittest.main()
