@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""All ten drives of the paper's figures, by the default settings, as the formulation's section 5
+says they come out."""
+
+import csv
+import math
+import pathlib
+import re
+import unittest
+
+import drives
+from drives import SOURCE
+
+# Snapshots of the paper's figures that say nothing on a drive: these two series lag by about .4 s.
+LAGGING = {("E_A-figure", "P_C"), ("E_B", "P_C")}
+# Two snapshots at which the drives are known to be further apart than the rest.
+FURTHER = {("E_C", "P_D", 19.5), ("E_B", "P_D", 6.5)}
+# The figures round thirds of a drive to one decimal.
+EXACT = {2.2: 6.5 / 3, 4.3: 13 / 3, 4.7: 14 / 3, 2.3: 7 / 3}
+SNAPSHOTS = pathlib.Path(__file__).with_name("snapshots.csv")
+
+
+def setUpModule():
+    global SCRATCH, DRIVES
+    SCRATCH = drives.scratch()
+    folder = pathlib.Path(SCRATCH.name) / "paper"
+    drives.run("reproduce", "--out", folder, "--quiet")
+    DRIVES = {(p.parts[-3], p.parts[-2]): drives.Drive(p.parent)
+              for p in folder.glob("*/*/summary.json")}
+    DRIVES["page"] = folder / "index.html"
+
+
+def tearDownModule():
+    SCRATCH.cleanup()
+
+
+def effort(drive, weights):
+    """Weighted integrals of sa^2, sr^2 and jx^2 along the drive; all three are (nearly) linear
+    between samples, for which this is exact."""
+    total = 0
+    for a, b in zip(drive.plant, drive.plant[1:]):
+        for column, weight in weights.items():
+            p, q = a[column], b[column]
+            total += weight * (b["t"] - a["t"]) * (p * p + p * q + q * q) / 3
+    return total
+
+
+class Reproduction(unittest.TestCase):
+    def arrives(self, environment, planner, earliest, latest):
+        drive = DRIVES[environment, planner]
+        self.assertEqual(drive.outcome, "goal", drive.ended())
+        self.assertGreaterEqual(drive.time, earliest, drive.ended())
+        self.assertLessEqual(drive.time, latest, drive.ended())
+        self.assertGreater(drive.summary["least_clearance_m"], 0)
+        return drive
+
+    def crashes(self, environment, planner, into, earliest, latest):
+        drive = DRIVES[environment, planner]
+        self.assertEqual((drive.outcome, drive.summary["hit"]), ("crash", into), drive.ended())
+        self.assertGreaterEqual(drive.time, earliest, drive.ended())
+        self.assertLessEqual(drive.time, latest, drive.ended())
+        self.assertAlmostEqual(drive.end["clearance"], 0, delta=1e-6)
+        return drive
+
+    def test_there_are_ten_and_a_page(self):
+        self.assertEqual(len(DRIVES), 10 + 1)
+        self.assertTrue(DRIVES["page"].is_file())
+
+    def test_a_arrives_late_and_slows(self):
+        for environment in ("E_A", "E_A-figure"):
+            a = self.arrives(environment, "P_A", 8, 9)
+            self.assertLess(a.end["ux"], a.plant[0]["ux"])
+
+    def test_b_and_c_arrive_early_and_gain_speed(self):
+        for environment in ("E_A", "E_A-figure"):
+            a = DRIVES[environment, "P_A"]
+            for planner in ("P_B", "P_C"):
+                drive = self.arrives(environment, planner, 5.5, 7)
+                self.assertLessEqual(drive.time, a.time - 1.5)
+                self.assertLessEqual(drive.summary["goal_time_s"], a.summary["goal_time_s"] - 1.5)
+                self.assertGreater(drive.end["ux"], drive.plant[0]["ux"])
+
+    def test_c_spends_no_more_effort_than_b(self):
+        # By the paper's table, and by the cost's own weights.
+        for weights in ({"sa": 0.1, "sr": 0.1, "jx": 0.1}, {"sa": 0.1, "sr": 1, "jx": 0.01}):
+            for environment in ("E_A", "E_A-figure"):
+                b, c = (effort(DRIVES[environment, p], weights) for p in ("P_B", "P_C"))
+                self.assertLessEqual(c, b, f"{environment} {weights}")
+
+    def test_e_b(self):
+        c = self.crashes("E_B", "P_C", "O1", 2.7, 3.2)
+        o1 = drives.obstacles(c.resolved)[0]
+        self.assertLess(c.end["x"], o1["x"] + o1["vx"] * c.time)  # left of O1
+        d = self.arrives("E_B", "P_D", 5.5, 7)
+        passing = next(row for row in d.plant if row["y"] >= o1["y"])
+        self.assertGreater(passing["x"], o1["x"] + o1["vx"] * passing["t"])  # right of O1
+
+    def test_e_c(self):
+        c = self.crashes("E_C", "P_C", "O2", 18.9, 19.9)
+        self.assertGreaterEqual(c.end["ux"], 25.5)
+        self.assertLessEqual(c.end["ux"], 27.5)
+        self.arrives("E_C", "P_D", 27, 29)
+
+    def test_snapshots(self):
+        compared = 0
+        with open(SNAPSHOTS, newline="") as file:
+            for row in csv.DictReader(file):
+                key = row["environment"], row["planner"]
+                printed = float(row["t_s"])
+                t = EXACT.get(printed, printed)
+                drive = DRIVES[key]
+                # The paper's crash at 19.5 s is within a sample of ours.
+                if key in LAGGING or t > drive.time + 0.02:
+                    continue
+                t = min(t, drive.time)
+                away = math.hypot(drive.at(t, "x") - float(row["x_m"]),
+                                  drive.at(t, "y") - float(row["y_m"]))
+                limit = 5 if (*key, printed) in FURTHER else 2.5
+                self.assertLessEqual(away, limit, f"{key} at {t:.4f} s")
+                compared += printed > 0
+        self.assertEqual(compared, 12)
+
+
+class Files(unittest.TestCase):
+    def test_summary_says_how_it_ended(self):
+        for key, drive in DRIVES.items():
+            if key == "page":
+                continue
+            s = drive.summary
+            self.assertEqual((s["scenario"], s["planner"]), key)
+            self.assertEqual(s["time_s"], drive.t[-1])
+            least = min(row["clearance"] for row in drive.plant)
+            self.assertLessEqual(s["least_clearance_m"], least + 1e-9)
+            self.assertAlmostEqual(s["least_clearance_m"], least, delta=0.01)
+
+    def test_samples_are_close(self):
+        for key, drive in DRIVES.items():
+            if key != "page":
+                gaps = [b - a for a, b in zip(drive.t, drive.t[1:])]
+                self.assertGreater(min(gaps), 0)
+                self.assertLessEqual(max(gaps), 0.02 + 1e-12)
+
+    def test_clearance_is_to_the_grown_circles(self):
+        for key in (("E_B", "P_C"), ("E_B", "P_D"), ("E_C", "P_D")):
+            drive = DRIVES[key]
+            field = drives.obstacles(drive.resolved)
+            for row in drive.plant[::50]:
+                own = min(math.hypot(row["x"] - o["x"] - o["vx"] * row["t"],
+                                     row["y"] - o["y"] - o["vy"] * row["t"]) - o["a"] - 2
+                          for o in field)
+                self.assertAlmostEqual(row["clearance"], own, delta=1e-9)
+
+
+class Configuration(unittest.TestCase):
+    def test_the_report_compares_with_the_same_snapshots(self):
+        text = (SOURCE / "config" / "paper" / "drives.yaml").read_text()
+        kept = [tuple(map(float, found)) for found in
+                re.findall(r"t_printed: ([\d.]+), x: ([-\d.]+), y: ([-\d.]+), psi: ([-\d.]+)", text)]
+        with open(SNAPSHOTS, newline="") as file:
+            ours = [tuple(float(row[k]) for k in ("t_s", "x_m", "y_m", "psi_rad"))
+                    for row in csv.DictReader(file)]
+        self.assertEqual(len(kept), len(ours))
+        for one, other in zip(sorted(kept), sorted(ours)):
+            for a, b in zip(one, other):
+                self.assertAlmostEqual(a, b, delta=1e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,281 @@
+// The pages in a real browser: they play, their parts agree, they ask for nothing.
+//
+//   SLALOM_DRIVE_DIR      a drive's folder; else one is made by `slalom simulate E_B --planner P_D`
+//   SLALOM_REPRODUCE_DIR  a reproduction's folder; else one is made by `slalom reproduce`
+//   SLALOM                the program, for making them
+//   SLALOM_TEST_DIR       where screenshots go
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { lookAt, openBrowser } from './browser.mjs';
+
+const out = process.env.SLALOM_TEST_DIR || join(tmpdir(), 'slalom-browser-test');
+mkdirSync(out, { recursive: true });
+
+/** The folder named by an environment variable, or made by the program. */
+function made(variable, name, command) {
+  if (process.env[variable]) return process.env[variable];
+  const program = process.env.SLALOM;
+  assert.ok(program, `set ${variable}, or SLALOM to the program that makes one`);
+  const folder = join(out, name);
+  execFileSync(program, [...command, '--out', folder, '--force', '--quiet'], { stdio: 'inherit' });
+  return folder;
+}
+
+const driveDir = made('SLALOM_DRIVE_DIR', 'drive', ['simulate', 'E_B', '--planner', 'P_D']);
+const reproduceDir = made('SLALOM_REPRODUCE_DIR', 'reproduce', ['reproduce']);
+const report = join(driveDir, 'report.html');
+
+const timeOf = (page) => page.evaluate(() => window.slalom.now);
+const textOf = (page, selector) => page.textContent(selector);
+const valuesOf = (page) => page.$$eval('.chart .values', (all) => all.map((v) => v.textContent));
+const cursorsOf = (page) => page.$$eval('.chart .cursor line', (all) => all.map((l) => Number(l.getAttribute('x1'))));
+
+/** Waits for a condition; fails after ten seconds. */
+async function until(holds) {
+  for (const stop = Date.now() + 10000; Date.now() < stop;) {
+    if (await holds()) return;
+    await new Promise((wake) => { setTimeout(wake, 20); });
+  }
+  assert.fail('nothing happened within ten seconds');
+}
+
+/** Moves the slider to a share of its length, as a person does. */
+async function moveSlider(page, share) {
+  const box = await (await page.$('#time')).boundingBox();
+  await page.mouse.click(box.x + 8 + (box.width - 16) * share, box.y + box.height / 2);
+}
+
+describe('the page of a drive', () => {
+  let browser;
+  let page;
+  let complaints;
+  before(async () => {
+    browser = await openBrowser();
+    ({ page, complaints } = await browser.open(report));
+  });
+  after(async () => browser.close());
+
+  test('says how the drive went', async () => {
+    assert.match(await textOf(page, 'h1'), /E_B\s+with\s+P_D/);
+    assert.ok((await textOf(page, '.outcome')).length > 3);
+    assert.equal((await page.$$('.chart')).length, 7);
+  });
+
+  test('shows vehicle, obstacles and goal', async () => {
+    await page.click('#view-course');
+    const seen = await lookAt(page, ['blue', 'vermilion', 'orange']);
+    assert.ok(seen.colours > 20, `only ${seen.colours} colours`);
+    assert.ok(seen.vermilion.count > 200, 'no obstacle');
+    assert.ok(seen.blue.count > 20, `no vehicle: ${seen.blue.count} pixels`);
+  });
+
+  test('moves with the slider: picture, time, plan and charts', async () => {
+    const wasSeen = await lookAt(page, ['blue']);
+    const wasText = await textOf(page, '#time-text');
+    const wasValues = await valuesOf(page);
+    const wasCursors = await cursorsOf(page);
+    const wasPlan = await textOf(page, '#cycle');
+    await moveSlider(page, 0.5);
+
+    const t = await timeOf(page);
+    const end = Number(await page.getAttribute('#time', 'max'));
+    assert.ok(Math.abs(t - end / 2) < 0.05 * end, `at ${t} of ${end}`);
+    assert.notEqual(await textOf(page, '#time-text'), wasText);
+    assert.ok((await textOf(page, '#time-text')).startsWith(t.toFixed(2)));
+    const seen = await lookAt(page, ['blue', 'orange']);
+    // The vehicle drives north: up the canvas, with its path behind it.
+    assert.ok(wasSeen.blue.y - seen.blue.y > 30, 'the vehicle did not move');
+    assert.ok(seen.orange.count > 60, 'no plan');
+    const values = await valuesOf(page);
+    const changed = values.filter((v, i) => v !== wasValues[i]).length;
+    assert.ok(changed >= 6, `only ${changed} charts changed their values`);
+    (await cursorsOf(page)).forEach((x, i) => assert.ok(x > wasCursors[i] + 20, `cursor ${i} stayed`));
+    assert.notEqual(await textOf(page, '#cycle'), wasPlan);
+  });
+
+  test('a click on a chart goes to that time', async () => {
+    const box = await (await page.$('.chart svg')).boundingBox();
+    await page.mouse.move(box.x + box.width * 0.3, box.y + 40);
+    await page.mouse.down();
+    const first = await timeOf(page);
+    await page.mouse.move(box.x + box.width * 0.8, box.y + 40, { steps: 4 });
+    await page.mouse.up();
+    const second = await timeOf(page);
+    const end = Number(await page.getAttribute('#time', 'max'));
+    assert.ok(first > 0.1 * end && first < 0.35 * end, `clicked to ${first}`);
+    assert.ok(second > 0.65 * end && second < 0.95 * end, `dragged to ${second}`);
+  });
+
+  test('answers to keys', async () => {
+    await page.keyboard.press('Home');
+    assert.equal(await timeOf(page), 0);
+    await page.keyboard.press('ArrowRight');
+    assert.ok(Math.abs((await timeOf(page)) - 0.1) < 1e-9);
+    await page.keyboard.press('Shift+ArrowRight');
+    assert.ok(Math.abs((await timeOf(page)) - 0.5) < 1e-6, 'the first plan takes over at tex');
+    await page.keyboard.press('End');
+    assert.ok(Math.abs((await timeOf(page)) - Number(await page.getAttribute('#time', 'max'))) < 1e-6);
+  });
+
+  test('plays and pauses', async () => {
+    await page.keyboard.press('Home');
+    await page.selectOption('#speed', '2');
+    await page.click('#play');
+    await until(async () => (await timeOf(page)) > 0.4);
+    assert.equal(await page.getAttribute('#play', 'aria-label'), 'Pause');
+    await page.keyboard.press(' ');
+    assert.equal(await page.getAttribute('#play', 'aria-label'), 'Play');
+    const stopped = await timeOf(page);
+    await page.waitForTimeout(150);
+    assert.equal(await timeOf(page), stopped);
+  });
+
+  test('zooms, pans and follows', async () => {
+    await page.click('#view-follow');
+    const box = await (await page.$('#stage')).boundingBox();
+    const before = await lookAt(page, ['blue']);
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.wheel(0, -600);
+    assert.ok((await lookAt(page, ['blue'])).blue.count > 1.2 * before.blue.count, 'did not zoom in');
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2 + 60, { steps: 4 });
+    await page.mouse.up();
+    assert.equal(await page.getAttribute('#view-follow', 'aria-pressed'), 'false');
+    await page.keyboard.press('f');
+    assert.equal(await page.getAttribute('#view-follow', 'aria-pressed'), 'true');
+  });
+
+  test('hides what is switched off', async () => {
+    await moveSlider(page, 0.5);
+    const shown = await lookAt(page, ['orange']);
+    await page.uncheck('#layer-plan');
+    assert.ok((await lookAt(page, ['orange'])).orange.count < shown.orange.count / 2);
+    await page.check('#layer-plan');
+  });
+
+  test('complains of nothing and asks for nothing', async () => {
+    await page.screenshot({ path: join(out, 'drive-light.png') });
+    assert.deepEqual(complaints, []);
+  });
+});
+
+describe('the page of a drive on other screens', () => {
+  for (const [name, options] of Object.entries({
+    dark: { colorScheme: 'dark' },
+    laptop: { width: 1280, height: 720 },
+    narrow: { width: 600, height: 900 },
+  })) {
+    test(name, async () => {
+      const browser = await openBrowser(options);
+      try {
+        const { page, complaints } = await browser.open(report, '#t=2');
+        assert.ok(Math.abs((await timeOf(page)) - 2) < 1e-9, 'the address names the time');
+        const seen = await lookAt(page, ['blue', 'vermilion', 'orange']);
+        assert.ok(seen.blue.count > 40 && seen.vermilion.count > 200 && seen.orange.count > 60);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.ok(wide <= 0, `${wide} pixels too wide`);
+        await page.screenshot({ path: join(out, `drive-${name}.png`), fullPage: true });
+        assert.deepEqual(complaints, []);
+      } finally {
+        await browser.close();
+      }
+    });
+  }
+});
+
+/** The page with its data changed by `change`. */
+function changedPage(name, change) {
+  const open = '<script type="application/json" id="drive-data">';
+  const page = readFileSync(report, 'utf8');
+  const from = page.indexOf(open) + open.length;
+  const to = page.indexOf('</script', from);
+  const data = JSON.parse(page.slice(from, to));
+  change(data);
+  const file = join(out, `${name}.html`);
+  writeFileSync(file, page.slice(0, from) + JSON.stringify(data).replaceAll('<', '\\u003c') + page.slice(to));
+  return file;
+}
+
+describe('the page of an odd drive', () => {
+  const cut = (data, n) => {
+    for (const name of Object.keys(data.plant)) data.plant[name].length = n;
+  };
+  for (const [name, change] of Object.entries({
+    'nothing-driven': (d) => { cut(d, 0); d.cycles = []; d.goal_time = null; d.least_clearance_t = null; },
+    'one-sample': (d) => { cut(d, 1); d.cycles = []; },
+    'no-obstacles': (d) => { d.obstacles = []; d.plant.clearance.fill(null); d.least_clearance_t = null; },
+    'empty-plan': (d) => {
+      d.outcome = 'not_optimal';
+      const last = d.cycles[d.cycles.length - 1];
+      Object.assign(last, { solved: false, used: false, cost: null, wall: null, violation: null, terms: [] });
+      for (const key of Object.keys(last.plan)) if (Array.isArray(last.plan[key])) last.plan[key] = [];
+    },
+  })) {
+    test(name, async () => {
+      const browser = await openBrowser();
+      try {
+        const { page, complaints } = await browser.open(changedPage(name, change));
+        await page.click('#view-course');
+        for (const key of ['End', 'Home', 'ArrowRight', ' ', ' ']) await page.keyboard.press(key);
+        await page.click('#view-follow');
+        const values = (await valuesOf(page)).join(' ');
+        assert.ok(!/NaN|undefined|Infinity/.test(values), values);
+        const drawn = await page.$$eval('.chart svg', (all) => all.map((s) => s.outerHTML).join(''));
+        assert.ok(!/NaN|undefined|Infinity/.test(drawn), 'a chart has coordinates that are no numbers');
+        assert.ok((await lookAt(page, ['blue'])).colours > 2);
+        assert.deepEqual(complaints, []);
+      } finally {
+        await browser.close();
+      }
+    });
+  }
+});
+
+describe('the page of the reproduction', () => {
+  for (const colorScheme of ['light', 'dark']) {
+    test(colorScheme, async () => {
+      const browser = await openBrowser({ colorScheme, width: 1280, height: 900 });
+      try {
+        const { page, complaints } = await browser.open(join(reproduceDir, 'index.html'));
+        assert.ok((await page.$$('table')).length >= 6);
+        const figures = await page.$$eval('.figure svg', (all) => all.map((s) => s.getBoundingClientRect().height));
+        assert.ok(figures.length >= 8 && figures.every((h) => h > 100), String(figures));
+        const links = await page.$$eval('a[href]', (all) => all.map((a) => a.getAttribute('href').split('#')[0]));
+        for (const link of new Set(links.filter((l) => l !== ''))) {
+          assert.ok(existsSync(join(reproduceDir, link)), `no ${link}`);
+        }
+        await page.screenshot({ path: join(out, `reproduction-${colorScheme}.png`), fullPage: true });
+        assert.deepEqual(complaints, []);
+      } finally {
+        await browser.close();
+      }
+    });
+  }
+});
+
+describe('figures for print', () => {
+  const folders = [join(driveDir, 'figures'), join(reproduceDir, 'figures')];
+  const files = folders.flatMap((f) => readdirSync(f).filter((n) => n.endsWith('.svg')).map((n) => join(f, n)));
+
+  test('are pictures without scripts', async () => {
+    assert.ok(files.length >= 14, `${files.length} figures`);
+    const browser = await openBrowser();
+    try {
+      for (const file of files) {
+        assert.ok(statSync(file).size > 500, file);
+        assert.ok(!readFileSync(file, 'utf8').includes('<script'), file);
+        const { page, complaints } = await browser.open(file);
+        const shapes = await page.evaluate(() => document.querySelectorAll('polyline, ellipse, line').length);
+        assert.ok(shapes > 5, `${file}: ${shapes} shapes`);
+        assert.deepEqual(complaints, [], file);
+        await page.close();
+      }
+    } finally {
+      await browser.close();
+    }
+  });
+});
