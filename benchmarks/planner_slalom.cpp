@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "builder.hpp"
-#include "slalom/expr/kernels.hpp"
+#include "slalom/base/kernels.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/scheme.hpp"
@@ -206,9 +206,9 @@ json to_json(const ocp::Trajectory& trajectory) {
 
 // --- evaluations ---------------------------------------------------------------------------------
 
-std::vector<expr::KernelSet> kernel_sets() {
-  std::vector<expr::KernelSet> sets{expr::KernelSet::baseline};
-  if (expr::best_kernels() != expr::KernelSet::baseline) sets.push_back(expr::best_kernels());
+std::vector<KernelSet> kernel_sets() {
+  std::vector<KernelSet> sets{KernelSet::baseline};
+  if (best_kernels() != KernelSet::baseline) sets.push_back(best_kernels());
   return sets;
 }
 
@@ -218,13 +218,13 @@ json time_functions(ocp::Transcription& transcription, const std::vector<double>
   nlp::Evaluation at;
   json result;
   for (const auto set : kernel_sets()) {
-    expr::select_kernels(set);
+    select_kernels(set);
     const auto time = [&](nlp::Parts parts) {
       return times_us(repeats, [&] {
         if (transcription.evaluate(x, 1, y, parts, at)) throw std::runtime_error("not finite");
       });
     };
-    result[expr::to_string(set)] = {
+    result[to_string(set)] = {
         {"all_first", time({.values = true, .derivatives = true})},
         {"all_second", time({.values = true, .derivatives = true, .hessian = true})},
         {"hessian", time({.hessian = true})}};
@@ -241,7 +241,7 @@ json profile(const ocp::Problem& problem, const std::vector<double>& x, int repe
   std::vector<double> hessian(data.structure.hessian_row.size());
   json result;
   for (const auto set : kernel_sets()) {
-    expr::select_kernels(set);
+    select_kernels(set);
     json batches = json::array();
     for (auto& batch : data.batches) {
       const auto us = [&](auto call) { return median(times_us(repeats, call)); };
@@ -262,11 +262,11 @@ json profile(const ocp::Problem& problem, const std::vector<double>& x, int repe
                            {"first", count(first)},
                            {"hessian", count(second)},
                            {"all", count(all)}}},
-                         {"entries",
-                          {{"rows", batch.to_rows.size()},
-                           {"jacobian", batch.to_jacobian.size()},
-                           {"gradient", batch.to_gradient.size()},
-                           {"hessian", batch.to_hessian.size()}}},
+                         {"runs",
+                          {{"rows", batch.to_rows.runs()},
+                           {"jacobian", batch.to_jacobian.runs()},
+                           {"gradient", batch.to_gradient.runs()},
+                           {"hessian", batch.to_hessian.runs()}}},
                          {"us",
                           {{"load", us([&] { batch.load(x); })},
                            {"weights", us([&] { batch.set_weights(1, y); })},
@@ -274,20 +274,19 @@ json profile(const ocp::Problem& problem, const std::vector<double>& x, int repe
                            {"run_first", us([&] { batch.run(first); })},
                            {"run_hessian", us([&] { batch.run(second); })},
                            {"run_all", us([&] { batch.run(all); })},
-                           {"check_all", us([&] { (void)batch.find_bad_number(all); })},
                            {"scatter_values", us([&] {
-                              ocp::scatter_into(batch.to_rows, batch.values, rows);
-                              ocp::scatter_into(batch.to_terms, batch.values, terms);
+                              batch.to_rows.scatter(batch.evaluator->values(), rows);
+                              batch.to_terms.scatter(batch.evaluator->values(), terms);
                             })},
                            {"scatter_first", us([&] {
-                              ocp::scatter_into(batch.to_jacobian, batch.jacobian, jacobian);
-                              ocp::scatter_into(batch.to_gradient, batch.jacobian, gradient);
+                              batch.to_jacobian.scatter(batch.evaluator->jacobian(), jacobian);
+                              batch.to_gradient.scatter(batch.evaluator->jacobian(), gradient);
                             })},
                            {"scatter_hessian", us([&] {
-                              ocp::scatter_into(batch.to_hessian, batch.hessian, hessian);
+                              batch.to_hessian.scatter(batch.evaluator->hessian(), hessian);
                             })}}}});
     }
-    result[expr::to_string(set)] = std::move(batches);
+    result[to_string(set)] = std::move(batches);
   }
   return result;
 }
@@ -395,7 +394,7 @@ json bench(const Arguments& arguments) {
   json result = {{"setup_s", ready.count()},
                  {"backends", nlp::backends()},
                  {"backend", arguments.backend},
-                 {"kernels", expr::to_string(expr::best_kernels())},
+                 {"kernels", to_string(best_kernels())},
                  {"variables", shape.variables},
                  {"rows", shape.rows},
                  {"jacobian_entries", shape.jacobian_col.size()},

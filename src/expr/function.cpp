@@ -1,80 +1,163 @@
 #include "slalom/expr/function.hpp"
 
-#include <array>
-#include <atomic>
-#include <mutex>
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
 
-#include "dag.hpp"
+#include "../base/aligned.hpp"
+#include "function_impl.hpp"
+#include "op.hpp"
 #include "slalom/base/error.hpp"
-#include "tape.hpp"
 
 namespace slalom::expr {
 namespace {
-
-unsigned mask_of(Wanted wanted) {
-  return (wanted.values ? 1u : 0u) | (wanted.jacobian ? 2u : 0u) | (wanted.hessian ? 4u : 0u);
-}
 
 void require(bool condition, const char* what) {
   if (!condition) throw Error(std::string("function: size of ") + what + " does not match");
 }
 
+/// Aligned memory that only grows; one for each thread.
+class Workspace {
+ public:
+  double* reserve(std::size_t doubles) {
+    if (doubles > size_) {
+      memory_ = aligned_doubles(doubles);
+      size_ = doubles;
+    }
+    return memory_.get();
+  }
+
+ private:
+  AlignedDoubles memory_;
+  std::size_t size_ = 0;
+};
+
+/// Which vertices depend on data (and constants) alone, and on some data.
+std::vector<char> data_only(const Dag& dag, std::size_t variables, std::size_t data) {
+  std::vector<char> result(dag.size(), 0);
+  for (Dag::Id id = 0; id < dag.size(); ++id) {
+    const auto& v = dag[id];
+    if (v.op == Op::symbol) {
+      const auto input = static_cast<std::size_t>(v.value);
+      result[id] = input >= variables && input < variables + data;
+      continue;
+    }
+    bool some = false, all = true;
+    for (std::size_t i = 0; i < arity(v.op); ++i) {
+      some = some || result[v.arg[i]];
+      all = all && (result[v.arg[i]] || dag.is_constant(v.arg[i]));
+    }
+    result[id] = some && all;
+  }
+  return result;
+}
+
 }  // namespace
 
-/// Derivatives and code are made when first wanted, once, whichever thread comes first.
-struct Function::Impl {
-  std::size_t variables = 0, data = 0;
-  std::vector<Dag::Id> outputs, weights;
-  mutable std::mutex mutex;
-  mutable Dag dag;
-  mutable SparseDerivative jacobian, hessian;
-  mutable std::atomic<bool> has_jacobian = false, has_hessian = false;
-  mutable std::array<Tape, 8> tapes;
-  mutable std::array<std::atomic<bool>, 8> compiled{};
+void Function::Impl::differentiate_once() const {
+  if (has_jacobian.load(std::memory_order_acquire)) return;
+  const std::lock_guard lock(mutex);
+  if (has_jacobian.load(std::memory_order_relaxed)) return;
+  jacobian = expr::jacobian(dag, outputs, variables);
+  has_jacobian.store(true, std::memory_order_release);
+}
 
-  void differentiate_once() const {
-    if (has_jacobian.load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(mutex);
-    if (has_jacobian.load(std::memory_order_relaxed)) return;
-    jacobian = expr::jacobian(dag, outputs, variables);
-    has_jacobian.store(true, std::memory_order_release);
+void Function::Impl::differentiate_twice() const {
+  if (has_hessian.load(std::memory_order_acquire)) return;
+  differentiate_once();
+  const std::lock_guard lock(mutex);
+  if (has_hessian.load(std::memory_order_relaxed)) return;
+  auto pushed = expr::hessian(dag, outputs, weights, variables);
+  auto eliminated = hessian_by_elimination(dag, jacobian, weights, variables);
+  hessian = std::move(cost(eliminated) < cost(pushed) ? eliminated : pushed);
+  has_hessian.store(true, std::memory_order_release);
+}
+
+/// Entries, then instructions beside values and Jacobian.
+std::pair<std::size_t, std::size_t> Function::Impl::cost(const SparseDerivative& candidate) const {
+  auto list = results({.values = true, .jacobian = true});
+  list.insert(list.end(), candidate.values.begin(), candidate.values.end());
+  return {candidate.pattern.size(), compile(dag, list).code.size()};
+}
+
+std::vector<Dag::Id> Function::Impl::results(Wanted wanted) const {
+  std::vector<Dag::Id> list;
+  const auto add = [&](const std::vector<Dag::Id>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+  };
+  if (wanted.values) add(outputs);
+  if (wanted.jacobian) add(jacobian.values);
+  if (wanted.hessian) add(hessian.values);
+  return list;
+}
+
+const Tape& Function::Impl::get(Tapes& tapes, Wanted wanted, const Given& given,
+                                 const std::vector<Dag::Id>& family) const {
+  const unsigned mask = mask_of(wanted);
+  if (tapes.ready[mask].load(std::memory_order_acquire)) return tapes.tape[mask];
+  if (wanted.jacobian) differentiate_once();
+  if (wanted.hessian) differentiate_twice();
+  const std::lock_guard lock(mutex);
+  if (tapes.ready[mask].load(std::memory_order_relaxed)) return tapes.tape[mask];
+  tapes.tape[mask] = compile(dag, results(wanted), given, family);
+  tapes.ready[mask].store(true, std::memory_order_release);
+  return tapes.tape[mask];
+}
+
+const Tape& Function::Impl::tape(Wanted wanted) const {
+  return get(plain_, wanted, {}, {});
+}
+const Tape& Function::Impl::tape_behind(Wanted wanted) const {
+  find_ahead();
+  return get(behind_, wanted, given_, all_results_);
+}
+const Tape& Function::Impl::ahead() const {
+  find_ahead();
+  return ahead_;
+}
+std::size_t Function::Impl::ahead_count() const {
+  find_ahead();
+  return given_.vertices.size();
+}
+
+/// The vertices on the border of what depends on data alone, and reciprocals of such divisors.
+void Function::Impl::find_ahead() const {
+  if (has_ahead_.load(std::memory_order_acquire)) return;
+  differentiate_twice();
+  const std::lock_guard lock(mutex);
+  if (has_ahead_.load(std::memory_order_relaxed)) return;
+  const auto list = all_results_ = results({.values = true, .jacobian = true, .hessian = true});
+  const auto from_data = data_only(dag, variables, data);
+  const std::size_t size = dag.size();
+  std::vector<char> needed(size, 0), wanted(size, 0);
+  for (auto id : list) needed[id] = 1;
+  for (auto id : list) wanted[id] = from_data[id];
+  std::vector<std::pair<Dag::Id, Dag::Id>> divisors;
+  for (auto id = static_cast<Dag::Id>(size); id-- > 0;) {
+    if (!needed[id] || from_data[id]) continue;
+    const auto v = dag[id];  // a copy: the graph grows below
+    for (std::size_t i = 0; i < arity(v.op); ++i) {
+      const Dag::Id arg = v.arg[i];
+      needed[arg] = 1;
+      if (!from_data[arg]) continue;
+      if (v.op == Op::div && i == 1)
+        divisors.emplace_back(arg, dag.div(dag.constant(1), arg));
+      else
+        wanted[arg] = 1;
+    }
   }
-  void differentiate_twice() const {
-    if (has_hessian.load(std::memory_order_acquire)) return;
-    differentiate_once();
-    const std::lock_guard lock(mutex);
-    if (has_hessian.load(std::memory_order_relaxed)) return;
-    auto pushed = expr::hessian(dag, outputs, weights, variables);
-    auto eliminated = hessian_by_elimination(dag, jacobian, weights, variables);
-    hessian = std::move(cost(eliminated) < cost(pushed) ? eliminated : pushed);
-    has_hessian.store(true, std::memory_order_release);
+  std::vector<Dag::Id> ahead;
+  for (Dag::Id id = 0; id < size; ++id)
+    if (wanted[id] && arity(dag[id].op) > 0) ahead.push_back(id);
+  for (const auto& [divisor, id] : divisors) {
+    if (std::find(ahead.begin(), ahead.end(), id) == ahead.end()) ahead.push_back(id);
+    given_.reciprocals.push_back({divisor, id});
   }
-  /// Entries, then instructions beside values and Jacobian.
-  std::pair<std::size_t, std::size_t> cost(const SparseDerivative& candidate) const {
-    auto results = outputs;
-    results.insert(results.end(), jacobian.values.begin(), jacobian.values.end());
-    results.insert(results.end(), candidate.values.begin(), candidate.values.end());
-    return {candidate.pattern.size(), compile(dag, results).code.size()};
-  }
-  const Tape& tape(Wanted wanted) const {
-    const unsigned mask = mask_of(wanted);
-    if (compiled[mask].load(std::memory_order_acquire)) return tapes[mask];
-    if (wanted.jacobian) differentiate_once();
-    if (wanted.hessian) differentiate_twice();
-    const std::lock_guard lock(mutex);
-    if (compiled[mask].load(std::memory_order_relaxed)) return tapes[mask];
-    std::vector<Dag::Id> results;
-    if (wanted.values) results = outputs;
-    if (wanted.jacobian)
-      results.insert(results.end(), jacobian.values.begin(), jacobian.values.end());
-    if (wanted.hessian) results.insert(results.end(), hessian.values.begin(), hessian.values.end());
-    tapes[mask] = compile(dag, results);
-    compiled[mask].store(true, std::memory_order_release);
-    return tapes[mask];
-  }
-};
+  for (std::size_t k = 0; k < ahead.size(); ++k)
+    given_.vertices.push_back({ahead[k], variables + data + weights.size() + k});
+  ahead_ = compile(dag, ahead);
+  has_ahead_.store(true, std::memory_order_release);
+}
 
 Function::Function() : Function({}, {}, {}) {}
 
@@ -123,12 +206,13 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
   const Tape& tape = impl_->tape(wanted);
   require(x.size() == variables() * lanes, "variables");
   require(p.size() == data() * lanes, "data");
-  thread_local std::vector<const double*> inputs;
+  thread_local std::vector<InputRow> inputs;
   thread_local std::vector<double*> results;
+  thread_local Workspace workspace;
   inputs.clear();
   results.clear();
-  for (std::size_t i = 0; i < variables(); ++i) inputs.push_back(x.data() + i * lanes);
-  for (std::size_t i = 0; i < data(); ++i) inputs.push_back(p.data() + i * lanes);
+  for (std::size_t i = 0; i < variables(); ++i) inputs.push_back({x.data() + i * lanes, false});
+  for (std::size_t i = 0; i < data(); ++i) inputs.push_back({p.data() + i * lanes, false});
   if (wanted.values) {
     require(values.size() == outputs() * lanes, "values");
     for (std::size_t i = 0; i < outputs(); ++i) results.push_back(values.data() + i * lanes);
@@ -140,12 +224,12 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
   }
   if (wanted.hessian) {
     require(weights.size() == outputs() * lanes, "weights");
-    for (std::size_t i = 0; i < outputs(); ++i) inputs.push_back(weights.data() + i * lanes);
+    for (std::size_t i = 0; i < outputs(); ++i) inputs.push_back({weights.data() + i * lanes, false});
     const std::size_t n = impl_->hessian.pattern.size();
     require(hessian.size() == n * lanes, "the Hessian");
     for (std::size_t i = 0; i < n; ++i) results.push_back(hessian.data() + i * lanes);
   }
-  run(tape, {lanes, inputs, results});
+  run(tape, {lanes, inputs, results}, workspace.reserve(workspace_size(tape, lanes)));
 }
 
 void Function::operator()(std::span<const double> x, std::span<const double> p,

@@ -1,13 +1,12 @@
 #include "tape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
-#include <memory>
-#include <new>
 
 #include "op.hpp"
-#include "slalom/expr/kernels.hpp"
+#include "slalom/base/kernels.hpp"
 
 namespace slalom::expr {
 namespace {
@@ -32,51 +31,126 @@ class RowPool {
   std::uint32_t next_ = 0;
 };
 
-/// Aligned memory that only grows; one for each thread.
-class Workspace {
- public:
-  double* reserve(std::size_t doubles) {
-    if (doubles > size_) {
-      memory_.reset(new (std::align_val_t{64}) double[doubles]);
-      size_ = doubles;
-    }
-    return memory_.get();
-  }
-
- private:
-  struct Delete {
-    void operator()(double* p) const { operator delete[](p, std::align_val_t{64}); }
-  };
-  std::unique_ptr<double[], Delete> memory_;
-  std::size_t size_ = 0;
-};
-
 std::size_t block_width(const Tape& tape, std::size_t lanes) {
   for (std::size_t width : {std::size_t{64}, std::size_t{16}})
     if (lanes > width / 4 && tape.rows * width * sizeof(double) <= kCacheBytes) return width;
   return lanes > 4 ? 16 : 4;
 }
 
+/// Few numbers are not worth a call.
+inline void copy(const double* from, std::size_t count, double* to) {
+  if (count < 16) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = from[i];
+  } else {
+    std::memcpy(to, from, count * sizeof(double));
+  }
+}
+
+/// Chooses instructions: finds products that can be fused with the one sum that reads them.
+class Selection {
+ public:
+  Selection(const Dag& dag, const std::vector<Dag::Id>& results, const Given& given,
+            const std::vector<Dag::Id>& family)
+      : dag_(dag),
+        needed_(dag.size(), 0),
+        given_(dag.size(), 0),
+        fused_(dag.size(), 0),
+        reciprocal_(dag.size(), kNoId) {
+    for (const auto& g : given.vertices) given_[g.id] = 1;
+    for (const auto& r : given.reciprocals) reciprocal_[r.divisor] = r.id;
+    const auto readers = mark(family.empty() ? results : family);
+    for (Dag::Id id = 0; id < dag.size(); ++id)
+      if (needed_[id] && !given_[id]) choose(id, readers);
+    if (!family.empty()) mark(results);
+  }
+
+  /// Neither input nor fused into its reader.
+  bool is_step(Dag::Id id) const {
+    return needed_[id] && !given_[id] && !fused_[id] && arity(dag_[id].op) > 0;
+  }
+  bool needed(Dag::Id id) const { return needed_[id] != 0; }
+  bool given(Dag::Id id) const { return given_[id] != 0; }
+
+  struct Choice {
+    Code code;
+    std::size_t args;
+    std::array<Dag::Id, 3> arg;
+  };
+  Choice operator[](Dag::Id id) const {
+    const auto& v = dag_[id];
+    if (v.op == Op::add && fused_[v.arg[1]]) return product(kProductPlus, v.arg[1], v.arg[0]);
+    if (v.op == Op::add && fused_[v.arg[0]]) return product(kProductPlus, v.arg[0], v.arg[1]);
+    if (v.op == Op::sub && fused_[v.arg[0]]) return product(kProductMinus, v.arg[0], v.arg[1]);
+    if (v.op == Op::sub && fused_[v.arg[1]]) return product(kMinusProduct, v.arg[1], v.arg[0]);
+    return plain(id);
+  }
+
+ private:
+  static constexpr Dag::Id kNoId = std::numeric_limits<Dag::Id>::max();
+
+  Choice plain(Dag::Id id) const {
+    const auto& v = dag_[id];
+    if (v.op == Op::div && reciprocal_[v.arg[1]] != kNoId && !given_[v.arg[0]])
+      return {code_of(Op::mul), 2, {v.arg[0], reciprocal_[v.arg[1]], 0}};
+    return {code_of(v.op), arity(v.op), v.arg};
+  }
+  /// Marks what `results` need; returns how often each vertex is read.
+  std::vector<std::uint32_t> mark(const std::vector<Dag::Id>& results) {
+    std::vector<std::uint32_t> readers(dag_.size(), 0);
+    std::fill(needed_.begin(), needed_.end(), 0);
+    for (auto id : results) needed_[id] = 1;
+    for (auto id : results) readers[id] = 2;  // a result must stand on its own
+    // A reciprocal's id is larger than its readers', but it is given: nothing is below it.
+    for (auto id = static_cast<Dag::Id>(dag_.size()); id-- > 0;)
+      if (needed_[id] && !given_[id]) {
+        const auto choice = plain(id);
+        for (std::size_t i = 0; i < choice.args; ++i) {
+          needed_[choice.arg[i]] = 1;
+          ++readers[choice.arg[i]];
+        }
+      }
+    return readers;
+  }
+  void choose(Dag::Id id, const std::vector<std::uint32_t>& readers) {
+    const auto& v = dag_[id];
+    if (v.op != Op::add && v.op != Op::sub) return;
+    for (const Dag::Id arg : {v.arg[1], v.arg[0]}) {
+      const Op op = dag_[arg].op;
+      if ((op != Op::mul && op != Op::square) || readers[arg] != 1 || given_[arg]) continue;
+      fused_[arg] = 1;
+      return;
+    }
+  }
+  Choice product(Code code, Dag::Id factor, Dag::Id other) const {
+    const auto& v = dag_[factor];
+    return {code, 3, {v.arg[0], v.op == Op::square ? v.arg[0] : v.arg[1], other}};
+  }
+
+  const Dag& dag_;
+  std::vector<char> needed_, given_, fused_;
+  std::vector<Dag::Id> reciprocal_;
+};
+
 }  // namespace
 
-Tape compile(const Dag& dag, const std::vector<Dag::Id>& results) {
-  std::vector<char> needed(dag.size(), 0);
-  for (auto id : results) needed[id] = 1;
-  for (auto id = static_cast<Dag::Id>(dag.size()); id-- > 0;)
-    if (needed[id])
-      for (std::size_t i = 0; i < arity(dag[id].op); ++i) needed[dag[id].arg[i]] = 1;
-
+Tape compile(const Dag& dag, const std::vector<Dag::Id>& results, const Given& given,
+             const std::vector<Dag::Id>& family) {
+  const Selection selection(dag, results, given, family);
   std::vector<Dag::Id> last_reader(dag.size(), 0);
   for (Dag::Id id = 0; id < dag.size(); ++id)
-    if (needed[id])
-      for (std::size_t i = 0; i < arity(dag[id].op); ++i) last_reader[dag[id].arg[i]] = id;
+    if (selection.is_step(id)) {
+      const auto choice = selection[id];
+      for (std::size_t i = 0; i < choice.args; ++i) last_reader[choice.arg[i]] = id;
+    }
   for (auto id : results) last_reader[id] = std::numeric_limits<Dag::Id>::max();
 
   Tape tape;
   RowPool pool;
   std::vector<std::uint32_t> row(dag.size(), kNoRow);
+  for (const auto& g : given.vertices)
+    if (selection.needed(g.id)) tape.inputs.push_back({row[g.id] = pool.take(), g.input});
   for (Dag::Id id = 0; id < dag.size(); ++id) {
-    if (!needed[id] || arity(dag[id].op) != 0) continue;
+    if (!selection.needed(id) || selection.given(id) || arity(dag[id].op) != 0) continue;
     row[id] = pool.take();
     if (dag[id].op == Op::constant) {
       last_reader[id] = std::numeric_limits<Dag::Id>::max();
@@ -86,11 +160,10 @@ Tape compile(const Dag& dag, const std::vector<Dag::Id>& results) {
     }
   }
   for (Dag::Id id = 0; id < dag.size(); ++id) {
-    const std::size_t n = arity(dag[id].op);
-    if (!needed[id] || n == 0) continue;
-    const auto& arg = dag[id].arg;
-    Instruction step{dag[id].op, 0, row[arg[0]], n > 1 ? row[arg[1]] : 0, n > 2 ? row[arg[2]] : 0};
-    for (std::size_t i = 0; i < n; ++i) {
+    if (!selection.is_step(id)) continue;
+    const auto [code, args, arg] = selection[id];
+    Instruction step{code, 0, row[arg[0]], args > 1 ? row[arg[1]] : 0, args > 2 ? row[arg[2]] : 0};
+    for (std::size_t i = 0; i < args; ++i) {
       const bool repeated = (i > 0 && arg[i] == arg[0]) || (i > 1 && arg[i] == arg[1]);
       if (!repeated && last_reader[arg[i]] == id) pool.give_back(row[arg[i]]);
     }
@@ -102,25 +175,30 @@ Tape compile(const Dag& dag, const std::vector<Dag::Id>& results) {
   return tape;
 }
 
-void run(const Tape& tape, const TapeRun& rows) {
-  thread_local Workspace memory;
+std::size_t workspace_size(const Tape& tape, std::size_t lanes) {
+  return tape.rows * block_width(tape, lanes);
+}
+
+void run(const Tape& tape, const TapeRun& rows, double* workspace) {
   const std::size_t width = block_width(tape, rows.lanes);
-  double* workspace = memory.reserve(tape.rows * width);
   const Kernel kernel = current_kernels() == KernelSet::avx2 ? run_block_avx2 : run_block_baseline;
   for (const auto& fill : tape.constants)
     std::fill_n(workspace + fill.row * width, width, fill.value);
   for (std::size_t lane = 0; lane < rows.lanes; lane += width) {
     const std::size_t count = std::min(width, rows.lanes - lane);
     for (const auto& load : tape.inputs) {
+      const InputRow& input = rows.inputs[load.input];
       double* to = workspace + load.row * width;
-      const double* from = rows.inputs[load.input] + lane;
-      std::memcpy(to, from, count * sizeof(double));
-      std::fill(to + count, to + width, from[count - 1]);  // idle lanes compute the last one again
+      if (input.same) {
+        std::fill_n(to, width, *input.numbers);
+        continue;
+      }
+      copy(input.numbers + lane, count, to);
+      std::fill(to + count, to + width, to[count - 1]);  // idle lanes compute the last one again
     }
     kernel(tape, workspace, width);
     for (std::size_t k = 0; k < tape.outputs.size(); ++k)
-      std::memcpy(rows.outputs[k] + lane, workspace + tape.outputs[k] * width,
-                  count * sizeof(double));
+      copy(workspace + tape.outputs[k] * width, count, rows.outputs[k] + lane);
   }
 }
 

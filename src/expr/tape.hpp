@@ -9,9 +9,19 @@
 
 namespace slalom::expr {
 
+/// What an instruction does: an Op, or a product and a sum in one (rounded once where the processor
+/// can).
+using Code = std::uint8_t;
+constexpr Code code_of(Op op) {
+  return static_cast<Code>(op);
+}
+inline constexpr Code kProductPlus = code_of(Op::select) + 1;   ///< a b + c
+inline constexpr Code kProductMinus = code_of(Op::select) + 2;  ///< a b - c
+inline constexpr Code kMinusProduct = code_of(Op::select) + 3;  ///< c - a b
+
 /// One operation on whole rows of lanes.
 struct Instruction {
-  Op op;
+  Code code;
   std::uint32_t to, a, b, c;  ///< rows
 };
 
@@ -33,16 +43,41 @@ struct Tape {
   std::size_t rows = 0;
 };
 
-Tape compile(const Dag& dag, const std::vector<Dag::Id>& results);
+/// What is known before a run, and read as input instead of being computed.
+struct Given {
+  struct Vertex {
+    Dag::Id id;
+    std::size_t input;
+  };
+  struct Reciprocal {
+    Dag::Id divisor, id;  ///< id: of 1 / divisor, among the vertices
+  };
+  std::vector<Vertex> vertices;
+  std::vector<Reciprocal> reciprocals;  ///< quotients by these divisors become products
+};
 
-/// Where an evaluation reads and writes; inputs and outputs one pointer a row of `lanes` doubles.
+/// `family`: results, `results` among them, of which each must have the same bits whichever others
+/// it is computed with; empty: `results` alone.
+Tape compile(const Dag& dag, const std::vector<Dag::Id>& results, const Given& given = {},
+             const std::vector<Dag::Id>& family = {});
+
+/// A row of `lanes` numbers, or one number for all lanes.
+struct InputRow {
+  const double* numbers;
+  bool same;
+};
+
+/// Where an evaluation reads and writes; outputs one row of `lanes` doubles each.
 struct TapeRun {
   std::size_t lanes;
-  std::span<const double* const> inputs;
+  std::span<const InputRow> inputs;
   std::span<double* const> outputs;
 };
 
-void run(const Tape& tape, const TapeRun& rows);
+/// Doubles a run needs as workspace.
+std::size_t workspace_size(const Tape& tape, std::size_t lanes);
+/// `workspace` is aligned to 64 bytes.
+void run(const Tape& tape, const TapeRun& rows, double* workspace);
 
 /// Executes the code on a workspace of rows of `width` lanes (width from block_widths).
 using Kernel = void (*)(const Tape& tape, double* workspace, std::size_t width);

@@ -6,7 +6,7 @@
 namespace slalom::expr {
 namespace {
 
-/// Four lanes: AVX2 with FMA (for SLEEF alone; no contraction elsewhere).
+/// Four lanes: AVX2 with FMA.
 struct Vector {
   using type = __m256d;
   static constexpr std::size_t size = 4;
@@ -26,6 +26,9 @@ struct Vector {
   static type tanh(type v) { return Sleef_finz_tanhd4_u10avx2(v); }
   static type pow(type a, type b) { return Sleef_finz_powd4_u10avx2(a, b); }
   static type atan2(type y, type x) { return Sleef_finz_atan2d4_u10avx2(y, x); }
+  static type product_plus(type a, type b, type c) { return _mm256_fmadd_pd(a, b, c); }
+  static type product_minus(type a, type b, type c) { return _mm256_fmsub_pd(a, b, c); }
+  static type minus_product(type a, type b, type c) { return _mm256_fnmadd_pd(a, b, c); }
   template <class Mask>
   static type pick(Mask mask, type yes, type no) {
     return mask ? yes : no;

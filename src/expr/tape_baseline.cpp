@@ -26,6 +26,9 @@ struct Vector {
   static type tanh(type v) { return Sleef_cinz_tanhd2_u10sse2(v); }
   static type pow(type a, type b) { return Sleef_cinz_powd2_u10sse2(a, b); }
   static type atan2(type y, type x) { return Sleef_cinz_atan2d2_u10sse2(y, x); }
+  static type product_plus(type a, type b, type c) { return a * b + c; }
+  static type product_minus(type a, type b, type c) { return a * b - c; }
+  static type minus_product(type a, type b, type c) { return c - a * b; }
   template <class Mask>
   static type pick(Mask mask, type yes, type no) {
     return mask ? yes : no;

@@ -21,6 +21,12 @@ inline void map2(double* to, const double* a, const double* b, F f) {
     V::store(to + i, f(V::load(a + i), V::load(b + i)));
 }
 
+template <class V, std::size_t Width, class F>
+inline void map3(double* to, const double* a, const double* b, const double* c, F f) {
+  for (std::size_t i = 0; i < Width; i += V::size)
+    V::store(to + i, f(V::load(a + i), V::load(b + i), V::load(c + i)));
+}
+
 template <class V, std::size_t Width>
 void run_width(const Tape& tape, double* workspace) {
   using T = typename V::type;
@@ -28,88 +34,95 @@ void run_width(const Tape& tape, double* workspace) {
     double* to = workspace + step.to * Width;
     const double* a = workspace + step.a * Width;
     const double* b = workspace + step.b * Width;
-    switch (step.op) {
-      case Op::constant:
-      case Op::symbol:
+    const double* c = workspace + step.c * Width;
+    switch (step.code) {
+      case code_of(Op::constant):
+      case code_of(Op::symbol):
         break;
-      case Op::neg:
+      case code_of(Op::neg):
         map1<V, Width>(to, a, [](T x) { return -x; });
         break;
-      case Op::square:
+      case code_of(Op::square):
         map1<V, Width>(to, a, [](T x) { return x * x; });
         break;
-      case Op::sqrt:
+      case code_of(Op::sqrt):
         map1<V, Width>(to, a, V::sqrt);
         break;
-      case Op::exp:
+      case code_of(Op::exp):
         map1<V, Width>(to, a, V::exp);
         break;
-      case Op::log:
+      case code_of(Op::log):
         map1<V, Width>(to, a, V::log);
         break;
-      case Op::sin:
+      case code_of(Op::sin):
         map1<V, Width>(to, a, V::sin);
         break;
-      case Op::cos:
+      case code_of(Op::cos):
         map1<V, Width>(to, a, V::cos);
         break;
-      case Op::tan:
+      case code_of(Op::tan):
         map1<V, Width>(to, a, V::tan);
         break;
-      case Op::asin:
+      case code_of(Op::asin):
         map1<V, Width>(to, a, V::asin);
         break;
-      case Op::acos:
+      case code_of(Op::acos):
         map1<V, Width>(to, a, V::acos);
         break;
-      case Op::atan:
+      case code_of(Op::atan):
         map1<V, Width>(to, a, V::atan);
         break;
-      case Op::sinh:
+      case code_of(Op::sinh):
         map1<V, Width>(to, a, V::sinh);
         break;
-      case Op::cosh:
+      case code_of(Op::cosh):
         map1<V, Width>(to, a, V::cosh);
         break;
-      case Op::tanh:
+      case code_of(Op::tanh):
         map1<V, Width>(to, a, V::tanh);
         break;
-      case Op::abs:
+      case code_of(Op::abs):
         map1<V, Width>(to, a, V::abs);
         break;
-      case Op::sign:
+      case code_of(Op::sign):
         map1<V, Width>(to, a, V::sign);
         break;
-      case Op::add:
+      case code_of(Op::add):
         map2<V, Width>(to, a, b, [](T x, T y) { return x + y; });
         break;
-      case Op::sub:
+      case code_of(Op::sub):
         map2<V, Width>(to, a, b, [](T x, T y) { return x - y; });
         break;
-      case Op::mul:
+      case code_of(Op::mul):
         map2<V, Width>(to, a, b, [](T x, T y) { return x * y; });
         break;
-      case Op::div:
+      case code_of(Op::div):
         map2<V, Width>(to, a, b, [](T x, T y) { return x / y; });
         break;
-      case Op::pow:
+      case code_of(Op::pow):
         map2<V, Width>(to, a, b, V::pow);
         break;
-      case Op::atan2:
+      case code_of(Op::atan2):
         map2<V, Width>(to, a, b, V::atan2);
         break;
-      case Op::min:
+      case code_of(Op::min):
         map2<V, Width>(to, a, b, [](T x, T y) { return V::pick(x < y, x, y); });
         break;
-      case Op::max:
+      case code_of(Op::max):
         map2<V, Width>(to, a, b, [](T x, T y) { return V::pick(x > y, x, y); });
         break;
-      case Op::select: {
-        const double* c = workspace + step.c * Width;
-        for (std::size_t i = 0; i < Width; i += V::size)
-          V::store(to + i, V::pick(V::load(a + i) > T{}, V::load(b + i), V::load(c + i)));
+      case code_of(Op::select):
+        map3<V, Width>(to, a, b, c, [](T x, T y, T z) { return V::pick(x > T{}, y, z); });
         break;
-      }
+      case kProductPlus:
+        map3<V, Width>(to, a, b, c, V::product_plus);
+        break;
+      case kProductMinus:
+        map3<V, Width>(to, a, b, c, V::product_minus);
+        break;
+      case kMinusProduct:
+        map3<V, Width>(to, a, b, c, V::minus_product);
+        break;
     }
   }
 }

@@ -3,36 +3,35 @@
 #include <cstdint>
 #include <vector>
 
-#include "front.hpp"
 #include "slalom/kkt/system.hpp"
 
 namespace slalom::kkt {
 
-/// Which numbers of a system land where in one front; rows and columns count from the front's first
-/// own row (what earlier fronts passed on stands before it).
+/// Which rows and numbers of a system belong to one front. Ids: variable i is i, the multiplier of
+/// equation e is variables + e.
 struct FrontPlan {
-  std::vector<std::uint32_t> ids;  ///< of its own rows: to eliminate, next stage, border
+  std::vector<std::uint32_t> ids;  ///< of its rows: to eliminate, next stage's variables, border
   std::size_t own = 0;             ///< how many of them it may eliminate
-  std::size_t next = 0;            ///< variables of the next stage among them
 
-  struct Copy {
-    std::uint32_t source, row, col;
+  struct Term {
+    std::uint32_t source, a, b;  ///< number and the two ids it stands between
   };
-  struct Product {
-    std::uint32_t weight, first, second, row, col;
-  };
-  std::vector<Copy> hessian, diagonal, jacobian, row_diagonal;
-  std::vector<Product> products;  ///< w * J * J of the condensed inequalities
+  std::vector<Term> hessian, diagonal, jacobian, flexibility;
 };
 
-/// Ids: variable i is i, the multiplier of row r is variables + r.
 /// Plans of a chain of fronts, one a stage and one for the border. Throws Error for an entry that
 /// couples stages which are no neighbours.
 std::vector<FrontPlan> plan_chain(const Pattern& pattern);
 /// The whole system as one front.
-FrontPlan plan_whole(const Pattern& pattern);
+std::vector<FrontPlan> plan_whole(const Pattern& pattern);
 
-/// Adds the numbers into the front, behind `offset` rows passed on from earlier.
-void assemble(const FrontPlan& plan, const Values& values, std::size_t offset, Front& front);
+/// Calls add(id a, id b, number) for every number of the plan.
+template <class Add>
+void for_terms(const FrontPlan& plan, const Values& values, Add add) {
+  for (const auto& t : plan.hessian) add(t.a, t.b, values.hessian[t.source]);
+  for (const auto& t : plan.diagonal) add(t.a, t.b, values.diagonal[t.source]);
+  for (const auto& t : plan.jacobian) add(t.a, t.b, values.jacobian[t.source]);
+  for (const auto& t : plan.flexibility) add(t.a, t.b, -values.flexibility[t.source]);
+}
 
 }  // namespace slalom::kkt

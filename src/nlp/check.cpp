@@ -112,9 +112,9 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
   result.objective = at.objective;
   Judge judge(result, options);
   std::vector<double> lagrangian = at.gradient;
+  for (std::size_t e = 0; e < at.jacobian.size(); ++e)
+    lagrangian[shape.jacobian_col[e]] += point.y[shape.jacobian_row[e]] * at.jacobian[e];
   for (std::size_t r = 0; r < shape.rows; ++r) {
-    for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e)
-      lagrangian[shape.jacobian_col[e]] += point.y[r] * at.jacobian[e];
     const double scale = shape.row_scale[r], y = point.y[r] * scale;
     judge.add({at.rows[r] / scale, limits.gl[r] / scale, limits.gu[r] / scale, std::max(-y, 0.0),
                std::max(y, 0.0), true},

@@ -75,11 +75,10 @@ class Adapter : public Ipopt::TNLP {
   bool eval_jac_g(Index, const Number* x, bool fresh, Index, Index, Index* row, Index* col,
                   Number* values) override {
     if (values == nullptr) {
-      for (std::size_t r = 0, e = 0; r < shape_.rows; ++r)
-        for (; e < shape_.jacobian_row_begin[r + 1]; ++e) {
-          row[e] = static_cast<Index>(r);
-          col[e] = static_cast<Index>(shape_.jacobian_col[e]);
-        }
+      for (std::size_t e = 0; e < shape_.jacobian_row.size(); ++e) {
+        row[e] = static_cast<Index>(shape_.jacobian_row[e]);
+        col[e] = static_cast<Index>(shape_.jacobian_col[e]);
+      }
       return true;
     }
     if (!evaluate(x, fresh, {.values = true, .derivatives = true})) return false;
@@ -108,7 +107,7 @@ class Adapter : public Ipopt::TNLP {
                              Ipopt::IpoptCalculatedQuantities*) override {
     answer.iterations = iteration;
     fault_ = {};  // a fault at a trial point that was stepped back from is forgiven
-    if (timer_.wall() > options_.time_limit) {
+    if (timer_.cpu() > options_.time_limit) {
       stopped_ = Status::time_limit;
     } else if (options_.stop != nullptr && options_.stop(options_.stop_data)) {
       stopped_ = Status::interrupted;
@@ -213,7 +212,8 @@ void configure(Ipopt::OptionsList& list, const Options& options) {
 
 class IpoptSolver final : public Solver {
  public:
-  Answer solve(Problem& problem, const Start& start, const Options& options) override {
+  void solve(Problem& problem, const Start& start, const Options& options,
+             Answer& answer) override {
     check_sizes(start, problem.structure(), options.warm_start);
     const Timer timer;
     Ipopt::SmartPtr<Adapter> adapter = new Adapter(problem, start, options);
@@ -221,7 +221,7 @@ class IpoptSolver final : public Solver {
     configure(*application->Options(), options);
     application->Initialize("");
     const auto code = application->OptimizeTNLP(Ipopt::GetRawPtr(adapter));
-    Answer answer = std::move(adapter->answer);
+    answer = std::move(adapter->answer);
     if (answer.point.x.empty()) {  // Ipopt refused the problem before its first iteration
       answer.point = start;
       answer.status = refused(code);
@@ -237,10 +237,22 @@ class IpoptSolver final : public Solver {
     answer.message = "Ipopt return code " + std::to_string(static_cast<int>(code));
     answer.cpu_s = timer.cpu();
     answer.wall_s = timer.wall();
-    return answer;
+    note_violation(problem, answer);
   }
 
  private:
+  static void note_violation(Problem& problem, Answer& answer) {
+    Evaluation at;
+    if (problem.evaluate(answer.point.x, 1, {}, {.values = true}, at)) return;
+    for (std::size_t r = 0; r < at.rows.size(); ++r) {
+      const double outside =
+          std::max(problem.limits().gl[r] - at.rows[r], at.rows[r] - problem.limits().gu[r]) /
+          problem.structure().row_scale[r];
+      if (outside <= answer.violation) continue;
+      answer.violation = outside;
+      answer.worst_row = r;
+    }
+  }
   static Status refused(Ipopt::ApplicationReturnStatus code) {
     if (code == Ipopt::Not_Enough_Degrees_Of_Freedom) return Status::too_few_freedoms;
     if (code == Ipopt::Invalid_Number_Detected) return Status::invalid_number;

@@ -1,9 +1,16 @@
 #include "slalom/nlp/solver.hpp"
 
+#include <atomic>
+
 #include "backends.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::nlp {
+
+std::uint64_t Structure::next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 const char* to_string(Status status) {
   switch (status) {

@@ -1,57 +1,58 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "lane_runs.hpp"
+#include "slalom/expr/evaluator.hpp"
 #include "slalom/expr/function.hpp"
 #include "slalom/nlp/problem.hpp"
 
 namespace slalom::ocp {
 
-/// target += coefficient * source, for the entries of a batch that land in the NLP's arrays.
-struct Scatter {
-  std::uint32_t source, target;
-  double coefficient;
-};
-
 /// One function evaluated at many points in one pass, with where its inputs come from and where its
-/// results go. Arrays are structure-of-arrays as expr::Function has them.
+/// results go. Arrays are structure-of-arrays as expr::Evaluator has them.
 struct Batch {
   expr::Function function;
   std::size_t lanes = 0;
-  std::vector<std::uint32_t> gather;      ///< [variable * lanes + lane] -> NLP variable
-  std::vector<double> gather_scale;       ///< by variable: user's value = scale * NLP's
-  std::vector<double> data;               ///< [datum * lanes + lane]
-  std::vector<std::string> outputs;       ///< names, for faults
-  std::vector<std::string> variables;     ///< names, for faults
-  std::vector<std::uint32_t> lane_point;  ///< point of each lane
+  std::vector<std::uint32_t> gather;   ///< [variable * lanes + lane] -> NLP variable
+  std::vector<double> gather_scale;    ///< by variable: user's value = scale * NLP's
+  std::vector<std::string> outputs;    ///< names, for faults
+  std::vector<std::string> variables;  ///< names, for faults
+  std::vector<std::uint32_t> lane_point, lane_member;
 
-  std::vector<Scatter> to_rows, to_terms;  ///< from values; targets are rows, cost terms
-  std::vector<Scatter> to_jacobian, to_gradient, to_hessian;
+  LaneRuns to_rows, to_terms;  ///< from values; targets are rows, cost terms
+  LaneRuns to_jacobian, to_gradient, to_hessian;
 
-  // Buffers, sized once.
-  std::vector<double> x, weights, values, jacobian, hessian;
+  std::optional<expr::Evaluator> evaluator;
 
-  void allocate();
+  void finish();  ///< once all but the runs above is set
+  std::span<double> data() { return evaluator->data(); }
+  /// Points the function's variables to their numbers in `point`.
   void load(std::span<const double> point);
-  /// Evaluates what `parts` needs. weights must be set for the Hessian.
-  void run(nlp::Parts parts);
   void set_weights(double sigma, std::span<const double> y);
-  /// Output, lane and variable of the first number that is not finite; lane as index.
+  /// Evaluates what `parts` needs. Weights must be set for the Hessian.
+  void run(nlp::Parts parts);
+
+  /// Output, lane and variable of the first number that is not finite.
   struct BadNumber {
     bool found = false;
     std::size_t output = 0, lane = 0;
     std::string variable;
   };
   BadNumber find_bad_number(nlp::Parts parts) const;
-};
 
-inline void scatter_into(std::span<const Scatter> list, std::span<const double> from,
-                         std::span<double> to) {
-  for (const Scatter& s : list) to[s.target] += s.coefficient * from[s.source];
-}
+ private:
+  struct Source {
+    enum class Kind { run, same, copied } kind;
+    std::uint32_t first;
+  };
+  std::vector<Source> sources_;
+  LaneRuns copies_;           ///< into copied_
+  std::vector<double> copied_;  ///< variables that do not stand in a row, or are scaled
+};
 
 }  // namespace slalom::ocp

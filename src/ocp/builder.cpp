@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -200,8 +201,7 @@ class Builder {
     const std::size_t members =
         family == kNone ? 1 : problem_.constraints()[family].member_values.size();
     batch.lanes = lane_points.size() * members;
-    for (std::size_t m = 0; m < members; ++m)
-      for (auto point : lane_points) batch.lane_point.push_back(static_cast<std::uint32_t>(point));
+    place_lanes(lane_points, members, batch);
 
     std::vector<Expr> values;
     for (const auto& output : outputs) {
@@ -219,11 +219,8 @@ class Builder {
         continue;
       }
       const Meaning meaning = meaning_of(symbol, outputs);
-      using Kind = Meaning::Kind;
-      if (meaning.kind == Kind::tau || meaning.kind == Kind::parameter) {
-        data.sources.push_back(
-            {meaning.kind == Kind::tau ? DataSource::Kind::tau : DataSource::Kind::parameter,
-             meaning.index});
+      if (const auto source = data_source(meaning)) {
+        data.sources.push_back(*source);
         data_symbols.push_back(symbol);
         continue;
       }
@@ -237,6 +234,22 @@ class Builder {
     return out_.batches.size() - 1;
   }
 
+  /// The longer of points and members runs within the other.
+  static void place_lanes(const std::vector<std::size_t>& lane_points, std::size_t members,
+                          Batch& batch) {
+    const auto add = [&](std::size_t point, std::size_t member) {
+      batch.lane_point.push_back(static_cast<std::uint32_t>(point));
+      batch.lane_member.push_back(static_cast<std::uint32_t>(member));
+    };
+    if (members > lane_points.size()) {
+      for (auto point : lane_points)
+        for (std::size_t m = 0; m < members; ++m) add(point, m);
+    } else {
+      for (std::size_t m = 0; m < members; ++m)
+        for (auto point : lane_points) add(point, m);
+    }
+  }
+
   bool add_family_datum(const Expr& symbol, std::size_t family, BatchData& data) const {
     if (family == kNone) return false;
     const auto& symbols = problem_.constraints()[family].symbols;
@@ -246,6 +259,19 @@ class Builder {
         return true;
       }
     return false;
+  }
+
+  /// Of what is no variable: a fixed end of the horizon among them.
+  std::optional<DataSource> data_source(Meaning meaning) const {
+    using Kind = Meaning::Kind;
+    if (meaning.kind == Kind::tau) return DataSource{DataSource::Kind::tau, 0};
+    if (meaning.kind == Kind::parameter)
+      return DataSource{DataSource::Kind::parameter, meaning.index};
+    if (meaning.kind == Kind::t0 && is_fixed(problem_.t0()))
+      return DataSource{DataSource::Kind::t0, 0};
+    if (meaning.kind == Kind::tf && is_fixed(problem_.tf()))
+      return DataSource{DataSource::Kind::tf, 0};
+    return std::nullopt;
   }
 
   Meaning meaning_of(const Expr& symbol, const std::vector<Output>& outputs) const {
@@ -297,6 +323,10 @@ class Builder {
   void use(std::size_t batch, std::size_t output, std::size_t lane, std::size_t row,
            std::size_t term, double coefficient) {
     uses_[batch].push_back({output, lane, row, term, coefficient});
+  }
+
+  static bool is_fixed(const Problem::Variable& time) {
+    return time.bounds.lower == time.bounds.upper;
   }
 
   static bool absent(const Problem::Constraint& row, Problem::Kind kind) {
@@ -351,25 +381,23 @@ class Builder {
   void add_defects(std::size_t batch) {
     const Layout& layout = out_.layout;
     const auto& breaks = mesh_.breakpoints();
-    for (std::size_t k = 0; k < layout.intervals(); ++k) {
-      const std::size_t first = layout.node_point[k];
-      for (std::size_t d = 0; d < scheme_.defects(); ++d) {
-        if (d + 1 == scheme_.defects()) first_defect_.push_back(rows_.size());
-        for (std::size_t i = 0; i < layout.nx; ++i) {
-          const auto& state = problem_.states()[i];
-          const auto row =
-              add_row({fmt::format("defect {} of {} in interval {}", d, state.name, k)}, k,
-                      nlp::Coupling::neighbour, Bounds::equal(0), 1 / state.scale);
-          for (std::size_t j = 0; j < scheme_.points.size(); ++j) {
+    out_.defect_begin = rows_.size();
+    out_.defects = scheme_.defects();
+    for (std::size_t d = 0; d < scheme_.defects(); ++d)
+      for (std::size_t i = 0; i < layout.nx; ++i) {
+        const auto& state = problem_.states()[i];
+        for (std::size_t k = 0; k < layout.intervals(); ++k)
+          add_row({fmt::format("defect {} of {} in interval {}", d, state.name, k)}, k,
+                  nlp::Coupling::neighbour, Bounds::equal(0), 1 / state.scale);
+        for (std::size_t j = 0; j < scheme_.points.size(); ++j)
+          for (std::size_t k = 0; k < layout.intervals(); ++k) {
+            const std::size_t row = defect_row(out_, d, i, k), point = layout.node_point[k] + j;
             if (scheme_.state[d][j] != 0)
-              linear_.push_back({row, layout.state(first + j, i), scheme_.state[d][j]});
+              linear_.push_back({row, layout.state(point, i), scheme_.state[d][j]});
             if (scheme_.rate[d][j] != 0)
-              use(batch, i, first + j, row, kNone,
-                  -(breaks[k + 1] - breaks[k]) * scheme_.rate[d][j]);
+              use(batch, i, point, row, kNone, -(breaks[k + 1] - breaks[k]) * scheme_.rate[d][j]);
           }
-        }
       }
-    }
   }
 
   void add_quadrature(std::size_t batch, const std::vector<std::size_t>& terms) {
@@ -379,7 +407,6 @@ class Builder {
     for (std::size_t k = 0; k < layout.intervals(); ++k)
       for (std::size_t j = 0; j < scheme_.points.size(); ++j)
         weight[layout.node_point[k] + j] += (breaks[k + 1] - breaks[k]) * scheme_.weight[j];
-    out_.defects = scheme_.defects();
     for (std::size_t k = 0; k < breaks.size(); ++k)
       out_.share_after.push_back(k + 1 == breaks.size()
                                      ? 0
@@ -412,9 +439,9 @@ class Builder {
       if (absent(family, Problem::Kind::family)) continue;
       const auto lanes = points(family.points);
       const auto batch = add_batch({{family.name, family.value}}, lanes, f, nullptr);
-      for (std::size_t m = 0; m < family.members.size(); ++m)
-        for (std::size_t p = 0; p < lanes.size(); ++p)
-          use_as_row(batch, 0, m * lanes.size() + p, {"", f, m}, lanes[p], family.bounds);
+      for (std::size_t lane = 0; lane < out_.batches[batch].lanes; ++lane)
+        use_as_row(batch, 0, lane, {"", f, out_.batches[batch].lane_member[lane]},
+                   out_.batches[batch].lane_point[lane], family.bounds);
     }
   }
 
@@ -448,12 +475,10 @@ class Builder {
 
   // --- sparsity and scatter lists ----------------------------------------------------------
   void finish() {
-    sort_rows(rows_, linear_, uses_, first_defect_);
-    out_.first_defect = first_defect_;
     fill_rows(rows_, out_);
     fill_variable_limits(problem_, out_.layout, out_.structure.variable_scale, out_.limits);
     fill_sparsity(rows_, linear_, uses_, out_);
-    for (auto& batch : out_.batches) batch.allocate();
+    for (auto& batch : out_.batches) batch.finish();
     fill_data(problem_, out_);
     check_freedom();
   }
@@ -477,9 +502,27 @@ class Builder {
   std::vector<RowInfo> rows_;
   std::vector<RowTerm> linear_;
   std::vector<std::vector<Use>> uses_;
-  std::vector<std::size_t> first_defect_;
   Transcribed out_;
 };
+
+/// One number of a batch's data, at a point and for a member of a family.
+double datum(const Problem& problem, const Layout& layout, std::size_t family, DataSource source,
+             std::size_t point, std::size_t member) {
+  using Kind = DataSource::Kind;
+  switch (source.kind) {
+    case Kind::tau:
+      return layout.tau[point];
+    case Kind::t0:
+      return problem.t0().bounds.lower;
+    case Kind::tf:
+      return problem.tf().bounds.lower;
+    case Kind::parameter:
+      return problem.parameters()[source.index].value;
+    case Kind::member:
+      return problem.constraints()[family].member_values[member][source.index];
+  }
+  return 0;
+}
 
 }  // namespace
 
@@ -494,31 +537,16 @@ std::string RowName::in(const Problem& problem) const {
 }
 
 void fill_data(const Problem& problem, Transcribed& transcribed) {
-  static const std::vector<std::vector<double>> kNoMembers{{}};
   for (std::size_t b = 0; b < transcribed.batches.size(); ++b) {
     Batch& batch = transcribed.batches[b];
     const BatchData& data = transcribed.batch_data[b];
-    batch.data.resize(data.sources.size() * batch.lanes);
-    const auto& members =
-        data.family == kNone ? kNoMembers : problem.constraints()[data.family].member_values;
-    const std::size_t points = batch.lanes / members.size();
-    for (std::size_t i = 0; i < data.sources.size(); ++i) {
-      const auto [kind, index] = data.sources[i];
-      for (std::size_t lane = 0; lane < batch.lanes; ++lane) {
-        double& to = batch.data[i * batch.lanes + lane];
-        switch (kind) {
-          case DataSource::Kind::tau:
-            to = transcribed.layout.tau[batch.lane_point[lane]];
-            break;
-          case DataSource::Kind::parameter:
-            to = problem.parameters()[index].value;
-            break;
-          case DataSource::Kind::member:
-            to = members[lane / points][index];
-            break;
-        }
-      }
-    }
+    const auto numbers = batch.data();
+    for (std::size_t i = 0; i < data.sources.size(); ++i)
+      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
+        numbers[i * batch.lanes + lane] =
+            datum(problem, transcribed.layout, data.family, data.sources[i],
+                  batch.lane_point[lane], batch.lane_member[lane]);
+    batch.evaluator->data_changed();
   }
 }
 

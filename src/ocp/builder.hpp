@@ -12,15 +12,9 @@
 
 namespace slalom::ocp {
 
-/// A constant coefficient in a row: rows[row] += coefficient * x[col].
-struct LinearTerm {
-  std::uint32_t row, col;
-  double coefficient;
-};
-
 /// What one column of a batch's data is filled with.
 struct DataSource {
-  enum class Kind { tau, parameter, member } kind;
+  enum class Kind { tau, t0, tf, parameter, member } kind;
   std::size_t index;  ///< of the parameter or of the member's number
 };
 
@@ -42,16 +36,22 @@ struct Transcribed {
   Layout layout;
   std::vector<Batch> batches;
   std::vector<BatchData> batch_data;  ///< one a batch
-  std::vector<LinearTerm> linear;
+  LaneRuns linear;  ///< from variables to rows
   std::vector<double> constant_jacobian;  ///< what the linear terms put there
   std::vector<std::string> terms;         ///< cost terms switched on
   nlp::Structure structure;
   nlp::Limits limits;
   std::vector<RowName> row_names;
-  std::vector<std::size_t> first_defect;  ///< row of each interval's last defect of state 0
+  std::size_t defect_begin = 0;           ///< row of the first defect of state 0 in interval 0
   std::size_t defects = 0;                ///< of an interval and state
   std::vector<double> share_after;        ///< of each node's quadrature weight: the next interval's
 };
+
+/// Row of a defect: for each defect of the scheme and each state, interval by interval.
+inline std::size_t defect_row(const Transcribed& t, std::size_t defect, std::size_t state,
+                              std::size_t interval) {
+  return t.defect_begin + (defect * t.layout.nx + state) * t.layout.intervals() + interval;
+}
 
 Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Scheme& scheme);
 

@@ -21,32 +21,26 @@ Layout make_layout(const Problem& problem, const Mesh& mesh, const Scheme& schem
   Layout layout;
   layout.nx = problem.states().size();
   layout.nu = problem.controls().size();
-  layout.slack.assign(problem.slacks().size(), kNone);
-  std::size_t next = 0;
-  const auto place_slacks = [&](End end) {
-    for (std::size_t i = 0; i < layout.slack.size(); ++i)
-      if (problem.slacks()[i].end == end) layout.slack[i] = next++;
-  };
-  const auto place_point = [&](double tau, std::size_t stage) {
-    layout.tau.push_back(tau);
-    layout.point_begin.push_back(next);
-    layout.point_stage.push_back(stage);
-    next += layout.nx + layout.nu;
-  };
   const auto& breaks = mesh.breakpoints();
   for (std::size_t k = 0; k < breaks.size(); ++k) {
-    layout.stage_begin.push_back(next);
-    if (k == 0) place_slacks(End::initial);
     layout.node_point.push_back(layout.tau.size());
-    place_point(breaks[k], k);
-    if (k + 1 == breaks.size()) {
-      place_slacks(End::final);
-      break;
+    layout.tau.push_back(breaks[k]);
+    layout.point_stage.push_back(k);
+    if (k + 1 == breaks.size()) break;
+    for (std::size_t j = 1; j <= scheme.interior(); ++j) {
+      layout.tau.push_back(breaks[k] + scheme.points[j] * (breaks[k + 1] - breaks[k]));
+      layout.point_stage.push_back(k);
     }
-    for (std::size_t j = 1; j <= scheme.interior(); ++j)
-      place_point(breaks[k] + scheme.points[j] * (breaks[k + 1] - breaks[k]), k);
   }
-  layout.stage_begin.push_back(next);
+  std::size_t next = 0;
+  const auto place = [&](std::size_t stage) {
+    layout.variable_stage.push_back(static_cast<std::uint32_t>(stage));
+    return next++;
+  };
+  for (std::size_t i = 0; i < layout.nx + layout.nu; ++i)
+    for (const std::size_t stage : layout.point_stage) place(stage);
+  for (const auto& slack : problem.slacks())
+    layout.slack.push_back(place(slack.end == End::initial ? 0 : breaks.size() - 1));
   layout.t0 = next++;
   layout.tf = next++;
   layout.static_parameters = next;
@@ -58,6 +52,7 @@ Layout make_layout(const Problem& problem, const Mesh& mesh, const Scheme& schem
       if ((*used)[i]) (*where)[i] = next++;
   }
   layout.variables = next;
+  layout.variable_stage.resize(next, static_cast<std::uint32_t>(breaks.size()));
   return layout;
 }
 
@@ -122,12 +117,10 @@ std::string variable_name(const Problem& problem, const Layout& layout, std::siz
     if (layout.lifted_initial[i] == index) return problem.states()[i].initial_symbol.name();
     if (layout.lifted_final[i] == index) return problem.states()[i].final_symbol.name();
   }
-  const auto above = std::upper_bound(layout.point_begin.begin(), layout.point_begin.end(), index);
-  const auto point = static_cast<std::size_t>(above - layout.point_begin.begin()) - 1;
-  const std::size_t offset = index - layout.point_begin[point];
-  const std::string& name = offset < layout.nx ? problem.states()[offset].name
-                                               : problem.controls()[offset - layout.nx].name;
-  return name + " at " + layout.point_name(point);
+  const std::size_t which = index / layout.points();
+  const std::string& name = which < layout.nx ? problem.states()[which].name
+                                              : problem.controls()[which - layout.nx].name;
+  return name + " at " + layout.point_name(index % layout.points());
 }
 
 }  // namespace slalom::ocp

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,24 +13,25 @@ namespace slalom::ocp {
 
 inline constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// Where each quantity stands in the NLP's vector of variables.
+/// Where each quantity stands in the NLP's vector of variables: states, controls, slacks, globals;
+/// of a state or control the points follow each other, so that a formula runs over them as over one
+/// vector.
 struct Layout {
   std::size_t nx = 0, nu = 0;
-  std::vector<double> tau;               ///< of each point, in order of time
-  std::vector<std::size_t> point_begin;  ///< first state of each point; controls follow
+  std::vector<double> tau;  ///< of each point, in order of time
   std::vector<std::size_t> point_stage;
   std::vector<std::size_t> node_point;  ///< point of each mesh node
   std::vector<std::size_t> slack;       ///< variable of each slack
   std::size_t t0 = 0, tf = 0, static_parameters = 0;
   std::vector<std::size_t> lifted_initial, lifted_final;  ///< by state; kNone where not used
-  std::vector<std::size_t> stage_begin;
+  std::vector<std::uint32_t> variable_stage;
   std::size_t variables = 0;
 
   std::size_t points() const { return tau.size(); }
   std::size_t intervals() const { return node_point.size() - 1; }
-  std::size_t state(std::size_t point, std::size_t i) const { return point_begin[point] + i; }
+  std::size_t state(std::size_t point, std::size_t i) const { return i * points() + point; }
   std::size_t control(std::size_t point, std::size_t i) const {
-    return point_begin[point] + nx + i;
+    return (nx + i) * points() + point;
   }
   /// "node 3", or "point 1 of interval 3" for an interior one.
   std::string point_name(std::size_t point) const;

@@ -1,118 +1,138 @@
 #include "sparsity.hpp"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 namespace slalom::ocp {
 namespace {
 
-using Position = std::pair<std::size_t, std::size_t>;
-
 std::uint32_t narrow(std::size_t n) {
   return static_cast<std::uint32_t>(n);
 }
 
-std::uint32_t find(const std::vector<Position>& sorted, Position position) {
-  return narrow(static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), position) -
-                                         sorted.begin()));
-}
+/// Numbers the places of a sparse matrix in the order in which they are first met.
+class Places {
+ public:
+  Places(std::vector<std::uint32_t>& rows, std::vector<std::uint32_t>& cols)
+      : rows_(rows), cols_(cols) {}
 
-void sort_unique(std::vector<Position>& positions) {
-  std::sort(positions.begin(), positions.end());
-  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
-}
-
-/// Calls f(use, entry index in the Jacobian pattern, NLP variable, scale) for each use and entry.
-template <class F>
-void for_first_derivatives(const Batch& batch, const std::vector<Use>& uses, F f) {
-  const auto& pattern = batch.function.jacobian_pattern();
-  for (const Use& use : uses) {
-    const auto first =
-        std::lower_bound(pattern.begin(), pattern.end(), use.output,
-                         [](const expr::Entry& entry, std::size_t row) { return entry.row < row; });
-    for (auto entry = first; entry != pattern.end() && entry->row == use.output; ++entry)
-      f(use, static_cast<std::size_t>(entry - pattern.begin()),
-        std::size_t{batch.gather[entry->col * batch.lanes + use.lane]},
-        batch.gather_scale[entry->col]);
-  }
-}
-
-/// Calls f(entry, lane, position, coefficient) for each second derivative.
-template <class F>
-void for_second_derivatives(const Batch& batch, F f) {
-  const auto& pattern = batch.function.hessian_pattern();
-  for (std::size_t e = 0; e < pattern.size(); ++e)
-    for (std::size_t lane = 0; lane < batch.lanes; ++lane) {
-      const std::size_t a = batch.gather[pattern[e].row * batch.lanes + lane];
-      const std::size_t b = batch.gather[pattern[e].col * batch.lanes + lane];
-      const double twice = a == b && pattern[e].row != pattern[e].col ? 2 : 1;
-      f(e, lane, Position{std::max(a, b), std::min(a, b)},
-        twice * batch.gather_scale[pattern[e].row] * batch.gather_scale[pattern[e].col]);
+  std::uint32_t number(std::size_t row, std::size_t col) {
+    const auto [it, fresh] =
+        index_.try_emplace((std::uint64_t{row} << 32) | col, narrow(rows_.size()));
+    if (fresh) {
+      rows_.push_back(narrow(row));
+      cols_.push_back(narrow(col));
     }
+    return it->second;
+  }
+
+ private:
+  std::vector<std::uint32_t>&rows_, &cols_;
+  std::unordered_map<std::uint64_t, std::uint32_t> index_;
+};
+
+/// Calls f(uses of one output on consecutive lanes): first and last of each such stretch.
+template <class F>
+void for_stretches(const std::vector<Use>& uses, F f) {
+  for (auto first = uses.begin(); first != uses.end();) {
+    auto last = first + 1;
+    while (last != uses.end() && last->output == first->output &&
+           (last->row == kNone) == (first->row == kNone))
+      ++last;
+    f(first, last);
+    first = last;
+  }
 }
 
-void fill_lists(const std::vector<RowInfo>& rows, const std::vector<Use>& uses,
-                const std::vector<Position>& jacobian, const std::vector<Position>& hessian,
-                Batch& batch) {
-  for (const Use& use : uses) {
-    const auto source = narrow(use.output * batch.lanes + use.lane);
-    if (use.row != kNone)
-      batch.to_rows.push_back({source, narrow(use.row), use.coefficient * rows[use.row].scale});
-    else
-      batch.to_terms.push_back({source, narrow(use.term), use.coefficient});
+class Filler {
+ public:
+  Filler(const std::vector<RowInfo>& rows, Transcribed& out)
+      : rows_(rows),
+        out_(out),
+        jacobian_(out.structure.jacobian_row, out.structure.jacobian_col),
+        hessian_(out.structure.hessian_row, out.structure.hessian_col) {}
+
+  void values(const std::vector<Use>& uses, Batch& batch) const {
+    std::vector<Scatter> to_rows, to_terms;
+    for (const Use& use : uses) {
+      const auto source = narrow(use.output * batch.lanes + use.lane);
+      if (use.row != kNone)
+        to_rows.push_back({source, narrow(use.row), use.coefficient * rows_[use.row].scale});
+      else
+        to_terms.push_back({source, narrow(use.term), use.coefficient});
+    }
+    batch.to_rows = LaneRuns(to_rows);
+    batch.to_terms = LaneRuns(to_terms);
   }
-  for_first_derivatives(
-      batch, uses, [&](const Use& use, std::size_t entry, std::size_t variable, double scale) {
-        const auto source = narrow(entry * batch.lanes + use.lane);
-        if (use.row != kNone)
-          batch.to_jacobian.push_back({source, find(jacobian, {use.row, variable}),
-                                       use.coefficient * rows[use.row].scale * scale});
-        else
-          batch.to_gradient.push_back({source, narrow(variable), use.coefficient * scale});
-      });
-  for_second_derivatives(
-      batch, [&](std::size_t entry, std::size_t lane, Position position, double scale) {
-        batch.to_hessian.push_back(
-            {narrow(entry * batch.lanes + lane), find(hessian, position), scale});
-      });
-}
+
+  void first_derivatives(const std::vector<Use>& uses, Batch& batch) {
+    std::vector<Scatter> to_jacobian, to_gradient;
+    const auto& pattern = batch.function.jacobian_pattern();
+    for_stretches(uses, [&](auto first, auto last) {
+      for (std::size_t e = 0; e < pattern.size(); ++e) {
+        if (pattern[e].row != first->output) continue;
+        for (auto use = first; use != last; ++use) {
+          const auto source = narrow(e * batch.lanes + use->lane);
+          const std::size_t variable = batch.gather[pattern[e].col * batch.lanes + use->lane];
+          const double scale = use->coefficient * batch.gather_scale[pattern[e].col];
+          if (use->row != kNone)
+            to_jacobian.push_back(
+                {source, jacobian_.number(use->row, variable), scale * rows_[use->row].scale});
+          else
+            to_gradient.push_back({source, narrow(variable), scale});
+        }
+      }
+    });
+    batch.to_jacobian = LaneRuns(to_jacobian);
+    batch.to_gradient = LaneRuns(to_gradient);
+  }
+
+  void second_derivatives(Batch& batch) {
+    std::vector<Scatter> list;
+    const auto& pattern = batch.function.hessian_pattern();
+    for (std::size_t e = 0; e < pattern.size(); ++e)
+      for (std::size_t lane = 0; lane < batch.lanes; ++lane) {
+        const std::size_t a = batch.gather[pattern[e].row * batch.lanes + lane];
+        const std::size_t b = batch.gather[pattern[e].col * batch.lanes + lane];
+        const double twice = a == b && pattern[e].row != pattern[e].col ? 2 : 1;
+        list.push_back(
+            {narrow(e * batch.lanes + lane), hessian_.number(std::max(a, b), std::min(a, b)),
+             twice * batch.gather_scale[pattern[e].row] * batch.gather_scale[pattern[e].col]});
+      }
+    batch.to_hessian = LaneRuns(list);
+  }
+
+  void linear_terms(const std::vector<RowTerm>& linear) {
+    std::vector<Scatter> values, constant;
+    std::vector<double> coefficients;
+    for (const auto& term : linear) {
+      const double coefficient = term.coefficient * rows_[term.row].scale *
+                                 out_.structure.variable_scale[term.col];
+      values.push_back({narrow(term.col), narrow(term.row), coefficient});
+      constant.push_back({0, jacobian_.number(term.row, term.col), coefficient});
+    }
+    out_.linear = LaneRuns(values);
+    out_.constant_jacobian.assign(out_.structure.jacobian_row.size(), 0.0);
+    for (const auto& term : constant) out_.constant_jacobian[term.target] += term.coefficient;
+  }
+
+ private:
+  const std::vector<RowInfo>& rows_;
+  Transcribed& out_;
+  Places jacobian_, hessian_;
+};
 
 }  // namespace
-
-void sort_rows(std::vector<RowInfo>& rows, std::vector<RowTerm>& linear,
-               std::vector<std::vector<Use>>& uses, std::vector<std::size_t>& references) {
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t r) {
-    const bool border = rows[r].coupling == nlp::Coupling::border;
-    return std::tuple(border, rows[r].stage, rows[r].coupling);
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  std::vector<std::size_t> place(rows.size());
-  std::vector<RowInfo> sorted;
-  sorted.reserve(rows.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    place[order[i]] = i;
-    sorted.push_back(std::move(rows[order[i]]));
-  }
-  rows = std::move(sorted);
-  for (auto& term : linear) term.row = place[term.row];
-  for (auto& list : uses)
-    for (auto& use : list)
-      if (use.row != kNone) use.row = place[use.row];
-  for (auto& reference : references) reference = place[reference];
-}
 
 void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out) {
   auto& structure = out.structure;
   structure.variables = out.layout.variables;
   structure.rows = rows.size();
-  structure.stage_begin = out.layout.stage_begin;
+  structure.stages = out.layout.intervals() + 1;
+  structure.variable_stage = out.layout.variable_stage;
   for (const auto& row : rows) {
-    structure.row_stage.push_back(row.stage);
+    structure.row_stage.push_back(narrow(row.stage));
     structure.coupling.push_back(row.coupling);
     structure.row_scale.push_back(row.scale);
     out.limits.gl.push_back(row.bounds.lower * row.scale);
@@ -123,40 +143,14 @@ void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out) {
 
 void fill_sparsity(const std::vector<RowInfo>& rows, const std::vector<RowTerm>& linear,
                    const std::vector<std::vector<Use>>& uses, Transcribed& out) {
-  std::vector<Position> jacobian, hessian;
-  for (const auto& term : linear) jacobian.emplace_back(term.row, term.col);
+  Filler filler(rows, out);
   for (std::size_t b = 0; b < out.batches.size(); ++b) {
-    for_first_derivatives(out.batches[b], uses[b],
-                          [&](const Use& use, std::size_t, std::size_t variable, double) {
-                            if (use.row != kNone) jacobian.emplace_back(use.row, variable);
-                          });
-    for_second_derivatives(out.batches[b], [&](std::size_t, std::size_t, Position position,
-                                               double) { hessian.push_back(position); });
+    filler.values(uses[b], out.batches[b]);
+    filler.first_derivatives(uses[b], out.batches[b]);
+    filler.second_derivatives(out.batches[b]);
   }
-  sort_unique(jacobian);
-  sort_unique(hessian);
-
-  auto& structure = out.structure;
-  structure.jacobian_row_begin.assign(rows.size() + 1, 0);
-  for (const auto& [row, col] : jacobian) {
-    ++structure.jacobian_row_begin[row + 1];
-    structure.jacobian_col.push_back(col);
-  }
-  std::partial_sum(structure.jacobian_row_begin.begin(), structure.jacobian_row_begin.end(),
-                   structure.jacobian_row_begin.begin());
-  for (const auto& [row, col] : hessian) {
-    structure.hessian_row.push_back(row);
-    structure.hessian_col.push_back(col);
-  }
-  out.constant_jacobian.assign(jacobian.size(), 0.0);
-  for (const auto& term : linear) {
-    const double coefficient =
-        term.coefficient * rows[term.row].scale * structure.variable_scale[term.col];
-    out.linear.push_back({narrow(term.row), narrow(term.col), coefficient});
-    out.constant_jacobian[find(jacobian, {term.row, term.col})] += coefficient;
-  }
-  for (std::size_t b = 0; b < out.batches.size(); ++b)
-    fill_lists(rows, uses[b], jacobian, hessian, out.batches[b]);
+  filler.linear_terms(linear);
+  out.structure.id = nlp::Structure::next_id();
 }
 
 }  // namespace slalom::ocp

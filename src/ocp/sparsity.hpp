@@ -28,14 +28,11 @@ struct Use {
   double coefficient;
 };
 
-/// Orders rows by stage, local before neighbour before border, and renumbers what refers to them.
-void sort_rows(std::vector<RowInfo>& rows, std::vector<RowTerm>& linear,
-               std::vector<std::vector<Use>>& uses, std::vector<std::size_t>& references);
-
 /// Row part of structure, limits and names.
 void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out);
 
-/// Patterns, and the lists that scatter every batch's results into them.
+/// Patterns, and the runs that add every batch's results into them. Entries are numbered as they are
+/// first met, formula by formula and within one lane by lane, which makes the runs long.
 void fill_sparsity(const std::vector<RowInfo>& rows, const std::vector<RowTerm>& linear,
                    const std::vector<std::vector<Use>>& uses, Transcribed& out);
 

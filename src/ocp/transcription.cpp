@@ -52,6 +52,10 @@ void check_same(const Problem& before, const Problem& now) {
                            "the constraints and cost terms that were transcribed; another choice "
                            "needs a new transcription");
   };
+  const auto fixed = [](const Problem::Variable& v) { return v.bounds.lower == v.bounds.upper; };
+  if (fixed(before.t0()) != fixed(now.t0()) || fixed(before.tf()) != fixed(now.tf()))
+    throw InvalidValue(before.name(), "t0 or tf fixed or freed",
+                       "the same as when it was transcribed; else a new transcription");
   check_switch(before.constraints(), now.constraints());
   check_switch(before.costs(), now.costs());
 }
@@ -86,10 +90,10 @@ class Transcription::Impl {
   void sum_values(std::span<const double> x, nlp::Evaluation& out) {
     out.rows.assign(data.structure.rows, 0.0);
     std::fill(terms.begin(), terms.end(), 0.0);
-    for (const auto& term : data.linear) out.rows[term.row] += term.coefficient * x[term.col];
+    data.linear.scatter(x, out.rows);
     for (const auto& batch : data.batches) {
-      scatter_into(batch.to_rows, batch.values, out.rows);
-      scatter_into(batch.to_terms, batch.values, terms);
+      batch.to_rows.scatter(batch.evaluator->values(), out.rows);
+      batch.to_terms.scatter(batch.evaluator->values(), terms);
     }
     out.objective = 0;
     for (double term : terms) out.objective += term;
@@ -98,31 +102,46 @@ class Transcription::Impl {
     out.gradient.assign(data.structure.variables, 0.0);
     out.jacobian = data.constant_jacobian;
     for (const auto& batch : data.batches) {
-      scatter_into(batch.to_jacobian, batch.jacobian, out.jacobian);
-      scatter_into(batch.to_gradient, batch.jacobian, out.gradient);
+      batch.to_jacobian.scatter(batch.evaluator->jacobian(), out.jacobian);
+      batch.to_gradient.scatter(batch.evaluator->jacobian(), out.gradient);
     }
   }
   void sum_hessian(nlp::Evaluation& out) const {
     out.hessian.assign(data.structure.hessian_row.size(), 0.0);
     for (const auto& batch : data.batches)
-      scatter_into(batch.to_hessian, batch.hessian, out.hessian);
+      batch.to_hessian.scatter(batch.evaluator->hessian(), out.hessian);
   }
 
-  /// Adds y' times the defects' derivatives by the states at both nodes of interval k.
-  void add_defect_slopes(std::size_t k, std::span<const double> y, const nlp::Evaluation& at,
-                         std::vector<double>& first, std::vector<double>& last) const {
+  static bool finite(nlp::Parts parts, const nlp::Evaluation& out) {
+    const auto all = [](const std::vector<double>& list) {
+      return lane_kernels().all_finite(list.data(), list.size());
+    };
+    return (!parts.values || (std::isfinite(out.objective) && all(out.rows))) &&
+           (!parts.derivatives || (all(out.gradient) && all(out.jacobian))) &&
+           (!parts.hessian || all(out.hessian));
+  }
+  nlp::Fault find_fault(nlp::Parts parts) const {
+    for (const auto& batch : data.batches)
+      if (const auto bad = batch.find_bad_number(parts); bad.found) return fault_of(batch, bad);
+    return {"a sum of finite terms", "the whole problem", ""};
+  }
+
+  /// By point and state: y' times the derivatives of the defects of interval k by the state at a
+  /// node, of the interval that begins there (`after`) and the one that ends there (`before`).
+  void add_defect_slopes(std::span<const double> y, const nlp::Evaluation& at,
+                         std::vector<std::vector<double>>& before,
+                         std::vector<std::vector<double>>& after) const {
     const auto& shape = data.structure;
     const Layout& layout = data.layout;
-    const std::size_t begin = layout.state(layout.node_point[k], 0);
-    const std::size_t end = layout.state(layout.node_point[k + 1], 0);
-    const auto rows = data.defects * layout.nx;  // ending with those of the last defect
-    for (std::size_t r = data.first_defect[k] + layout.nx - rows;
-         r < data.first_defect[k] + layout.nx; ++r)
-      for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e) {
-        const std::size_t col = shape.jacobian_col[e];
-        if (col >= begin && col < begin + layout.nx) first[col - begin] += y[r] * at.jacobian[e];
-        if (col >= end && col < end + layout.nx) last[col - end] += y[r] * at.jacobian[e];
-      }
+    const std::size_t end = ocp::defect_row(data, data.defects, 0, 0);
+    for (std::size_t e = 0; e < at.jacobian.size(); ++e) {
+      const std::size_t row = shape.jacobian_row[e], col = shape.jacobian_col[e];
+      if (row < data.defect_begin || row >= end || col >= layout.nx * layout.points()) continue;
+      const std::size_t k = (row - data.defect_begin) % layout.intervals();
+      const std::size_t i = col / layout.points(), point = col % layout.points();
+      if (point == layout.node_point[k]) after[k][i] += y[row] * at.jacobian[e];
+      if (point == layout.node_point[k + 1]) before[k + 1][i] += y[row] * at.jacobian[e];
+    }
   }
 
   std::vector<std::vector<double>> costates(std::span<const double> y,
@@ -130,7 +149,8 @@ class Transcription::Impl {
     const Layout& layout = data.layout;
     // Gradient of the integral terms alone: the point function's batch is the first.
     std::vector<double> integral(layout.variables, 0.0);
-    scatter_into(data.batches.front().to_gradient, data.batches.front().jacobian, integral);
+    const Batch& points = data.batches.front();
+    points.to_gradient.scatter(points.evaluator->jacobian(), integral);
     std::vector<std::vector<double>> before(layout.intervals() + 1), after = before;
     for (std::size_t k = 0; k <= layout.intervals(); ++k) {
       before[k].assign(layout.nx, 0.0);
@@ -141,8 +161,7 @@ class Transcription::Impl {
         after[k][i] = data.share_after[k] * slope;
       }
     }
-    for (std::size_t k = 0; k < layout.intervals(); ++k)
-      add_defect_slopes(k, y, at, after[k], before[k + 1]);
+    add_defect_slopes(y, at, before, after);
     for (std::size_t k = 0; k <= layout.intervals(); ++k)
       for (std::size_t i = 0; i < layout.nx; ++i) {
         const double scale = data.structure.variable_scale[layout.state(0, i)];
@@ -160,7 +179,7 @@ class Transcription::Impl {
         data.batch_data[static_cast<std::size_t>(&batch - data.batches.data())].family;
     if (family != kNone) {
       const auto& members = problem.constraints()[family].members;
-      function += "[" + members[bad.lane / (batch.lanes / members.size())] + "]";
+      function += "[" + members[batch.lane_member[bad.lane]] + "]";
     }
     return {function, data.layout.point_name(batch.lane_point[bad.lane]), bad.variable};
   }
@@ -272,8 +291,8 @@ std::vector<std::vector<double>> Transcription::costates(std::span<const double>
   return impl_->costates(y, at);
 }
 
-std::size_t Transcription::first_defect_row(std::size_t interval) const {
-  return impl_->data.first_defect.at(interval);
+std::size_t Transcription::defect_row(std::size_t state, std::size_t interval) const {
+  return ocp::defect_row(impl_->data, impl_->data.defects - 1, state, interval);
 }
 
 const nlp::Structure& Transcription::structure() const {
@@ -286,18 +305,15 @@ const nlp::Limits& Transcription::limits() const {
 nlp::Fault Transcription::evaluate(std::span<const double> x, double sigma,
                                    std::span<const double> y, nlp::Parts parts,
                                    nlp::Evaluation& out) {
-  nlp::Fault fault;
   for (auto& batch : impl_->data.batches) {
     batch.load(x);
     if (parts.hessian) batch.set_weights(sigma, y);
     batch.run(parts);
-    if (const auto bad = batch.find_bad_number(parts); bad.found && !fault)
-      fault = impl_->fault_of(batch, bad);
   }
   if (parts.values) impl_->sum_values(x, out);
   if (parts.derivatives) impl_->sum_derivatives(out);
   if (parts.hessian) impl_->sum_hessian(out);
-  return fault;
+  return Impl::finite(parts, out) ? nlp::Fault{} : impl_->find_fault(parts);
 }
 
 std::string Transcription::variable_name(std::size_t index) const {

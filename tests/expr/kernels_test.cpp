@@ -1,4 +1,4 @@
-#include "slalom/expr/kernels.hpp"
+#include "slalom/base/kernels.hpp"
 
 #include <gtest/gtest.h>
 

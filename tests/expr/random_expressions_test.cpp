@@ -7,9 +7,10 @@
 #include <unordered_map>
 
 #include "../../src/expr/dag.hpp"
+#include "../../src/base/aligned.hpp"
 #include "../../src/expr/tape.hpp"
 #include "expr/reference.hpp"
-#include "slalom/expr/kernels.hpp"
+#include "slalom/base/kernels.hpp"
 
 namespace slalom::expr {
 namespace {
@@ -186,11 +187,11 @@ TEST(RandomExpressions, BothWaysToTheHessianAgree) {
     for (int way = 0; way < 2; ++way) {
       const Tape tape = compile(dag, ways[way].values);
       length[way] = tape.code.size();
-      std::vector<const double*> inputs;
-      for (const double& v : in) inputs.push_back(&v);
+      std::vector<InputRow> inputs;
+      for (const double& v : in) inputs.push_back({&v, true});
       std::vector<double*> results;
       for (const auto& [row, col] : ways[way].pattern) results.push_back(&full[way][row * 3 + col]);
-      run(tape, {1, inputs, results});
+      run(tape, {1, inputs, results}, aligned_doubles(workspace_size(tape, 1)).get());
     }
     for (int k = 0; k < 9; ++k)
       ASSERT_NEAR(full[0][k], full[1][k], 1e-10 * std::max(1.0, std::fabs(full[0][k])))

@@ -40,15 +40,18 @@ class SmallProblem : public Problem {
     shape_ = {};
     shape_.variables = n;
     shape_.rows = m;
-    shape_.stage_begin = {0, n};
+    shape_.stages = 1;
+    shape_.variable_stage.assign(n, 0);
     shape_.row_stage.assign(m, 0);
     shape_.coupling.assign(m, Coupling::local);
-    for (std::size_t r = 0; r <= m; ++r) shape_.jacobian_row_begin.push_back(r * n);
-    for (std::size_t e = 0; e < m * n; ++e) shape_.jacobian_col.push_back(e % n);
+    for (std::size_t e = 0; e < m * n; ++e) {
+      shape_.jacobian_row.push_back(static_cast<std::uint32_t>(e / n));
+      shape_.jacobian_col.push_back(static_cast<std::uint32_t>(e % n));
+    }
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j <= i; ++j) {
-        shape_.hessian_row.push_back(i);
-        shape_.hessian_col.push_back(j);
+        shape_.hessian_row.push_back(static_cast<std::uint32_t>(i));
+        shape_.hessian_col.push_back(static_cast<std::uint32_t>(j));
       }
     shape_.variable_scale = std::move(variable_scale);
     shape_.row_scale = std::move(row_scale);

@@ -64,8 +64,8 @@ TEST_P(Derivatives, GradientAndJacobian) {
     expect_close(at.gradient[i], slope.back(), 1e-2, "objective" + by);
     for (std::size_t r = 0; r < shape.rows; ++r) {
       double entry = 0;
-      for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e)
-        if (shape.jacobian_col[e] == i) entry = at.jacobian[e];
+      for (std::size_t e = 0; e < at.jacobian.size(); ++e)
+        if (shape.jacobian_row[e] == r && shape.jacobian_col[e] == i) entry += at.jacobian[e];
       expect_close(entry, slope[r], 1e-2, transcription.row_name(r) + by);
     }
   }
@@ -89,9 +89,8 @@ TEST_P(Derivatives, HessianOfTheLagrangian) {
     nlp::Evaluation out;
     transcription.evaluate(point, 1, {}, {.derivatives = true}, out);
     for (auto& g : out.gradient) g *= sigma;
-    for (std::size_t r = 0; r < shape.rows; ++r)
-      for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e)
-        out.gradient[shape.jacobian_col[e]] += y[r] * out.jacobian[e];
+    for (std::size_t e = 0; e < out.jacobian.size(); ++e)
+      out.gradient[shape.jacobian_col[e]] += y[shape.jacobian_row[e]] * out.jacobian[e];
     return out.gradient;
   };
   for (std::size_t i = 0; i < shape.variables; ++i) {

@@ -29,9 +29,9 @@ std::size_t count(const std::vector<std::string>& names, const std::string& part
   }));
 }
 
-std::size_t stage_of(const nlp::Structure& shape, std::size_t variable) {
-  const auto above = std::upper_bound(shape.stage_begin.begin(), shape.stage_begin.end(), variable);
-  return static_cast<std::size_t>(above - shape.stage_begin.begin()) - 1;
+std::size_t globals(const nlp::Structure& shape) {
+  return static_cast<std::size_t>(
+      std::count(shape.variable_stage.begin(), shape.variable_stage.end(), shape.stages));
 }
 
 TEST(Structure, RowsTouchTheirStageTheNextOrGlobals) {
@@ -39,29 +39,31 @@ TEST(Structure, RowsTouchTheirStageTheNextOrGlobals) {
     KitchenSink sink;
     const Transcription t(sink.problem, Mesh::uniform(4), *scheme);
     const auto& shape = t.structure();
-    ASSERT_EQ(shape.stages(), 5u);
-    EXPECT_EQ(shape.row_stage.size(), shape.rows);
-    std::size_t last_stage = 0;
-    for (std::size_t r = 0; r < shape.rows; ++r) {
-      EXPECT_GE(shape.row_stage[r], last_stage) << "rows come stage by stage";
-      last_stage = shape.row_stage[r];
-      bool next_touched = false;
-      for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e) {
-        const std::size_t col = shape.jacobian_col[e];
-        if (e > shape.jacobian_row_begin[r]) EXPECT_GT(col, shape.jacobian_col[e - 1]);
-        if (col >= shape.first_global()) continue;
-        const std::size_t distance = stage_of(shape, col) - shape.row_stage[r];
-        EXPECT_LE(distance, shape.coupling[r] == nlp::Coupling::neighbour ? 1u : 0u)
-            << t.row_name(r) << " and " << t.variable_name(col);
-        next_touched = next_touched || distance == 1;
-      }
-      EXPECT_NE(shape.coupling[r], nlp::Coupling::border);
-      EXPECT_EQ(next_touched, shape.coupling[r] == nlp::Coupling::neighbour) << t.row_name(r);
+    ASSERT_EQ(shape.stages, 5u);
+    ASSERT_EQ(shape.variable_stage.size(), shape.variables);
+    ASSERT_EQ(shape.row_stage.size(), shape.rows);
+    std::vector<char> next_touched(shape.rows, 0);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> places;
+    for (std::size_t e = 0; e < shape.jacobian_row.size(); ++e) {
+      const std::size_t r = shape.jacobian_row[e], col = shape.jacobian_col[e];
+      EXPECT_TRUE(places.emplace(r, col).second) << "each place once";
+      if (shape.global(col)) continue;
+      const std::size_t distance = shape.variable_stage[col] - shape.row_stage[r];
+      EXPECT_LE(distance, shape.coupling[r] == nlp::Coupling::neighbour ? 1u : 0u)
+          << t.row_name(r) << " and " << t.variable_name(col);
+      next_touched[r] = next_touched[r] || distance == 1;
     }
-    for (std::size_t e = 0; e < shape.hessian_row.size(); ++e)
-      if (shape.hessian_row[e] < shape.first_global()) {
-        EXPECT_EQ(stage_of(shape, shape.hessian_row[e]), stage_of(shape, shape.hessian_col[e]));
+    for (std::size_t r = 0; r < shape.rows; ++r) {
+      EXPECT_NE(shape.coupling[r], nlp::Coupling::border);
+      EXPECT_EQ(next_touched[r] != 0, shape.coupling[r] == nlp::Coupling::neighbour)
+          << t.row_name(r);
+    }
+    for (std::size_t e = 0; e < shape.hessian_row.size(); ++e) {
+      const std::size_t a = shape.hessian_row[e], b = shape.hessian_col[e];
+      if (!shape.global(a) && !shape.global(b)) {
+        EXPECT_EQ(shape.variable_stage[a], shape.variable_stage[b]);
       }
+    }
   }
 }
 
@@ -102,15 +104,15 @@ TEST(Structure, NamesAreUniqueAndSayWhere) {
   }
 }
 
-TEST(Structure, FirstDefectRowIsOfTheLastDefect) {
+TEST(Structure, DefectRowIsOfTheLastDefect) {
   for (const Scheme* scheme : kSchemes) {
     KitchenSink sink;
     const Transcription t(sink.problem, Mesh::uniform(3), *scheme);
     const std::string defect = "defect " + std::to_string(scheme->defects() - 1) + " of ";
     for (std::size_t k = 0; k < 3; ++k) {
       const std::string where = " in interval " + std::to_string(k);
-      EXPECT_EQ(t.row_name(t.first_defect_row(k)), defect + "x" + where);
-      EXPECT_EQ(t.row_name(t.first_defect_row(k) + 1), defect + "y" + where);
+      EXPECT_EQ(t.row_name(t.defect_row(0, k)), defect + "x" + where);
+      EXPECT_EQ(t.row_name(t.defect_row(1, k)), defect + "y" + where);
     }
   }
 }
@@ -151,13 +153,12 @@ TEST(Structure, ACopyNobodyUsesIsAbsent) {
   p.dynamics(x, u);
   const auto row = p.path("row", x - p.initial(x), {0, 1});
   const auto free_row = p.path("free row", x - p.final(x), {});
-  const auto globals = [&] {
-    const Transcription t(p, Mesh::uniform(2), trapezoidal());
-    return t.structure().variables - t.structure().first_global();
+  const auto count_globals = [&] {
+    return globals(Transcription(p, Mesh::uniform(2), trapezoidal()).structure());
   };
-  EXPECT_EQ(globals(), 3u);  // t0, tf, initial(x); a row without bounds is no row
+  EXPECT_EQ(count_globals(), 3u);  // t0, tf, initial(x); a row without bounds is no row
   p.enable(row, false);
-  EXPECT_EQ(globals(), 2u);
+  EXPECT_EQ(count_globals(), 2u);
   (void)free_row;
 }
 

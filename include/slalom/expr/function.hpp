@@ -56,6 +56,7 @@ class Function {
   std::size_t instructions(Wanted wanted) const;
 
  private:
+  friend class Evaluator;
   struct Impl;
   std::shared_ptr<const Impl> impl_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,33 +11,36 @@ namespace slalom::kkt {
 
 /// Shape of the symmetric system of an interior-point step on a stage-structured problem,
 ///
-///   [ W + diag(d) + Ji' diag(w) Ji    Je'        ] [ dx ]   [ a ]
-///   [ Je                             -diag(c)    ] [ dy ] = [ b ]
+///   [ W + diag(d)    E'       ] [ dx ]   [ a ]
+///   [ E             -diag(c)  ] [ dy ] = [ b ],
 ///
-/// with Je the equations' rows of the Jacobian and Ji the inequalities', condensed onto the
-/// variables. Variables come stage by stage, globals last; a row touches its own stage, the next
-/// one and the globals, unless it is a border row, which may touch anything.
+/// W the Hessian with all inequalities condensed onto it (CondensedHessian), E the equations' rows
+/// of the Jacobian. A variable or equation belongs to a stage or, with stage number `stages`, to the
+/// border, which couples to everything. Apart from the border, entries couple a stage with itself
+/// or its neighbours. Entries may come in any order, each place once.
 struct Pattern {
-  std::vector<std::size_t> stage_begin;  ///< first variable of each stage, then of the globals
-  std::size_t variables = 0;
-  std::vector<char> fixed;     ///< variables that do not move: left out, dx = 0
-  std::vector<char> equation;  ///< one a row: keeps a multiplier in the system
-  std::vector<std::size_t> row_stage;
-  std::vector<char> border;            ///< one a row
-  std::vector<std::size_t> row_begin;  ///< compressed rows of the Jacobian
-  std::vector<std::size_t> col;
-  std::vector<std::size_t> hessian_row, hessian_col;  ///< lower triangle of W
+  std::size_t variables = 0, equations = 0, stages = 0;
+  std::vector<std::uint32_t> variable_stage, equation_stage;
+  std::vector<char> fixed;  ///< variables that do not move: left out, dx = 0
 
-  std::size_t rows() const { return equation.size(); }
-  std::size_t stages() const { return stage_begin.size() - 1; }
+  struct Place {
+    std::uint32_t row, col;
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+  struct JacobianEntry {
+    std::uint32_t source;  ///< where in Values::jacobian
+    std::uint32_t equation, variable;
+  };
+  std::vector<Place> hessian;  ///< one triangle: each pair once
+  std::vector<JacobianEntry> jacobian;
 };
 
-/// The numbers of one system; sizes follow Pattern.
+/// The numbers of one system.
 struct Values {
-  std::span<const double> hessian;
-  std::span<const double> diagonal;  ///< d, by variable
-  std::span<const double> jacobian;
-  std::span<const double> row_diagonal;  ///< by row: c >= 0 of an equation, w >= 0 otherwise
+  std::span<const double> hessian;      ///< W, one a place of Pattern::hessian
+  std::span<const double> diagonal;     ///< d, one a variable
+  std::span<const double> jacobian;     ///< E, read by JacobianEntry::source
+  std::span<const double> flexibility;  ///< c >= 0, one an equation
 };
 
 /// Signs of the pivots. A regular step on a minimum has as many positive as free variables and as
@@ -51,13 +55,17 @@ class Backend {
  public:
   virtual ~Backend() = default;
   virtual std::string name() const = 0;
+  /// With zero pivots (a singular system) nothing is ready to be solved.
   [[nodiscard]] virtual Inertia factorize(const Values& values) = 0;
-  /// Overwrites a and b by dx and dy. b has one entry a row; those of inequalities are not touched.
-  virtual void solve(std::span<double> a, std::span<double> b) const = 0;
+  /// Overwrites `rhs` (a, then b) by the solution (dx, then dy).
+  virtual void solve(std::span<double> rhs) = 0;
+  /// Asks for pivots chosen afresh at the next factorisation: the last solution was inaccurate.
+  virtual void distrust() {}
 };
 
 /// Sequential elimination of the stages with pivoting inside each; what cannot be pivoted in its
-/// stage passes on to the next, at last to the border. Cost linear in stages and rows.
+/// stage passes on to the next, at last to the border. Cost linear in stages and entries. The order
+/// of pivots is kept from one factorisation to the next for as long as every pivot stays stable.
 std::unique_ptr<Backend> make_stage_ldlt(const Pattern& pattern);
 /// One dense matrix with the same pivoting, blind to the structure: the reference in tests.
 std::unique_ptr<Backend> make_dense_ldlt(const Pattern& pattern);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,23 +19,27 @@ enum class Coupling {
 ///
 ///   min f(x)   subject to   gl <= g(x) <= gu,   xl <= x <= xu
 ///
-/// Variables come stage by stage; what all stages share (final time, static parameters, lifted
-/// copies) comes last and is called global. Rows come stage by stage too, border rows last.
-/// Derivatives are sparse with a fixed pattern; the order of entries keeps to the stages.
+/// Every variable belongs to a stage or, with stage number `stages`, to all of them (final time,
+/// static parameters, lifted copies): a global. Variables, rows and entries come in any order; where
+/// one formula stands at many stages, its entries best follow each other stage by stage, for then
+/// solvers run over them as over one vector.
 struct Structure {
+  /// Tells structures apart, so that a solver may keep its workspace from one solve to the next:
+  /// next_id() for one that does not change any more; 0 keeps none.
+  std::uint64_t id = 0;
   std::size_t variables = 0;
   std::size_t rows = 0;
-  std::vector<std::size_t> stage_begin;  ///< first variable of each stage, then of the globals
-  std::vector<std::size_t> row_stage;    ///< stage of each row (of the first, when coupling)
+  std::size_t stages = 0;
+  std::vector<std::uint32_t> variable_stage;
+  std::vector<std::uint32_t> row_stage;  ///< stage of each row (of the first, when coupling)
   std::vector<Coupling> coupling;        ///< one a row
-  std::vector<std::size_t> jacobian_row_begin;        ///< compressed rows: rows + 1 offsets
-  std::vector<std::size_t> jacobian_col;              ///< ascending within a row
-  std::vector<std::size_t> hessian_row, hessian_col;  ///< lower triangle, sorted by row, then col
-  std::vector<double> variable_scale;                 ///< user's value = scale * x
-  std::vector<double> row_scale;                      ///< row here = scale * the user's row
+  std::vector<std::uint32_t> jacobian_row, jacobian_col;  ///< one an entry, each place once
+  std::vector<std::uint32_t> hessian_row, hessian_col;    ///< lower triangle, each place once
+  std::vector<double> variable_scale;                     ///< user's value = scale * x
+  std::vector<double> row_scale;                          ///< row here = scale * the user's row
 
-  std::size_t stages() const { return stage_begin.empty() ? 0 : stage_begin.size() - 1; }
-  std::size_t first_global() const { return stage_begin.back(); }
+  bool global(std::size_t variable) const { return variable_stage[variable] == stages; }
+  static std::uint64_t next_id();
 };
 
 /// Bounds of variables and rows; infinite where absent, equal for fixed variables and equations.

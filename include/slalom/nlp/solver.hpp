@@ -24,6 +24,23 @@ enum class Status {
 };
 const char* to_string(Status status);
 
+/// How the barrier parameter falls where there is no floor.
+enum class BarrierRule { monotone, adaptive };
+
+/// One iteration, for logs and callbacks.
+struct IterationInfo {
+  int iteration = 0;
+  bool restoration = false;  ///< of the feasibility restoration phase
+  double objective = 0;
+  double violation = 0;  ///< largest residual of a row
+  double dual = 0;       ///< largest |gradient of the Lagrangian|
+  double mu = 0;
+  double step = 0;                   ///< largest |change of a variable or slack|
+  double delta_w = 0, delta_c = 0;   ///< regularisation of the Hessian and of the rows
+  double alpha_primal = 0, alpha_dual = 0;
+  int trials = 0;  ///< of the line search
+};
+
 struct Options {
   /// Barrier floor mu [objective's units]: the solve ends at the central point of mu. 0: none.
   double floor = 0;
@@ -32,11 +49,16 @@ struct Options {
   double constraint_tol = 1e-6;  ///< at a floor: rows and defects [their units]
   double floor_tol = 0.01;       ///< at a floor: |s z / mu - 1|
   int max_iterations = 500;
-  double time_limit = std::numeric_limits<double>::infinity();  ///< wall clock [s]
-  bool warm_start = false;        ///< the start's multipliers are used
-  int print_level = 0;            ///< of the back end's own log
+  /// Deadline: this thread's processor time [s], callbacks not counted. interior_point takes no
+  /// step that its longest one so far would carry past it.
+  double time_limit = std::numeric_limits<double>::infinity();
+  bool warm_start = false;  ///< the start's multipliers are used
+  BarrierRule barrier_rule = BarrierRule::adaptive;  ///< of interior_point, without a floor
+  int print_level = 0;            ///< of the back end's own log, on standard output
   bool (*stop)(void*) = nullptr;  ///< polled each iteration; true ends the solve
   void* stop_data = nullptr;
+  void (*on_iteration)(const IterationInfo&, void*) = nullptr;  ///< called after each iteration
+  void* on_iteration_data = nullptr;
 };
 
 /// A primal and, for a warm start, dual point. Sign convention: the Lagrangian is
@@ -45,16 +67,22 @@ struct Start {
   std::vector<double> x, y, zl, zu;
 };
 
-/// The last iterate and how it was reached.
+/// A point and how it was reached: the solution where solved; else of interior_point the best point
+/// met (the least barrier function among those that meet the rows to constraint_tol, else the least
+/// violation), of other back ends the last one.
 struct Answer {
   Status status = Status::numerical_failure;
   std::string backend;
-  std::string message;  ///< the back end's own words
+  std::string message;  ///< the reason in words
   Fault fault;          ///< for invalid_number
   Start point;          ///< primal and dual
   double objective = 0;
+  double violation = 0;       ///< largest, of a row at the point, in the user's unit
+  std::size_t worst_row = 0;  ///< where: Problem::row_name tells; meaningless for violation 0
   int iterations = 0;
-  double cpu_s = 0, wall_s = 0;
+  double cpu_s = 0, wall_s = 0;  ///< of this thread, and by the clock
+  double callback_s = 0;         ///< thread time in callbacks, not counted against the deadline
+  double longest_step_s = 0;     ///< thread time of the longest iteration (interior_point)
 };
 
 /// A method that solves stage-structured programs. Not thread-safe; one a thread.
@@ -62,8 +90,15 @@ class Solver {
  public:
   virtual ~Solver() = default;
   /// `start` needs x, and for a warm start y, zl and zu too; throws InvalidValue for other sizes.
-  [[nodiscard]] virtual Answer solve(Problem& problem, const Start& start,
-                                     const Options& options) = 0;
+  /// Reuses the memory of `answer`: interior_point allocates nothing when the last solve had a
+  /// problem of the same structure (Structure::id).
+  virtual void solve(Problem& problem, const Start& start, const Options& options,
+                     Answer& answer) = 0;
+  [[nodiscard]] Answer solve(Problem& problem, const Start& start, const Options& options) {
+    Answer answer;
+    solve(problem, start, options, answer);
+    return answer;
+  }
 };
 
 /// Throws InvalidValue unless `start` has the sizes of `structure`; duals only where `with_duals`.

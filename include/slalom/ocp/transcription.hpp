@@ -45,8 +45,8 @@ class Transcription final : public nlp::Problem {
   /// quadrature and defects), averaged with minus that of what lies before: they differ by active
   /// rows there.
   std::vector<std::vector<double>> costates(std::span<const double> x, std::span<const double> y);
-  /// The first of the rows, one a state, of interval k's last defect.
-  std::size_t first_defect_row(std::size_t interval) const;
+  /// Row of interval k's last defect of a state.
+  std::size_t defect_row(std::size_t state, std::size_t interval) const;
 
   const nlp::Structure& structure() const override;
   const nlp::Limits& limits() const override;

@@ -3,225 +3,243 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "../backends.hpp"
-#include "line_search.hpp"
-#include "model.hpp"
-#include "newton.hpp"
+#include "best_iterate.hpp"
+#include "descent.hpp"
+#include "iteration_log.hpp"
 #include "restoration.hpp"
 #include "slalom/base/timer.hpp"
+#include "start.hpp"
+#include "watchdog.hpp"
 
 namespace slalom::nlp {
 namespace {
 
 using namespace ipm;
 
-constexpr double kBarrierTolerance = 10, kFirstBarrier = 0.1, kBoundPush = 1e-2;
+constexpr double kMostVariable = 1e20;  ///< beyond, iterates diverge
+constexpr int kMostTinySteps = 2;
 
-/// A value inside its bounds by an absolute and a relative distance (section 3.6).
-double inside(double value, double lower, double upper, double push) {
-  const bool has_lower = std::isfinite(lower), has_upper = std::isfinite(upper);
-  if (has_lower) {
-    double room = push * std::max(1.0, std::fabs(lower));
-    if (has_upper) room = std::min(room, push * (upper - lower));
-    value = std::max(value, lower + room);
-  }
-  if (has_upper) {
-    double room = push * std::max(1.0, std::fabs(upper));
-    if (has_lower) room = std::min(room, push * (upper - lower));
-    value = std::min(value, upper - room);
-  }
-  return value;
-}
-
-class Run {
+/// The workspace of one problem structure, and a solve on it.
+class Run final : public Restoration::Watch {
  public:
-  Run(Problem& problem, const Options& options)
-      : options_(options), model_(problem), newton_(model_), search_(model_) {
-    at_.resize(model_.variables(), model_.rows());
-    step_.resize(model_.variables(), model_.rows());
+  explicit Run(Problem& problem)
+      : structure_id_(problem.structure().id), descent_(problem), watchdog_(descent_.model) {}
+
+  /// Whether this workspace fits: the same structure, with the same equations and fixed variables.
+  bool fits(const Problem& problem) const {
+    if (structure_id_ == 0 || problem.structure().id != structure_id_) return false;
+    const Limits& limits = problem.limits();
+    const Model& model = descent_.model;
+    for (std::size_t i = 0; i < model.variables(); ++i)
+      if (model.fixed(i) != (limits.xl[i] == limits.xu[i])) return false;
+    for (std::size_t r = 0; r < model.rows(); ++r)
+      if (model.equation(r) != (limits.gl[r] == limits.gu[r])) return false;
+    return true;
   }
 
-  Answer solve(const Start& start) {
-    mu_ = options_.floor > 0 ? options_.floor : kFirstBarrier;
-    begin(start);
-    const Status status = iterate();
-    return answer(status);
+  void solve(Problem& problem, const Start& start, const Options& options, Answer& answer) {
+    begin(problem, options);
+    const Status status = enough_freedom() ? iterate(start) : Status::too_few_freedoms;
+    fill(status, start, answer);
   }
 
  private:
-  // --- start -------------------------------------------------------------------------------
-  void begin(const Start& start) {
-    const Limits& limits = model_.limits();
-    const double push = options_.warm_start ? 1e-6 : kBoundPush;
-    for (std::size_t i = 0; i < model_.variables(); ++i)
-      at_.x[i] =
-          model_.fixed(i) ? limits.xl[i] : inside(start.x[i], limits.xl[i], limits.xu[i], push);
-    if (!model_.values(at_, e_)) return;
-    const bool dual = options_.warm_start && start.y.size() == model_.rows();
-    for (std::size_t i = 0; i < model_.variables(); ++i) {
-      if (model_.fixed(i)) continue;
-      at_.zl[i] = multiplier(at_.x[i] - limits.xl[i], dual ? start.zl[i] : 0);
-      at_.zu[i] = multiplier(limits.xu[i] - at_.x[i], dual ? start.zu[i] : 0);
-    }
-    for (std::size_t r = 0; r < model_.rows(); ++r) {
-      at_.y[r] = dual ? start.y[r] : 0;
-      if (model_.equation(r)) continue;
-      // A slack is its row's value, but no closer to the bound than its multiplier would hold it.
-      const double least_l = dual && start.y[r] < 0 ? 0.1 * mu_ / -start.y[r] : push;
-      const double least_u = dual && start.y[r] > 0 ? 0.1 * mu_ / start.y[r] : push;
-      at_.s[r] = inside(e_.rows[r], limits.gl[r], limits.gu[r], push);
-      if (std::isfinite(limits.gl[r]) && !std::isfinite(limits.gu[r]))
-        at_.s[r] = std::max(at_.s[r], limits.gl[r] + least_l);
-      if (std::isfinite(limits.gu[r]) && !std::isfinite(limits.gl[r]))
-        at_.s[r] = std::min(at_.s[r], limits.gu[r] - least_u);
-      at_.vl[r] = multiplier(at_.s[r] - limits.gl[r], dual ? std::max(-start.y[r], 0.0) : 0);
-      at_.vu[r] = multiplier(limits.gu[r] - at_.s[r], dual ? std::max(start.y[r], 0.0) : 0);
-      if (!dual) at_.y[r] = at_.vu[r] - at_.vl[r];
-    }
-  }
-
-  /// The given multiplier or mu / slack, whichever is more central; 0 for an absent bound.
-  double multiplier(double slack, double given) const {
-    if (!std::isfinite(slack)) return 0;
-    const double ratio = slack * given / mu_;
-    return ratio > 0.1 && ratio < 10 ? given : mu_ / slack;
-  }
-
-  // --- main loop ---------------------------------------------------------------------------
-  Status iterate() {
-    if (!model_.derivatives(at_, e_)) return Status::invalid_number;
-    search_.reset(model_.violation(e_, at_));
-    for (iterations_ = 0;; ++iterations_) {
+  // --- the method --------------------------------------------------------------------------
+  Status iterate(const Start& start) {
+    if (!prepare(descent_, start, *options_)) return Status::invalid_number;
+    descent_.search.reset(descent_.point.local.violation);
+    for (;; ++iterations_) {
+      descent_.take_survey();
+      offer_best();
       if (converged()) return Status::solved;
-      if (iterations_ >= options_.max_iterations) return Status::iteration_limit;
-      if (out_of_time()) return Status::time_limit;
-      if (told_to_stop()) return Status::interrupted;
-      update_barrier();
-      if (!model_.hessian(at_, e_)) return Status::invalid_number;
-      if (!newton_.factorize(e_, at_, mu_)) return Status::numerical_failure;
-      newton_.step(e_, at_, mu_, step_);
-      const auto result = search_.search(newton_, mu_, step_, e_, at_);
-      if (result.accepted) {
-        advance_duals(model_, step_, result.alpha, result.alpha_dual, mu_, at_);
-      } else if (const auto status = restore()) {
+      if (const auto status = told_to_end()) return *status;
+      descent_.update_barrier();
+      if (!descent_.find_step()) {
+        if (const auto status = restore()) return *status;
+      } else if (const auto status = advance()) {
         return *status;
       }
-      if (!model_.derivatives(at_, e_)) return Status::invalid_number;
+      if (!descent_.complete()) return Status::invalid_number;
+      note_iteration(descent_, false);
     }
   }
 
   bool converged() const {
-    if (options_.floor > 0) {
-      if (mu_ > options_.floor) return false;
-      const auto r = model_.residuals(e_, at_, mu_);
-      return r.dual <= options_.dual_tol && r.primal <= options_.constraint_tol &&
-             r.centrality <= options_.floor_tol;
-    }
-    return scaled_error(model_, e_, at_, 0) <= options_.tol;
+    const Survey& s = descent_.survey;
+    const double floor = options_->floor;
+    if (floor > 0)
+      return descent_.barrier.at_least() && s.dual <= options_->dual_tol &&
+             s.primal <= options_->constraint_tol && s.off_centre(floor) <= options_->floor_tol;
+    return s.error(0) <= options_->tol;
   }
 
-  /// Monotone rule (eq. 7), never below the floor.
-  void update_barrier() {
-    const double least = options_.floor > 0 ? options_.floor : options_.tol / 10;
-    while (mu_ > least && scaled_error(model_, e_, at_, mu_) <= kBarrierTolerance * mu_) {
-      mu_ = next_barrier(mu_, least);
-      search_.new_barrier();
+  /// Along the step, by line search or, after many short ones, by the watchdog's leap.
+  std::optional<Status> advance() {
+    if (descent_.tiny_step() && ++tiny_steps_ >= kMostTinySteps && descent_.barrier.at_least())
+      return Status::numerical_failure;
+    switch (watchdog_.advance(descent_)) {
+      case Watchdog::Outcome::moved:
+        return std::nullopt;
+      case Watchdog::Outcome::stuck:
+        return restore();
     }
-  }
-
-  bool out_of_time() const { return timer_.wall() > options_.time_limit; }
-  bool told_to_stop() const {
-    return options_.stop != nullptr && options_.stop(options_.stop_data);
+    return std::nullopt;
   }
 
   /// When no step is acceptable: less violation first, then on. Empty: go on.
   std::optional<Status> restore() {
-    const double violation = model_.violation(e_, at_);
-    if (violation <= options_.constraint_tol * 1e-2) return Status::numerical_failure;
-    search_.filter().add(violation, model_.barrier(e_, at_, mu_));
-    if (!restoration_) restoration_.emplace(model_.problem());
-    Iterate trial;
-    Evaluation values;
-    trial.resize(model_.variables(), model_.rows());
-    const auto accept = [&](const std::vector<double>& x, const std::vector<double>& s) {
-      trial.x = x;
-      trial.s = s;
-      if (!model_.values(trial, values)) return false;
-      const double now = model_.violation(values, trial);
-      return now <= 0.9 * violation &&
-             search_.filter().accepts(now, model_.barrier(values, trial, mu_));
-    };
-    const auto outcome = restoration_->run(mu_, at_, iterations_, options_.max_iterations, accept,
-                                           [&] { return out_of_time() || told_to_stop(); });
-    model_.values(at_, e_);
+    Point& point = descent_.point;
+    if (point.local.violation <= 1e-2 * options_->constraint_tol) return Status::numerical_failure;
+    descent_.search.filter().add(descent_.search.merit(point, descent_.barrier.mu()));
+    if (!restoration_) restoration_.emplace(descent_);
+    restoration_->refresh();
+    const auto outcome = restoration_->run(*this);
+    watchdog_.restart();
     switch (outcome) {
+      case Restoration::Outcome::restored:
+        if (!descent_.complete()) return Status::invalid_number;
+        descent_.centre_multipliers(descent_.barrier.mu());
+        descent_.estimate_multipliers();
+        point.have.hessian = false;  // it has the old multipliers
+        return std::nullopt;
       case Restoration::Outcome::infeasible:
+        if (!descent_.complete()) return Status::invalid_number;
+        offer_best();
         return Status::infeasible;
       case Restoration::Outcome::failed:
         return Status::numerical_failure;
       case Restoration::Outcome::stopped:
-        if (out_of_time()) return Status::time_limit;
-        return iterations_ >= options_.max_iterations ? Status::iteration_limit
-                                                      : Status::interrupted;
-      case Restoration::Outcome::restored:
         break;
     }
-    central_multipliers();
-    return std::nullopt;
+    return end_;
   }
 
-  /// mu / slack for every bound, and the rows' multipliers that go with them.
-  void central_multipliers() {
-    const Limits& limits = model_.limits();
-    for (std::size_t i = 0; i < model_.variables(); ++i) {
-      if (model_.fixed(i)) continue;
-      at_.zl[i] = multiplier(at_.x[i] - limits.xl[i], at_.zl[i]);
-      at_.zu[i] = multiplier(limits.xu[i] - at_.x[i], at_.zu[i]);
+  // --- when to end -------------------------------------------------------------------------
+  std::optional<Status> told_to_end() {
+    end_.reset();
+    const double now = timer_.cpu() - callback_s_;
+    if (iterations_ > 0) longest_step_ = std::max(longest_step_, now - last_iteration_);
+    last_iteration_ = now;
+    if (iterations_ >= options_->max_iterations) {
+      end_ = Status::iteration_limit;
+    } else if (now + longest_step_ > options_->time_limit) {
+      end_ = Status::time_limit;
+    } else if (asked_to_stop()) {
+      end_ = Status::interrupted;
+    } else if (vector_kernels().largest_magnitude(descent_.model.variables(),
+                                                  descent_.point.at.w.data()) > kMostVariable) {
+      end_ = Status::unbounded;
     }
-    for (std::size_t r = 0; r < model_.rows(); ++r) {
-      if (model_.equation(r)) {
-        at_.y[r] = 0;
-        continue;
-      }
-      at_.vl[r] = multiplier(at_.s[r] - limits.gl[r], at_.vl[r]);
-      at_.vu[r] = multiplier(limits.gu[r] - at_.s[r], at_.vu[r]);
-      at_.y[r] = at_.vu[r] - at_.vl[r];
-    }
+    return end_;
+  }
+  bool asked_to_stop() {
+    if (options_->stop == nullptr) return false;
+    const double before = timer_.cpu();
+    const bool stop = options_->stop(options_->stop_data);
+    callback_s_ += timer_.cpu() - before;
+    return stop;
+  }
+  bool stop() override { return told_to_end().has_value(); }
+  void iterated(const Descent& restoration) override {
+    note_iteration(restoration, true);
+    ++iterations_;
+  }
+  bool enough_freedom() const {
+    std::size_t free = 0;
+    for (const char fixed : descent_.model.fixed()) free += fixed ? 0 : 1;
+    return descent_.model.equations().size() <= free;
   }
 
-  Answer answer(Status status) {
-    Answer answer;
+  // --- begin and end -----------------------------------------------------------------------
+  void begin(Problem& problem, const Options& options) {
+    options_ = &options;
+    timer_ = Timer();
+    iterations_ = tiny_steps_ = 0;
+    callback_s_ = longest_step_ = last_iteration_ = 0;
+    end_.reset();
+    descent_.model.refresh(problem);
+    watchdog_.restart();
+    best_.begin(descent_.model, options.constraint_tol);
+  }
+
+  void offer_best() {
+    const Point& point = descent_.point;
+    best_.offer(point.at, descent_.model.violation(point.e).largest,
+                barrier_function(descent_.model, point, descent_.barrier.mu()));
+  }
+
+  void note_iteration(const Descent& descent, bool restoration) {
+    if (options_->on_iteration == nullptr && options_->print_level == 0) return;
+    const double before = timer_.cpu();
+    const IterationInfo info = iteration_info(descent, iterations_ + 1, restoration);
+    if (options_->print_level > 0) print(info);
+    if (options_->on_iteration != nullptr)
+      options_->on_iteration(info, options_->on_iteration_data);
+    callback_s_ += timer_.cpu() - before;
+  }
+
+  void fill(Status status, const Start& start, Answer& answer) {
+    Model& model = descent_.model;
     answer.status = status;
-    answer.backend = "interior_point/" + newton_.backend().name();
-    if (status == Status::invalid_number) answer.fault = model_.fault();
-    answer.point = {at_.x, at_.y, at_.zl, at_.zu};
-    answer.objective = e_.objective;
+    answer.backend = "interior_point/";
+    answer.backend += descent_.newton.backend().name();
+    answer.message = reason(status);
+    answer.fault = status == Status::invalid_number ? model.fault() : Fault{};
+    const bool last = status == Status::solved || best_.empty();
+    hand_out(model, last ? descent_.point.at : best_.iterate(), answer.point);
+    if (best_.empty()) answer.point.x = start.x;
+    judge(answer);
     answer.iterations = iterations_;
     answer.cpu_s = timer_.cpu();
     answer.wall_s = timer_.wall();
-    return answer;
+    answer.callback_s = callback_s_;
+    answer.longest_step_s = longest_step_;
   }
 
-  const Options& options_;
+  /// Objective and violation at the answer's point.
+  void judge(Answer& answer) {
+    Evaluation& e = descent_.point.e;
+    answer.violation = 0;
+    if (descent_.model.problem().evaluate(answer.point.x, 1, {}, {.values = true}, e)) return;
+    answer.objective = e.objective;
+    for (std::size_t r = 0; r < e.rows.size(); ++r) e.rows[r] *= descent_.model.row_scale()[r];
+    const auto worst = descent_.model.violation(e);
+    answer.violation = worst.largest;
+    answer.worst_row = worst.row;
+  }
+
+  const std::uint64_t structure_id_;
+  const Options* options_ = nullptr;
   Timer timer_;
-  Model model_;
-  Newton newton_;
-  LineSearch search_;
+  Descent descent_;
+  Watchdog watchdog_;
   std::optional<Restoration> restoration_;
-  Iterate at_;
-  Step step_;
-  Evaluation e_;
-  double mu_ = 0;
-  int iterations_ = 0;
+  BestIterate best_;
+  std::optional<Status> end_;
+  int iterations_ = 0, tiny_steps_ = 0;
+  double callback_s_ = 0, longest_step_ = 0, last_iteration_ = 0;
 };
 
 class InteriorPoint final : public Solver {
  public:
-  Answer solve(Problem& problem, const Start& start, const Options& options) override {
-    return Run(problem, options).solve(start);
+  using Solver::solve;
+  void solve(Problem& problem, const Start& start, const Options& options,
+             Answer& answer) override {
+    check_sizes(start, problem.structure(), options.warm_start);
+    for (auto& run : runs_)
+      if (run && run->fits(problem)) return run->solve(problem, start, options, answer);
+    auto& run = runs_[next_++ % std::size(runs_)];
+    run = std::make_unique<Run>(problem);
+    run->solve(problem, start, options, answer);
   }
+
+ private:
+  std::unique_ptr<Run> runs_[2];  ///< a planner alternates between two forms of its problem
+  std::size_t next_ = 0;
 };
 
 }  // namespace

@@ -1,38 +1,39 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
+#include "filter.hpp"
 #include "model.hpp"
 #include "newton.hpp"
 
 namespace slalom::nlp::ipm {
 
-/// The filter: pairs of violation and barrier function that a new iterate must improve on
-/// (Waechter & Biegler 2006, section 2.3).
-class Filter {
- public:
-  void reset(double most_violation);
-  bool accepts(double violation, double barrier) const;
-  void add(double violation, double barrier);
+/// An iterate with all that is known of it.
+struct Point {
+  Iterate at;
+  Evaluation e;
+  Parts have;   ///< which parts of e are of this iterate
+  Local local;  ///< reciprocals and residuals are of this iterate; sigma and slope once surveyed
 
- private:
-  double most_violation_ = 0;
-  std::vector<std::pair<double, double>> entries_;
+  void resize(const Model& model);
 };
 
-/// Largest step to keep a share 1 - tau of the distance to every bound (eq. 15).
-double most_primal(const Model& model, const Iterate& at, const Step& step, double tau);
-double most_dual(const Model& model, const Iterate& at, const Step& step, double tau);
+/// Fraction to the boundary rule (Waechter & Biegler 2006, eq. 8).
+double boundary_fraction(double mu);
 
-/// Backtracking along a step by the filter, with second-order corrections (Algorithm A, step A-5).
+/// Fills what a point's Local holds of its primal part and residuals.
+void measure(const Model& model, Point& point);
+/// f - mu sum of the logarithms of all slacks; infinity unless all are positive.
+double barrier_function(const Model& model, const Point& point, double mu);
+
+/// Backtracking along a step by the filter, with second-order corrections (Waechter & Biegler 2006,
+/// Algorithm A, step A-5).
 class LineSearch {
  public:
   explicit LineSearch(Model& model);
 
+  /// For a new problem.
   void reset(double violation_at_start);
-  /// Forgets the filter: for a new barrier parameter.
-  void new_barrier() { filter_.reset(most_violation_); }
   Filter& filter() { return filter_; }
 
   struct Result {
@@ -40,24 +41,29 @@ class LineSearch {
     double alpha = 0, alpha_dual = 0;
     int trials = 0;
     int corrections = 0;  ///< second-order corrections tried
+    bool filtered = false;  ///< the old point went into the filter
   };
-  /// On acceptance `at` and `e` (values only) are the new iterate's.
-  Result search(Newton& newton, double mu, const Step& step, Evaluation& e, Iterate& at);
+  /// On acceptance `point` is the new iterate, its multipliers y moved, those of bounds not yet. The
+  /// first trial evaluates derivatives too, for it is mostly accepted.
+  Result search(Newton& newton, double mu, const Step& step, Point& point);
+  /// The longest step without asking the filter: for the watchdog. False when it is not finite.
+  [[nodiscard]] bool leap(double mu, const Step& step, Point& point, Result& result);
+  Merit merit(const Point& point, double mu) const;
+  /// Whether `trial` is good enough after `now`, from where a step of slope `slope` led there.
+  bool acceptable(const Merit& now, const Merit& trial, double slope, double alpha, bool& armijo);
+  double slope(const Point& point, const Step& step) const;
 
  private:
-  struct Merit {
-    double violation, barrier;
-  };
-  bool trial(const Iterate& at, const Step& step, double alpha, double mu, Merit& merit);
-  bool acceptable(const Merit& now, const Merit& trial, double slope, double alpha, bool& armijo);
-  bool correct(Newton& newton, const Evaluation& e, const Iterate& at, double mu, const Merit& now,
-               double slope, double alpha, double tau, Result& result);
+  bool try_step(const Point& from, const Step& step, double alpha, double mu, bool derivatives,
+                Merit& merit);
+  bool correct(Newton& newton, const Point& point, double mu, const Step& step, const Merit& now,
+               double slope, double alpha, Result& result, bool& armijo);
+  double least_alpha(const Merit& now, double slope) const;
 
   Model& model_;
   Filter filter_;
   double most_violation_ = 0, small_violation_ = 0;
-  Iterate trial_;
-  Evaluation trial_values_;
+  Point trial_;
   Step corrected_;
   std::vector<double> residuals_;
 };

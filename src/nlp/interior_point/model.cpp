@@ -5,134 +5,162 @@
 #include <limits>
 
 namespace slalom::nlp::ipm {
+namespace {
 
-void Iterate::resize(std::size_t variables, std::size_t rows, bool elastic) {
-  for (auto* list : {&p, &n, &zp, &zn}) list->assign(elastic ? rows : 0, 0.0);
-  for (auto* list : {&x, &zl, &zu}) list->assign(variables, 0.0);
-  for (auto* list : {&s, &y, &vl, &vu}) list->assign(rows, 0.0);
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<char> equal(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<char> result;
+  for (std::size_t i = 0; i < a.size(); ++i) result.push_back(a[i] == b[i]);
+  return result;
 }
 
-Model::Model(Problem& problem)
-    : problem_(problem), shape_(problem.structure()), limits_(problem.limits()) {
-  for (std::size_t i = 0; i < variables(); ++i) fixed_.push_back(limits_.xl[i] == limits_.xu[i]);
-  for (std::size_t r = 0; r < rows(); ++r) equation_.push_back(limits_.gl[r] == limits_.gu[r]);
+std::vector<char> opposite(std::vector<char> flags) {
+  for (char& flag : flags) flag = !flag;
+  return flags;
 }
 
-Model::Model(Problem& problem, const Elastic& elastic) : Model(problem) {
-  elastic_ = &elastic;
+}  // namespace
+
+Model::Model(Problem& problem, const Elastic* elastic)
+    : problem_(&problem),
+      shape_(&problem.structure()),
+      elastic_(elastic),
+      equation_(equal(problem.limits().gl, problem.limits().gu)),
+      fixed_(equal(problem.limits().xl, problem.limits().xu)),
+      row_blocks_(shape_->rows, shape_->jacobian_row, shape_->jacobian_col, equation_),
+      hessian_runs_(shape_->hessian_row, shape_->hessian_col),
+      condensed_(shape_->hessian_row, shape_->hessian_col, row_blocks_, opposite(equation_)),
+      row_scale_(shape_->rows, 1.0),
+      scaled_y_(shape_->rows) {
+  for (std::size_t r = 0; r < rows(); ++r)
+    if (equation_[r]) equations_.push_back(static_cast<std::uint32_t>(r));
+  const std::size_t size = variables() + (elastic ? 3 : 1) * rows();
+  lower_.assign(size, 0.0);  // of the elastic parts
+  upper_.assign(size, kInfinity);
+  constants_.assign(size, 0.0);
+  refresh(problem);
+  find_segments();
+}
+
+void Model::refresh(Problem& problem) {
+  problem_ = &problem;
+  shape_ = &problem.structure();
+  const Limits& limits = problem.limits();
+  const auto set = [&](std::size_t i, bool constant, double lower, double upper) {
+    lower_[i] = constant ? -kInfinity : lower;
+    upper_[i] = constant ? kInfinity : upper;
+    constants_[i] = constant ? lower : 0;
+  };
+  for (std::size_t i = 0; i < variables(); ++i) set(i, fixed_[i], limits.xl[i], limits.xu[i]);
+  for (std::size_t r = 0; r < rows(); ++r)
+    set(slack(r), equation_[r], limits.gl[r] * row_scale_[r], limits.gu[r] * row_scale_[r]);
+}
+
+void Model::set_scale(double objective, std::span<const double> rows) {
+  objective_scale_ = objective;
+  std::copy(rows.begin(), rows.end(), row_scale_.begin());
+  scaled_ = objective != 1 || std::any_of(rows.begin(), rows.end(), [](double s) { return s != 1; });
+  refresh(*problem_);
+}
+
+void Model::find_segments() {
+  const auto lower = [&](std::size_t i) { return std::isfinite(lower_[i]); };
+  const auto upper = [&](std::size_t i) { return std::isfinite(upper_[i]); };
+  for (std::size_t i = 0; i < primal();) {
+    std::size_t end = i + 1;
+    while (end < primal() && lower(end) == lower(i) && upper(end) == upper(i)) ++end;
+    if (lower(i) || upper(i))
+      segments_.push_back(
+          {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(end), lower(i), upper(i)});
+    i = end;
+  }
 }
 
 kkt::Pattern Model::pattern() const {
   kkt::Pattern pattern;
-  pattern.stage_begin = shape_.stage_begin;
   pattern.variables = variables();
+  pattern.equations = equations_.size();
+  pattern.stages = shape_->stages;
+  pattern.variable_stage = shape_->variable_stage;
   pattern.fixed = fixed_;
-  pattern.equation = equation_;
-  pattern.row_stage = shape_.row_stage;
-  for (auto coupling : shape_.coupling) pattern.border.push_back(coupling == Coupling::border);
-  pattern.row_begin = shape_.jacobian_row_begin;
-  pattern.col = shape_.jacobian_col;
-  pattern.hessian_row = shape_.hessian_row;
-  pattern.hessian_col = shape_.hessian_col;
+  pattern.hessian = condensed_.places();
+  std::vector<std::uint32_t> number(rows(), 0);
+  for (std::size_t e = 0; e < equations_.size(); ++e) {
+    const std::size_t r = equations_[e];
+    number[r] = static_cast<std::uint32_t>(e);
+    pattern.equation_stage.push_back(shape_->coupling[r] == Coupling::border
+                                         ? static_cast<std::uint32_t>(shape_->stages)
+                                         : shape_->row_stage[r]);
+  }
+  for (std::size_t t = 0; t < shape_->jacobian_row.size(); ++t) {
+    const std::size_t r = shape_->jacobian_row[t];
+    if (equation_[r])
+      pattern.jacobian.push_back(
+          {static_cast<std::uint32_t>(t), number[r], shape_->jacobian_col[t]});
+  }
   return pattern;
 }
 
 bool Model::evaluate(const Iterate& at, Parts parts, Evaluation& out) {
-  fault_ = problem_.evaluate(at.x, elastic_ ? 0 : 1, at.y, parts, out);
+  const std::span x(at.w.data(), variables());
+  std::span<const double> y = at.y;
+  if (scaled_) {
+    for (std::size_t r = 0; r < rows(); ++r) scaled_y_[r] = at.y[r] * row_scale_[r];
+    y = scaled_y_;
+  }
+  fault_ = problem_->evaluate(x, elastic_ ? 0 : objective_scale_, y, parts, out);
+  if (fault_) return false;
+  if (scaled_) scale(parts, out);
   if (elastic_) replace_objective(at, parts, out);
-  return !fault_;
+  return true;
+}
+
+void Model::scale(Parts parts, Evaluation& out) const {
+  if (parts.values) {
+    out.objective *= objective_scale_;
+    for (std::size_t r = 0; r < rows(); ++r) out.rows[r] *= row_scale_[r];
+  }
+  if (parts.derivatives) {
+    for (double& g : out.gradient) g *= objective_scale_;
+    for (std::size_t t = 0; t < out.jacobian.size(); ++t)
+      out.jacobian[t] *= row_scale_[shape_->jacobian_row[t]];
+  }
 }
 
 void Model::replace_objective(const Iterate& at, Parts parts, Evaluation& out) const {
   if (parts.values) {
     out.objective = 0;
-    for (std::size_t r = 0; r < rows(); ++r) out.objective += elastic_->rho * (at.p[r] + at.n[r]);
+    for (std::size_t i = p(0); i < primal(); ++i) out.objective += elastic_->rho * at.w[i];
     for (std::size_t i = 0; i < variables(); ++i) {
-      const double away = at.x[i] - elastic_->reference[i];
+      const double away = at.w[i] - elastic_->reference[i];
       out.objective += 0.5 * proximity(i) * away * away;
     }
   }
   if (parts.derivatives)
     for (std::size_t i = 0; i < variables(); ++i)
-      out.gradient[i] = proximity(i) * (at.x[i] - elastic_->reference[i]);
+      out.gradient[i] = proximity(i) * (at.w[i] - elastic_->reference[i]);
 }
 
-bool Model::values(const Iterate& at, Evaluation& out) {
-  return evaluate(at, {.values = true}, out);
-}
-bool Model::derivatives(const Iterate& at, Evaluation& out) {
-  return evaluate(at, {.values = true, .derivatives = true}, out);
-}
-bool Model::hessian(const Iterate& at, Evaluation& out) {
-  return evaluate(at, {.hessian = true}, out);
-}
-
-double Model::violation(const Evaluation& e, const Iterate& at) const {
-  double sum = 0;
-  for (std::size_t r = 0; r < rows(); ++r) sum += std::fabs(residual(r, e, at));
-  return sum;
+double Model::residuals(const Evaluation& e, std::span<const double> w,
+                        std::span<double> out) const {
+  const auto& kernels = vector_kernels();
+  kernels.combine(rows(), e.rows.data(), -1, w.data() + variables(), out.data());
+  if (elastic_)
+    for (std::size_t r = 0; r < rows(); ++r) out[r] -= w[p(r)] - w[n(r)];
+  return kernels.sum_magnitudes(rows(), out.data());
 }
 
-double Model::barrier(const Evaluation& e, const Iterate& at, double mu) const {
-  double product = 1, logs = 0;
-  bool inside = true;
-  // Logs of products: one log for many slacks, as long as the product stays in range.
-  const auto side = [&](double slack) {
-    inside = inside && slack > 0;
-    product *= slack;
-    if (product > 1e100 || product < 1e-100) {
-      logs += std::log(product);
-      product = 1;
-    }
-  };
-  for (std::size_t i = 0; i < variables(); ++i) {
-    if (fixed_[i]) continue;
-    if (std::isfinite(limits_.xl[i])) side(at.x[i] - limits_.xl[i]);
-    if (std::isfinite(limits_.xu[i])) side(limits_.xu[i] - at.x[i]);
-  }
+Model::Violation Model::violation(const Evaluation& e) const {
+  Violation worst;
+  const Limits& limits = problem_->limits();
   for (std::size_t r = 0; r < rows(); ++r) {
-    if (equation_[r]) continue;
-    if (std::isfinite(limits_.gl[r])) side(at.s[r] - limits_.gl[r]);
-    if (std::isfinite(limits_.gu[r])) side(limits_.gu[r] - at.s[r]);
+    const double value = e.rows[r] / row_scale_[r];
+    const double outside =
+        std::max(limits.gl[r] - value, value - limits.gu[r]) / shape_->row_scale[r];
+    if (outside > worst.largest) worst = {outside, r};
   }
-  for (std::size_t r = 0; r < at.p.size(); ++r) {
-    side(at.p[r]);
-    side(at.n[r]);
-  }
-  if (!inside) return std::numeric_limits<double>::infinity();
-  return e.objective - mu * (logs + std::log(product));
-}
-
-Model::Residuals Model::residuals(const Evaluation& e, const Iterate& at, double mu) const {
-  Residuals result;
-  const auto pair = [&](double slack, double z) {
-    result.complementarity = std::max(result.complementarity, std::fabs(slack * z - mu));
-    if (mu > 0) result.centrality = std::max(result.centrality, std::fabs(slack * z / mu - 1));
-  };
-  static thread_local std::vector<double> slope;
-  slope.assign(e.gradient.begin(), e.gradient.end());
-  for (std::size_t r = 0; r < rows(); ++r) {
-    for (auto k = shape_.jacobian_row_begin[r]; k < shape_.jacobian_row_begin[r + 1]; ++k)
-      slope[shape_.jacobian_col[k]] += at.y[r] * e.jacobian[k];
-    result.primal = std::max(result.primal, std::fabs(residual(r, e, at)));
-    if (elastic_) {
-      result.dual = std::max({result.dual, std::fabs(elastic_->rho - at.y[r] - at.zp[r]),
-                              std::fabs(elastic_->rho + at.y[r] - at.zn[r])});
-      pair(at.p[r], at.zp[r]);
-      pair(at.n[r], at.zn[r]);
-    }
-    if (equation_[r]) continue;
-    result.dual = std::max(result.dual, std::fabs(-at.y[r] - at.vl[r] + at.vu[r]));
-    if (std::isfinite(limits_.gl[r])) pair(at.s[r] - limits_.gl[r], at.vl[r]);
-    if (std::isfinite(limits_.gu[r])) pair(limits_.gu[r] - at.s[r], at.vu[r]);
-  }
-  for (std::size_t i = 0; i < variables(); ++i) {
-    if (fixed_[i]) continue;
-    result.dual = std::max(result.dual, std::fabs(slope[i] - at.zl[i] + at.zu[i]));
-    if (std::isfinite(limits_.xl[i])) pair(at.x[i] - limits_.xl[i], at.zl[i]);
-    if (std::isfinite(limits_.xu[i])) pair(limits_.xu[i] - at.x[i], at.zu[i]);
-  }
-  return result;
+  return worst;
 }
 
 }  // namespace slalom::nlp::ipm

@@ -3,23 +3,15 @@
 #include <span>
 #include <vector>
 
+#include "iterate.hpp"
+#include "slalom/kkt/condensed_hessian.hpp"
+#include "slalom/kkt/row_blocks.hpp"
 #include "slalom/kkt/system.hpp"
 #include "slalom/nlp/problem.hpp"
 #include "slalom/nlp/solver.hpp"
+#include "vector_kernels.hpp"
 
 namespace slalom::nlp::ipm {
-
-/// A point of the primal-dual method. Each inequality row has a slack s of its own.
-struct Iterate {
-  std::vector<double> x, s;    ///< variables; slacks by row (equations: unused)
-  std::vector<double> y;       ///< multipliers of the rows
-  std::vector<double> zl, zu;  ///< of the variables' bounds, >= 0
-  std::vector<double> vl, vu;  ///< of the slacks' bounds, >= 0
-  std::vector<double> p, n;    ///< elastic parts of the rows, >= 0; empty unless elastic
-  std::vector<double> zp, zn;  ///< their multipliers
-
-  void resize(std::size_t variables, std::size_t rows, bool elastic = false);
-};
 
 /// What the restoration phase minimises in place of f (Waechter & Biegler 2006, eq. 30):
 ///   rho sum(p + n) + zeta/2 sum (D_i (x_i - reference_i))^2, rows relaxed by -p + n.
@@ -30,63 +22,82 @@ struct Elastic {
 
 /// The problem as the method sees it,
 ///
-///   min f(x)   s.t.   g_E(x) = gl,   g_I(x) - s = 0,   xl <= x <= xu,   gl <= s <= gu,
+///   min f(x)   s.t.   g(x) - s = 0,   wl <= w <= wu,   w = (x, s) or (x, s, p, n),
 ///
-/// with its barrier function (Waechter & Biegler 2006, eq. 3) and the residuals of its
-/// primal-dual equations (eq. 4, 5).
+/// the slack of an equation being its constant, with its barrier function (Waechter & Biegler
+/// 2006, eq. 3) and the residuals of its primal-dual equations (eq. 4, 5). With elastic rows,
+/// g(x) - s - p + n = 0.
 class Model {
  public:
-  explicit Model(Problem& problem);
-  /// The same problem with elastic rows; `elastic` must outlive the model.
-  Model(Problem& problem, const Elastic& elastic);
+  explicit Model(Problem& problem, const Elastic* elastic = nullptr);
+  /// Takes the problem's limits anew, and another problem of the same structure if given one.
+  void refresh(Problem& problem);
+  /// Scales objective and rows (Waechter & Biegler 2006, section 3.8); all 1 by default.
+  void set_scale(double objective, std::span<const double> rows);
+  double objective_scale() const { return objective_scale_; }
+  std::span<const double> row_scale() const { return row_scale_; }
 
-  Problem& problem() { return problem_; }
-  const Structure& shape() const { return shape_; }
-  const Limits& limits() const { return limits_; }
-  std::size_t variables() const { return shape_.variables; }
-  std::size_t rows() const { return shape_.rows; }
-  bool equation(std::size_t r) const { return equation_[r]; }
-  bool fixed(std::size_t i) const { return fixed_[i]; }
+  Problem& problem() { return *problem_; }
+  const Structure& shape() const { return *shape_; }
   const Elastic* elastic() const { return elastic_; }
+  std::size_t variables() const { return shape_->variables; }
+  std::size_t rows() const { return shape_->rows; }
+  std::size_t primal() const { return lower_.size(); }  ///< entries of w
+  std::size_t slack(std::size_t r) const { return variables() + r; }
+  std::size_t p(std::size_t r) const { return variables() + rows() + r; }
+  std::size_t n(std::size_t r) const { return variables() + 2 * rows() + r; }
+  bool equation(std::size_t r) const { return equation_[r] != 0; }
+  bool fixed(std::size_t i) const { return fixed_[i] != 0; }
+  std::span<const char> fixed() const { return fixed_; }
+  /// Bounds of w; infinite where there is none, and for what does not move.
+  std::span<const double> lower() const { return lower_; }
+  std::span<const double> upper() const { return upper_; }
+  /// Values of what does not move: fixed variables, equations' slacks.
+  double constant(std::size_t i) const { return constants_[i]; }
+  Segments segments() const { return {segments_.data(), segments_.size()}; }
+  const kkt::RowBlocks& row_blocks() const { return row_blocks_; }
+  const kkt::SymmetricRuns& hessian_runs() const { return hessian_runs_; }
+  const kkt::CondensedHessian& condensed() const { return condensed_; }
+  /// Number of each equation among the equations, and their rows.
+  const std::vector<std::uint32_t>& equations() const { return equations_; }
+  kkt::Pattern pattern() const;
   /// Second derivative of the proximity term, 0 unless elastic.
   double proximity(std::size_t i) const {
     return elastic_ ? elastic_->zeta * elastic_->weight[i] : 0;
   }
-  kkt::Pattern pattern() const;
 
-  /// Evaluates at x; false when a function gave a number that is not finite (see fault()).
-  bool values(const Iterate& at, Evaluation& out);
-  bool derivatives(const Iterate& at, Evaluation& out);
-  bool hessian(const Iterate& at, Evaluation& out);
+  /// Evaluates at (w, y); false when a function gave a number that is not finite (see fault()).
+  bool evaluate(const Iterate& at, Parts parts, Evaluation& out);
   const Fault& fault() const { return fault_; }
 
-  /// Row residuals: g - gl of an equation, g - s of an inequality; less p - n if elastic.
-  double residual(std::size_t r, const Evaluation& e, const Iterate& at) const {
-    return e.rows[r] - (equation_[r] ? limits_.gl[r] : at.s[r]) -
-           (elastic_ ? at.p[r] - at.n[r] : 0);
-  }
-  /// 1-norm of the row residuals.
-  double violation(const Evaluation& e, const Iterate& at) const;
-  /// f - mu sum of logs; infinity outside the bounds.
-  double barrier(const Evaluation& e, const Iterate& at, double mu) const;
-
-  /// Largest residuals of the primal-dual equations at mu.
-  struct Residuals {
-    double dual = 0, primal = 0, complementarity = 0;  ///< complementarity: largest |s z - mu|
-    double centrality = 0;                             ///< largest |s z / mu - 1|
+  /// Row residuals g - s - p + n; returns their 1-norm.
+  double residuals(const Evaluation& e, std::span<const double> w, std::span<double> out) const;
+  /// Largest violation of a row or bound by x in the user's units, and which.
+  struct Violation {
+    double largest = 0;
+    std::size_t row = 0;
   };
-  Residuals residuals(const Evaluation& e, const Iterate& at, double mu) const;
+  Violation violation(const Evaluation& e) const;
 
  private:
-  bool evaluate(const Iterate& at, Parts parts, Evaluation& out);
+  void find_segments();
+  void scale(Parts parts, Evaluation& out) const;
   void replace_objective(const Iterate& at, Parts parts, Evaluation& out) const;
 
-  Problem& problem_;
-  const Structure& shape_;
-  const Limits& limits_;
+  Problem* problem_;
+  const Structure* shape_;
+  const Elastic* elastic_;
   std::vector<char> equation_, fixed_;
+  std::vector<std::uint32_t> equations_;
+  std::vector<double> lower_, upper_, constants_;
+  std::vector<Segment> segments_;
+  kkt::RowBlocks row_blocks_;
+  kkt::SymmetricRuns hessian_runs_;
+  kkt::CondensedHessian condensed_;
+  double objective_scale_ = 1;
+  std::vector<double> row_scale_, scaled_y_;
+  bool scaled_ = false;
   Fault fault_;
-  const Elastic* elastic_ = nullptr;
 };
 
 }  // namespace slalom::nlp::ipm

@@ -2,222 +2,251 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slalom::nlp::ipm {
 namespace {
 
+// Algorithm IC of Waechter & Biegler 2006.
 constexpr double kFirstDelta = 1e-4, kLeastDelta = 1e-20, kMostDelta = 1e40;
-constexpr int kRefinements = 3;
+constexpr double kFirstGrowth = 100, kGrowth = 8, kShrink = 1.0 / 3;
+constexpr double kRowDelta = 1e-8, kRowPower = 0.25;
+
+constexpr int kRefinements = 5;
+/// Residuals relative to the right-hand side: good enough to stop refining, bad enough to ask for
+/// other pivots.
+constexpr double kGoodResidual = 1e-9, kBadResidual = 1e-5;
 
 }  // namespace
 
-Newton::Newton(Model& model)
-    : model_(model), limits_(model.limits()), backend_(kkt::make_stage_ldlt(model.pattern())) {
+void Local::resize(const Model& model) {
+  for (auto* list : {&over_lower, &over_upper, &sigma, &slope}) list->assign(model.primal(), 0.0);
+  residuals.assign(model.rows(), 0.0);
+}
+
+BoundedVector Local::bounded(const Model& model, const Iterate& at) const {
+  return {at.w.data(),        model.lower().data(), model.upper().data(), at.zl.data(),
+          at.zu.data(),       over_lower.data(),    over_upper.data()};
+}
+
+Newton::Newton(Model& model) : model_(model), backend_(kkt::make_stage_ldlt(model.pattern())) {
+  const std::size_t equations = model.equations().size();
   for (std::size_t i = 0; i < model.variables(); ++i) wanted_.positive += model.fixed(i) ? 0 : 1;
-  for (std::size_t r = 0; r < model.rows(); ++r) wanted_.negative += model.equation(r) ? 1 : 0;
-  for (auto* list : {&sigma_x_, &diagonal_, &r_x_, &a_}) list->resize(model.variables());
-  for (auto* list : {&sigma_s_, &row_diagonal_, &r_row_, &r_s_, &b_}) list->resize(model.rows());
-  const bool elastic = model.elastic() != nullptr;
-  for (auto* list : {&sigma_p_, &sigma_n_, &r_p_, &r_n_}) list->resize(elastic ? model.rows() : 0);
-  correction_.resize(model.variables(), model.rows(), elastic);
+  wanted_.negative = equations;
+  for (auto* list : {&sigma_x_, &force_}) list->resize(model.variables());
+  for (auto* list : {&weight_, &give_, &row_rhs_, &multipliers_, &products_})
+    list->assign(model.rows(), 0.0);
+  flexibility_.resize(equations);
+  hessian_.resize(model.condensed().places().size());
+  no_hessian_.assign(model.shape().hessian_row.size(), 0.0);
+  rhs_.resize(model.variables() + equations);
+  solution_.resize(rhs_.size());
 }
 
-/// What the elastic parts let a row give way for a unit of its multiplier.
-double Newton::flexibility(std::size_t r) const {
-  return model_.elastic() ? 1 / sigma_p_[r] + 1 / sigma_n_[r] : 0;
-}
-
-kkt::Inertia Newton::try_factorize(const Evaluation& e) {
-  for (std::size_t i = 0; i < model_.variables(); ++i)
-    diagonal_[i] = sigma_x_[i] + model_.proximity(i) + delta_w_;
-  for (std::size_t r = 0; r < model_.rows(); ++r)
-    row_diagonal_[r] =
-        model_.equation(r) ? delta_c_ + flexibility(r) : 1 / (1 / sigma_s_[r] + flexibility(r));
-  return backend_->factorize({e.hessian, diagonal_, e.jacobian, row_diagonal_});
-}
-
-bool Newton::factorize(const Evaluation& e, const Iterate& at, double mu) {
-  for (std::size_t i = 0; i < model_.variables(); ++i) {
-    sigma_x_[i] = 0;
-    if (model_.fixed(i)) continue;
-    if (std::isfinite(limits_.xl[i])) sigma_x_[i] += at.zl[i] / (at.x[i] - limits_.xl[i]);
-    if (std::isfinite(limits_.xu[i])) sigma_x_[i] += at.zu[i] / (limits_.xu[i] - at.x[i]);
+/// What each eliminated row weighs in the condensed system.
+void Newton::weigh(const Local& local) {
+  const double* sigma = local.sigma.data() + model_.variables();
+  if (!model_.elastic()) {
+    std::copy_n(sigma, model_.rows(), weight_.data());  // 0 for an equation
+    return;
   }
   for (std::size_t r = 0; r < model_.rows(); ++r) {
-    sigma_s_[r] = 0;
-    if (model_.equation(r)) continue;
-    if (std::isfinite(limits_.gl[r])) sigma_s_[r] += at.vl[r] / (at.s[r] - limits_.gl[r]);
-    if (std::isfinite(limits_.gu[r])) sigma_s_[r] += at.vu[r] / (limits_.gu[r] - at.s[r]);
+    give_[r] = 1 / local.sigma[model_.p(r)] + 1 / local.sigma[model_.n(r)];
+    weight_[r] = model_.equation(r) ? 0 : 1 / (1 / sigma[r] + give_[r]);
   }
-  for (std::size_t r = 0; r < sigma_p_.size(); ++r) {
-    sigma_p_[r] = at.zp[r] / at.p[r];
-    sigma_n_[r] = at.zn[r] / at.n[r];
-  }
+}
+
+bool Newton::factorize(const Evaluation& e, const Local& local, double mu) {
+  weigh(local);
+  model_.condensed().sum(e.hessian, e.jacobian, weight_, hessian_);
+  const auto attempt = [&] {
+    for (std::size_t i = 0; i < sigma_x_.size(); ++i)
+      sigma_x_[i] = local.sigma[i] + delta_w_ + (model_.elastic() ? model_.proximity(i) : 0);
+    for (std::size_t k = 0; k < flexibility_.size(); ++k)
+      flexibility_[k] = delta_c_ + give_[model_.equations()[k]];
+    return backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_});
+  };
   delta_w_ = delta_c_ = 0;
-  auto inertia = try_factorize(e);
+  auto inertia = attempt();
   if (inertia == wanted_) return true;
-  if (inertia.zero > 0) delta_c_ = 1e-8 * std::pow(mu, 0.25);
-  delta_w_ = last_delta_w_ == 0 ? kFirstDelta : std::max(kLeastDelta, last_delta_w_ / 3);
+  if (inertia.zero > 0) delta_c_ = kRowDelta * std::pow(mu, kRowPower);
+  delta_w_ = last_delta_w_ == 0 ? kFirstDelta : std::max(kLeastDelta, last_delta_w_ * kShrink);
   while (delta_w_ < kMostDelta) {
-    inertia = try_factorize(e);
+    inertia = attempt();
     if (inertia == wanted_) {
       last_delta_w_ = delta_w_;
       return true;
     }
-    if (inertia.zero > 0) delta_c_ = 1e-8 * std::pow(mu, 0.25);
-    delta_w_ *= last_delta_w_ == 0 ? 100 : 8;
+    if (inertia.zero > 0) delta_c_ = kRowDelta * std::pow(mu, kRowPower);
+    delta_w_ *= last_delta_w_ == 0 ? kFirstGrowth : kGrowth;
   }
   return false;
 }
 
-/// From the right-hand sides r to the step:
-///   (W + Sx) dx + J' dy = r_x,   J dx - ds - dp + dn = r_row,
-///   Ss ds - dy = r_s,   Sp dp - dy = r_p,   Sn dn + dy = r_n,
-/// with ds for inequalities and dp, dn for elastic rows only.
-void Newton::reduce_and_solve(const Evaluation& e, Step& out) {
-  const Structure& shape = model_.shape();
-  a_ = r_x_;
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    b_[r] = r_row_[r];
-    if (model_.elastic()) b_[r] += r_p_[r] / sigma_p_[r] - r_n_[r] / sigma_n_[r];
-    if (model_.equation(r)) continue;
-    b_[r] += r_s_[r] / sigma_s_[r];
-    const double moved = row_diagonal_[r] * b_[r];
-    for (auto k = shape.jacobian_row_begin[r]; k < shape.jacobian_row_begin[r + 1]; ++k)
-      a_[shape.jacobian_col[k]] += e.jacobian[k] * moved;
-  }
-  for (std::size_t i = 0; i < model_.variables(); ++i)
-    if (model_.fixed(i)) a_[i] = 0;
-  backend_->solve(a_, b_);
-  out.x = a_;
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    out.s[r] = 0;
-    if (model_.equation(r)) {
-      out.y[r] = b_[r];
-    } else {
-      double product = 0;
-      for (auto k = shape.jacobian_row_begin[r]; k < shape.jacobian_row_begin[r + 1]; ++k)
-        product += e.jacobian[k] * out.x[shape.jacobian_col[k]];
-      out.y[r] = row_diagonal_[r] * (product - b_[r]);
-      out.s[r] = (out.y[r] + r_s_[r]) / sigma_s_[r];
+/// Right-hand side of the condensed system. In r_s = y - slope of a slack and likewise of elastic
+/// parts, the eliminated rows read  J dx - F dy = b,  F = 1 / sigma_s + give.
+void Newton::shift(const Local& local, const Iterate& at, std::span<const double> residuals) {
+  const std::size_t n = model_.variables();
+  const double* slope = local.slope.data() + n;
+  if (!model_.elastic()) {
+    // y - b / F = sigma residual + slope of an inequality
+    for (std::size_t r = 0; r < model_.rows(); ++r)
+      multipliers_[r] = slope[r] + weight_[r] * residuals[r];
+    for (const auto r : model_.equations()) {
+      multipliers_[r] = at.y[r];
+      row_rhs_[r] = -residuals[r];
     }
-    if (!model_.elastic()) continue;
-    out.p[r] = (out.y[r] + r_p_[r]) / sigma_p_[r];
-    out.n[r] = (r_n_[r] - out.y[r]) / sigma_n_[r];
+    return;
+  }
+  for (std::size_t r = 0; r < model_.rows(); ++r) {
+    const std::size_t p = model_.p(r), q = model_.n(r);
+    const double r_p = -(model_.elastic()->rho - at.y[r] + local.slope[p]);
+    const double r_n = -(model_.elastic()->rho + at.y[r] + local.slope[q]);
+    row_rhs_[r] = -residuals[r] + r_p / local.sigma[p] - r_n / local.sigma[q];
+    if (!model_.equation(r)) row_rhs_[r] += (at.y[r] - slope[r]) / local.sigma[n + r];
+    multipliers_[r] = at.y[r] - weight_[r] * row_rhs_[r];
   }
 }
 
-/// Iterative refinement on the unreduced equations: what condensation lost comes back.
-void Newton::refine(const Evaluation& e, Step& out) {
-  const Structure& shape = model_.shape();
-  const auto x0 = r_x_, row0 = r_row_, s0 = r_s_, p0 = r_p_, n0 = r_n_;
-  double before = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < kRefinements; ++pass) {
-    double size = 0, scale = 0;
-    for (std::size_t i = 0; i < model_.variables(); ++i) {
-      r_x_[i] = x0[i] - diagonal_[i] * out.x[i];
-      scale = std::max(scale, std::fabs(x0[i]));
-    }
-    for (std::size_t k = 0; k < shape.hessian_row.size(); ++k) {
-      const auto i = shape.hessian_row[k], j = shape.hessian_col[k];
-      r_x_[i] -= e.hessian[k] * out.x[j];
-      if (i != j) r_x_[j] -= e.hessian[k] * out.x[i];
-    }
+bool Newton::step_for(const Evaluation& e, const Local& local, const Iterate& at, double mu,
+                      std::span<const double> residuals, Step& out) {
+  const auto& kernels = vector_kernels();
+  const std::size_t n = model_.variables();
+  shift(local, at, residuals);
+  std::fill(force_.begin(), force_.end(), 0.0);
+  model_.row_blocks().add_transposed(e.jacobian, multipliers_, force_);
+  for (std::size_t i = 0; i < n; ++i) rhs_[i] = -e.gradient[i] - local.slope[i] - force_[i];
+  for (std::size_t k = 0; k < model_.equations().size(); ++k)
+    rhs_[n + k] = row_rhs_[model_.equations()[k]];
+  for (std::size_t i = 0; i < n; ++i)
+    if (model_.fixed(i)) rhs_[i] = 0;
+  const double size = kernels.largest_magnitude(rhs_.size(), rhs_.data());
+  solution_ = rhs_;
+  backend_->solve(solution_);
+  recover(e, local, at, residuals, out);
+  double before = std::numeric_limits<double>::infinity(), left = 0;
+  for (int pass = 0;; ++pass) {
+    left = unsolved(e, local, at, residuals, out);
+    if (!(left > kGoodResidual * std::max(size, 1e-3)) || !(left < 0.5 * before) ||
+        pass == kRefinements)
+      break;
+    before = left;
+    backend_->solve(solution_);
+    add_correction(e, local, out);
+  }
+  if (!(left <= kBadResidual * std::max(size, 1e-3))) backend_->distrust();
+  out.reach = kernels.dual_step(model_.segments(), local.bounded(model_, at), mu, out.w.data(),
+                                out.zl.data(), out.zu.data());
+  return std::isfinite(kernels.largest_magnitude(out.w.size(), out.w.data()) +
+                       kernels.largest_magnitude(out.y.size(), out.y.data()));
+}
+
+/// The system  [I J'; J 0] (d, y) = (-gradient, 0)  with a unit weight on slacks too, condensed.
+bool Newton::fit_multipliers(const Evaluation& e, const Iterate& at, Step& out) {
+  const std::size_t n = model_.variables();
+  for (std::size_t r = 0; r < model_.rows(); ++r) {
+    weight_[r] = model_.equation(r) ? 0 : 1;
+    multipliers_[r] = model_.equation(r) ? 0 : at.zu[n + r] - at.zl[n + r];
+  }
+  model_.condensed().sum(no_hessian_, e.jacobian, weight_, hessian_);
+  std::fill(sigma_x_.begin(), sigma_x_.end(), 1.0);
+  std::fill(flexibility_.begin(), flexibility_.end(), 0.0);
+  if (backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_}) != wanted_) return false;
+  std::fill(force_.begin(), force_.end(), 0.0);
+  model_.row_blocks().add_transposed(e.jacobian, multipliers_, force_);
+  std::fill(solution_.begin(), solution_.end(), 0.0);
+  for (std::size_t i = 0; i < n; ++i)
+    if (!model_.fixed(i)) solution_[i] = -(e.gradient[i] - at.zl[i] + at.zu[i] + force_[i]);
+  backend_->solve(solution_);
+  model_.row_blocks().multiply(e.jacobian, std::span(solution_).first(n), products_);
+  for (std::size_t r = 0; r < model_.rows(); ++r)
+    out.y[r] = multipliers_[r] + weight_[r] * products_[r];
+  for (std::size_t k = 0; k < model_.equations().size(); ++k)
+    out.y[model_.equations()[k]] = solution_[n + k];
+  return true;
+}
+
+bool Newton::step(const Evaluation& e, const Local& local, const Iterate& at, double mu,
+                  Step& out) {
+  return step_for(e, local, at, mu, local.residuals, out);
+}
+
+/// The eliminated parts of the step from dx and the equations' dy.
+void Newton::recover(const Evaluation& e, const Local& local, const Iterate& at,
+                     std::span<const double> residuals, Step& out) {
+  const std::size_t n = model_.variables();
+  std::copy_n(solution_.begin(), n, out.w.begin());
+  model_.row_blocks().multiply(e.jacobian, std::span(out.w).first(n), products_);
+  double* ds = out.w.data() + n;
+  const double* slope = local.slope.data() + n;
+  if (!model_.elastic()) {
     for (std::size_t r = 0; r < model_.rows(); ++r) {
-      double product = 0;
-      for (auto k = shape.jacobian_row_begin[r]; k < shape.jacobian_row_begin[r + 1]; ++k) {
-        r_x_[shape.jacobian_col[k]] -= e.jacobian[k] * out.y[r];
-        product += e.jacobian[k] * out.x[shape.jacobian_col[k]];
-      }
-      const bool equation = model_.equation(r);
-      r_row_[r] = row0[r] - product + (equation ? delta_c_ * out.y[r] : out.s[r]);
-      r_s_[r] = equation ? 0 : s0[r] - (sigma_s_[r] * out.s[r] - out.y[r]);
-      if (model_.elastic()) {
-        r_row_[r] += out.p[r] - out.n[r];
-        r_p_[r] = p0[r] - (sigma_p_[r] * out.p[r] - out.y[r]);
-        r_n_[r] = n0[r] - (sigma_n_[r] * out.n[r] + out.y[r]);
-      }
-      scale = std::max(scale, std::fabs(row0[r]));
-      size = std::max({size, std::fabs(r_row_[r]), std::fabs(r_s_[r])});
+      ds[r] = products_[r] + residuals[r];
+      out.y[r] = weight_[r] * ds[r] + slope[r] - at.y[r];
     }
-    for (std::size_t i = 0; i < model_.variables(); ++i)
-      if (!model_.fixed(i)) size = std::max(size, std::fabs(r_x_[i]));
-    if (size <= 1e-11 * std::max(1.0, scale) || size >= 0.5 * before) break;
-    before = size;
-    reduce_and_solve(e, correction_);
-    for (std::size_t i = 0; i < out.x.size(); ++i) out.x[i] += correction_.x[i];
-    for (std::size_t r = 0; r < out.y.size(); ++r) {
-      out.y[r] += correction_.y[r];
-      out.s[r] += correction_.s[r];
+    for (std::size_t k = 0; k < model_.equations().size(); ++k) {
+      ds[model_.equations()[k]] = 0;
+      out.y[model_.equations()[k]] = solution_[n + k];
     }
-    for (std::size_t r = 0; r < out.p.size(); ++r) {
-      out.p[r] += correction_.p[r];
-      out.n[r] += correction_.n[r];
-    }
+    return;
+  }
+  for (std::size_t r = 0; r < model_.rows(); ++r)
+    out.y[r] = weight_[r] * (products_[r] - row_rhs_[r]);
+  for (std::size_t k = 0; k < model_.equations().size(); ++k)
+    out.y[model_.equations()[k]] = solution_[n + k];
+  for (std::size_t r = 0; r < model_.rows(); ++r) {
+    const std::size_t p = model_.p(r), q = model_.n(r);
+    const double r_p = -(model_.elastic()->rho - at.y[r] + local.slope[p]);
+    const double r_n = -(model_.elastic()->rho + at.y[r] + local.slope[q]);
+    out.w[p] = (out.y[r] + r_p) / local.sigma[p];
+    out.w[q] = (r_n - out.y[r]) / local.sigma[q];
+    ds[r] = model_.equation(r) ? 0 : products_[r] + residuals[r] - out.w[p] + out.w[q];
   }
 }
 
-void Newton::step_for(const Evaluation& e, const Iterate& at, double mu,
-                      const std::vector<double>& row_residuals, Step& out) {
-  const Structure& shape = model_.shape();
-  for (std::size_t i = 0; i < model_.variables(); ++i) {
-    double slope = e.gradient[i];
-    if (!model_.fixed(i)) {
-      if (std::isfinite(limits_.xl[i])) slope -= mu / (at.x[i] - limits_.xl[i]);
-      if (std::isfinite(limits_.xu[i])) slope += mu / (limits_.xu[i] - at.x[i]);
-    }
-    r_x_[i] = -slope;
+/// Residual of the unreduced equations, into solution_ as the right-hand side of a correction. Of
+/// the eliminated rows nothing is left, by construction. products_ holds J dx.
+double Newton::unsolved(const Evaluation& e, const Local& local, const Iterate& at,
+                        std::span<const double> residuals, const Step& out) {
+  const auto& kernels = vector_kernels();
+  const std::size_t n = model_.variables();
+  kernels.combine(model_.rows(), at.y.data(), 1, out.y.data(), multipliers_.data());
+  std::fill(force_.begin(), force_.end(), 0.0);
+  model_.row_blocks().add_transposed(e.jacobian, multipliers_, force_);
+  model_.hessian_runs().add_product(e.hessian, std::span(out.w).first(n), force_);
+  for (std::size_t i = 0; i < n; ++i)
+    solution_[i] = model_.fixed(i) ? 0
+                                   : -(e.gradient[i] + local.slope[i] + force_[i] +
+                                       sigma_x_[i] * out.w[i]);
+  for (std::size_t k = 0; k < model_.equations().size(); ++k) {
+    const std::size_t r = model_.equations()[k];
+    double left = -residuals[r] - products_[r] + delta_c_ * out.y[r];
+    if (model_.elastic()) left += out.w[model_.p(r)] - out.w[model_.n(r)];
+    solution_[n + k] = left;
   }
+  return kernels.largest_magnitude(solution_.size(), solution_.data());
+}
+
+/// Adds a correction of dx and the equations' dy, and what it brings to the eliminated parts.
+void Newton::add_correction(const Evaluation& e, const Local& local, Step& out) {
+  const std::size_t n = model_.variables();
+  for (std::size_t i = 0; i < n; ++i) out.w[i] += solution_[i];
+  model_.row_blocks().multiply(e.jacobian, std::span(solution_).first(n), row_rhs_);
+  for (std::size_t r = 0; r < model_.rows(); ++r) multipliers_[r] = weight_[r] * row_rhs_[r];
+  for (std::size_t k = 0; k < model_.equations().size(); ++k)
+    multipliers_[model_.equations()[k]] = solution_[n + k];
   for (std::size_t r = 0; r < model_.rows(); ++r) {
-    for (auto k = shape.jacobian_row_begin[r]; k < shape.jacobian_row_begin[r + 1]; ++k)
-      r_x_[shape.jacobian_col[k]] -= e.jacobian[k] * at.y[r];
-    r_row_[r] = -row_residuals[r];
+    products_[r] += row_rhs_[r];
+    out.y[r] += multipliers_[r];
+    double moved = row_rhs_[r];
     if (model_.elastic()) {
-      r_p_[r] = -(model_.elastic()->rho - at.y[r] - mu / at.p[r]);
-      r_n_[r] = -(model_.elastic()->rho + at.y[r] - mu / at.n[r]);
+      const double dp = multipliers_[r] / local.sigma[model_.p(r)];
+      const double dn = -multipliers_[r] / local.sigma[model_.n(r)];
+      out.w[model_.p(r)] += dp;
+      out.w[model_.n(r)] += dn;
+      moved += dn - dp;
     }
-    r_s_[r] = 0;
-    if (model_.equation(r)) continue;
-    double slope = -at.y[r];
-    if (std::isfinite(limits_.gl[r])) slope -= mu / (at.s[r] - limits_.gl[r]);
-    if (std::isfinite(limits_.gu[r])) slope += mu / (limits_.gu[r] - at.s[r]);
-    r_s_[r] = -slope;
-  }
-  reduce_and_solve(e, out);
-  refine(e, out);
-  dual_steps(at, mu, out);
-}
-
-void Newton::step(const Evaluation& e, const Iterate& at, double mu, Step& out) {
-  static thread_local std::vector<double> residuals;
-  residuals.resize(model_.rows());
-  for (std::size_t r = 0; r < model_.rows(); ++r) residuals[r] = model_.residual(r, e, at);
-  step_for(e, at, mu, residuals, out);
-}
-
-void Newton::dual_steps(const Iterate& at, double mu, Step& out) const {
-  const auto below = [mu](double slack, double z, double d) {
-    return mu / slack - z - z / slack * d;
-  };
-  for (std::size_t i = 0; i < model_.variables(); ++i) {
-    out.zl[i] = out.zu[i] = 0;
-    if (model_.fixed(i)) continue;
-    if (std::isfinite(limits_.xl[i]))
-      out.zl[i] = below(at.x[i] - limits_.xl[i], at.zl[i], out.x[i]);
-    if (std::isfinite(limits_.xu[i]))
-      out.zu[i] = below(limits_.xu[i] - at.x[i], at.zu[i], -out.x[i]);
-  }
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    out.vl[r] = out.vu[r] = 0;
-    if (model_.equation(r)) continue;
-    if (std::isfinite(limits_.gl[r]))
-      out.vl[r] = below(at.s[r] - limits_.gl[r], at.vl[r], out.s[r]);
-    if (std::isfinite(limits_.gu[r]))
-      out.vu[r] = below(limits_.gu[r] - at.s[r], at.vu[r], -out.s[r]);
-  }
-  for (std::size_t r = 0; r < out.p.size(); ++r) {
-    out.zp[r] = below(at.p[r], at.zp[r], out.p[r]);
-    out.zn[r] = below(at.n[r], at.zn[r], out.n[r]);
+    if (!model_.equation(r)) out.w[n + r] += moved;
   }
 }
 

@@ -1,10 +1,10 @@
-#include "slalom/expr/kernels.hpp"
+#include "slalom/base/kernels.hpp"
 
 #include <atomic>
 
 #include "slalom/base/error.hpp"
 
-namespace slalom::expr {
+namespace slalom {
 namespace {
 std::atomic<KernelSet>& selected() {
   static std::atomic<KernelSet> set{best_kernels()};
@@ -31,4 +31,4 @@ const char* to_string(KernelSet set) {
   return set == KernelSet::avx2 ? "avx2" : "baseline";
 }
 
-}  // namespace slalom::expr
+}  // namespace slalom

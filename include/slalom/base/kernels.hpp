@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace slalom::expr {
+namespace slalom {
 
 /// Instruction sets an evaluation can run on. One set gives the same bits on every run and on any
 /// number of threads; two sets may differ in the last place.
@@ -17,4 +17,4 @@ void select_kernels(KernelSet set);
 /// "baseline" or "avx2".
 const char* to_string(KernelSet set);
 
-}  // namespace slalom::expr
+}  // namespace slalom

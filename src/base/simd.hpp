@@ -1,0 +1,88 @@
+#pragma once
+
+// A vector of doubles for the instruction set a file is compiled for; included by the files
+// *_baseline.cpp and *_avx2.cpp alone. All is local to the file: a function of the same name
+// compiled for another set must never stand in for it.
+
+#include <immintrin.h>
+
+#include <cstddef>
+
+namespace slalom::simd {
+namespace {
+
+#if defined(__AVX2__) && defined(__FMA__)
+
+/// Four lanes: AVX2 with FMA.
+struct Vec {
+  using type = __m256d;
+  static constexpr std::size_t size = 4;
+  static type load(const double* p) { return _mm256_loadu_pd(p); }
+  static void store(double* p, type v) { _mm256_storeu_pd(p, v); }
+  /// The first n < size lanes; the others 0 or untouched.
+  static type load_part(const double* p, std::size_t n) {
+    return _mm256_maskload_pd(p, first_lanes(n));
+  }
+  static void store_part(double* p, std::size_t n, type v) {
+    _mm256_maskstore_pd(p, first_lanes(n), v);
+  }
+  static type all(double v) { return _mm256_set1_pd(v); }
+  static type fma(type a, type b, type c) { return _mm256_fmadd_pd(a, b, c); }    ///< c + a b
+  static type fnma(type a, type b, type c) { return _mm256_fnmadd_pd(a, b, c); }  ///< c - a b
+  static type max(type a, type b) { return _mm256_max_pd(a, b); }
+  static type min(type a, type b) { return _mm256_min_pd(a, b); }
+  static type abs(type v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
+  static double sum(type v) {
+    const __m128d half = _mm_add_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
+    return _mm_cvtsd_f64(_mm_add_sd(half, _mm_unpackhi_pd(half, half)));
+  }
+  static double largest(type v) {
+    const __m128d half = _mm_max_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
+    return _mm_cvtsd_f64(_mm_max_sd(half, _mm_unpackhi_pd(half, half)));
+  }
+  /// Of positive normal numbers: the exponent's bits, and the mantissa in [1, 2).
+  using ints = __m256i;
+  static ints exponents(type v) { return _mm256_srli_epi64(_mm256_castpd_si256(v), 52); }
+  static ints plus(ints a, ints b) { return _mm256_add_epi64(a, b); }
+  static type mantissas(type v) {
+    const type kept = _mm256_and_pd(v, _mm256_castsi256_pd(_mm256_set1_epi64x(0xFFFFFFFFFFFFF)));
+    return _mm256_or_pd(kept, _mm256_set1_pd(1.0));
+  }
+  static __m256i first_lanes(std::size_t n) {
+    const __m256i lane = _mm256_set_epi64x(3, 2, 1, 0);
+    return _mm256_cmpgt_epi64(_mm256_set1_epi64x(static_cast<long long>(n)), lane);
+  }
+};
+
+#else
+
+/// Two lanes: SSE2, which every x86-64 processor has.
+struct Vec {
+  using type = __m128d;
+  static constexpr std::size_t size = 2;
+  static type load(const double* p) { return _mm_loadu_pd(p); }
+  static void store(double* p, type v) { _mm_storeu_pd(p, v); }
+  /// The first n < size lanes; the others 0 or untouched.
+  static type load_part(const double* p, std::size_t) { return _mm_load_sd(p); }
+  static void store_part(double* p, std::size_t, type v) { _mm_store_sd(p, v); }
+  static type all(double v) { return _mm_set1_pd(v); }
+  static type fma(type a, type b, type c) { return c + a * b; }
+  static type fnma(type a, type b, type c) { return c - a * b; }
+  static type max(type a, type b) { return _mm_max_pd(a, b); }
+  static type min(type a, type b) { return _mm_min_pd(a, b); }
+  static type abs(type v) { return _mm_andnot_pd(_mm_set1_pd(-0.0), v); }
+  static double sum(type v) { return _mm_cvtsd_f64(_mm_add_sd(v, _mm_unpackhi_pd(v, v))); }
+  static double largest(type v) { return _mm_cvtsd_f64(_mm_max_sd(v, _mm_unpackhi_pd(v, v))); }
+  using ints = __m128i;
+  static ints exponents(type v) { return _mm_srli_epi64(_mm_castpd_si128(v), 52); }
+  static ints plus(ints a, ints b) { return _mm_add_epi64(a, b); }
+  static type mantissas(type v) {
+    const type kept = _mm_and_pd(v, _mm_castsi128_pd(_mm_set1_epi64x(0xFFFFFFFFFFFFF)));
+    return _mm_or_pd(kept, _mm_set1_pd(1.0));
+  }
+};
+
+#endif
+
+}  // namespace
+}  // namespace slalom::simd

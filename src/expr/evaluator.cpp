@@ -1,0 +1,101 @@
+#include "slalom/expr/evaluator.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "../base/aligned.hpp"
+#include "function_impl.hpp"
+
+namespace slalom::expr {
+
+struct Evaluator::Impl {
+  std::shared_ptr<const Function::Impl> function;
+  std::size_t lanes;
+  std::vector<double> data, ahead, weights, values, jacobian, hessian;
+  std::vector<InputRow> inputs;             ///< variables, data, weights, what is computed ahead
+  std::vector<double*> outputs, ahead_rows;  ///< room for the longest list; rows of `ahead`
+  AlignedDoubles workspace;
+  std::size_t workspace_doubles = 0;
+
+  void reserve(const Tape& tape) {
+    const std::size_t doubles = workspace_size(tape, lanes);
+    if (doubles <= workspace_doubles) return;
+    workspace = aligned_doubles(doubles);
+    workspace_doubles = doubles;
+  }
+  static void add_rows(std::vector<double>& numbers, std::size_t lanes,
+                       std::vector<double*>& rows) {
+    for (std::size_t i = 0; i < numbers.size(); i += lanes) rows.push_back(numbers.data() + i);
+  }
+};
+
+Evaluator::Evaluator(const Function& function, std::size_t lanes)
+    : impl_(std::make_unique<Impl>()) {
+  Impl& e = *impl_;
+  e.function = function.impl_;
+  e.lanes = lanes;
+  e.data.resize(function.data() * lanes);
+  e.ahead.resize(e.function->ahead_count() * lanes);
+  e.weights.resize(function.outputs() * lanes);
+  e.values.resize(function.outputs() * lanes);
+  e.jacobian.resize(function.jacobian_pattern().size() * lanes);
+  e.hessian.resize(function.hessian_pattern().size() * lanes);
+  e.inputs.assign(function.variables(), InputRow{nullptr, false});
+  if (lanes == 0) return;
+  for (auto* list : {&e.data, &e.weights, &e.ahead})
+    for (std::size_t i = 0; i < list->size(); i += lanes)
+      e.inputs.push_back({list->data() + i, false});
+  Impl::add_rows(e.ahead, lanes, e.ahead_rows);
+  e.outputs.reserve((e.values.size() + e.jacobian.size() + e.hessian.size()) / lanes);
+  e.reserve(e.function->ahead());
+}
+
+Evaluator::~Evaluator() = default;
+Evaluator::Evaluator(Evaluator&&) noexcept = default;
+Evaluator& Evaluator::operator=(Evaluator&&) noexcept = default;
+
+std::size_t Evaluator::lanes() const {
+  return impl_->lanes;
+}
+void Evaluator::prepare(Wanted wanted) {
+  impl_->reserve(impl_->function->tape_behind(wanted));
+}
+void Evaluator::set_variable(std::size_t i, const double* numbers, bool same) {
+  impl_->inputs[i] = {numbers, same};
+}
+std::span<double> Evaluator::data() {
+  return impl_->data;
+}
+std::span<double> Evaluator::weights() {
+  return impl_->weights;
+}
+std::span<const double> Evaluator::values() const {
+  return impl_->values;
+}
+std::span<const double> Evaluator::jacobian() const {
+  return impl_->jacobian;
+}
+std::span<const double> Evaluator::hessian() const {
+  return impl_->hessian;
+}
+
+void Evaluator::data_changed() {
+  Impl& e = *impl_;
+  if (!e.ahead.empty())
+    run(e.function->ahead(), {e.lanes, e.inputs, e.ahead_rows}, e.workspace.get());
+}
+
+void Evaluator::evaluate(Wanted wanted) {
+  Impl& e = *impl_;
+  if (e.lanes == 0 || mask_of(wanted) == 0) return;
+  const Tape& tape = e.function->tape_behind(wanted);
+  e.reserve(tape);
+  e.outputs.clear();
+  if (wanted.values) Impl::add_rows(e.values, e.lanes, e.outputs);
+  if (wanted.jacobian) Impl::add_rows(e.jacobian, e.lanes, e.outputs);
+  if (wanted.hessian) Impl::add_rows(e.hessian, e.lanes, e.outputs);
+  run(tape, {e.lanes, e.inputs, e.outputs}, e.workspace.get());
+}
+
+}  // namespace slalom::expr

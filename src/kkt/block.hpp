@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "slalom/kkt/system.hpp"
+
+namespace slalom::kkt {
+
+/// A dense symmetric matrix whose first rows are eliminated in a given order of pivots: lower
+/// triangle, column-major, leading dimension a multiple of 4. After factor_block the first
+/// `eliminated` columns hold L without its unit diagonal (zero on and above it), the others the
+/// Schur complement.
+struct Block {
+  double* a;
+  std::size_t ld, size, eliminated;
+  const std::uint8_t* order;  ///< 1 or 2 where a pivot of that order starts, 0 inside a 2
+  double* inverse;  ///< D^-1: [2p] the diagonal, [2p + 1] what couples p with p + 1
+  double* panel;    ///< room for 4 columns
+};
+
+/// Least ratio of a pivot to the largest entry beside it that a factorisation puts up with. Small,
+/// for the systems are refined; large enough to bound the growth in one step by 1e6.
+inline constexpr double kLeastRatio = 1e-6;
+inline constexpr double kTinyPivot = 1e-20;
+
+/// The loops over one block, compiled for each instruction set.
+struct BlockKernels {
+  /// P A P' = L D L' in the order given; counts the pivots' signs. False as soon as a pivot is not
+  /// stable by kLeastRatio (Duff & Reid, ACM TOMS 9(3), 1983, section 3).
+  bool (*factor)(const Block& block, Inertia& inertia);
+  /// y <- L^-1 y on the eliminated rows, and their effect on the others. y has ld entries.
+  void (*forward)(const Block& block, double* y);
+  /// y <- D^-1 y, then L^-T y, on the eliminated rows.
+  void (*backward)(const Block& block, double* y);
+};
+
+extern const BlockKernels kBlockBaseline;
+extern const BlockKernels kBlockAvx2;
+const BlockKernels& block_kernels();  ///< of the kernel set in use
+
+}  // namespace slalom::kkt

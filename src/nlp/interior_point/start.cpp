@@ -1,0 +1,158 @@
+#include "start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slalom::nlp::ipm {
+namespace {
+
+constexpr double kFirstBarrier = 0.1, kWarmBarrier = 1e-4, kPush = 1e-2, kWarmPush = 1e-6;
+constexpr double kMostGradient = 100, kLeastScale = 1e-8;
+
+/// A value inside its bounds by an absolute and a relative distance (section 3.6).
+double inside(double value, double lower, double upper, double push) {
+  const bool has_lower = std::isfinite(lower), has_upper = std::isfinite(upper);
+  if (has_lower) {
+    double room = push * std::max(1.0, std::fabs(lower));
+    if (has_upper) room = std::min(room, push * (upper - lower));
+    value = std::max(value, lower + room);
+  }
+  if (has_upper) {
+    double room = push * std::max(1.0, std::fabs(upper));
+    if (has_lower) room = std::min(room, push * (upper - lower));
+    value = std::min(value, upper - room);
+  }
+  return value;
+}
+
+/// Gradient-based scales (section 3.8); a floor's point does not move with a row's scale, and would
+/// with the objective's, so there are none.
+void set_scales(Descent& descent, const Options& options) {
+  Model& model = descent.model;
+  std::vector<double>& rows = descent.step.y;  // room for one number a row
+  std::fill(rows.begin(), rows.end(), 0.0);
+  if (options.floor > 0) {
+    std::fill(rows.begin(), rows.end(), 1.0);
+    model.set_scale(1, rows);
+    return;
+  }
+  const Evaluation& e = descent.point.e;
+  for (std::size_t t = 0; t < e.jacobian.size(); ++t) {
+    double& most = rows[model.shape().jacobian_row[t]];
+    most = std::max(most, std::fabs(e.jacobian[t]));
+  }
+  const auto scale = [](double most) {
+    return most > kMostGradient ? std::max(kMostGradient / most, kLeastScale) : 1.0;
+  };
+  double most = 0;
+  for (double g : e.gradient) most = std::max(most, std::fabs(g));
+  for (double& row : rows) row = scale(row);
+  model.set_scale(scale(most), rows);
+}
+
+class Beginning {
+ public:
+  Beginning(Descent& descent, const Start& start, const Options& options)
+      : model_(descent.model),
+        at_(descent.point.at),
+        rows_(descent.point.e.rows),
+        start_(start),
+        warm_(options.warm_start),
+        mu_(descent.barrier.mu()) {}
+
+  void variables() {
+    const double push = warm_ ? kWarmPush : kPush;
+    for (std::size_t i = 0; i < model_.variables(); ++i)
+      at_.w[i] = model_.fixed(i) ? model_.constant(i)
+                                 : inside(start_.x[i], model_.lower()[i], model_.upper()[i], push);
+  }
+
+  void multipliers() {
+    const double objective = model_.objective_scale();
+    for (std::size_t i = 0; i < model_.variables(); ++i) {
+      at_.zl[i] = multiplier(at_.w[i] - model_.lower()[i], warm_ ? objective * start_.zl[i] : 0);
+      at_.zu[i] = multiplier(model_.upper()[i] - at_.w[i], warm_ ? objective * start_.zu[i] : 0);
+    }
+    for (std::size_t r = 0; r < model_.rows(); ++r) {
+      const std::size_t i = model_.slack(r);
+      const double y = warm_ ? objective * start_.y[r] / model_.row_scale()[r] : 0;
+      at_.y[r] = y;
+      if (model_.equation(r)) {
+        at_.w[i] = model_.constant(i);
+        continue;
+      }
+      at_.w[i] = slack(rows_[r], model_.lower()[i], model_.upper()[i], y);
+      at_.zl[i] = multiplier(at_.w[i] - model_.lower()[i], std::max(-y, 0.0));
+      at_.zu[i] = multiplier(model_.upper()[i] - at_.w[i], std::max(y, 0.0));
+      if (!warm_) at_.y[r] = at_.zu[i] - at_.zl[i];
+    }
+  }
+
+ private:
+  double slack(double row, double lower, double upper, double y) const {
+    const double push = warm_ ? kWarmPush : kPush;
+    double value = inside(row, lower, upper, push);
+    if (std::isfinite(lower) && !std::isfinite(upper))
+      value = std::max(value, lower + (y < 0 ? 0.1 * mu_ / -y : push));
+    if (std::isfinite(upper) && !std::isfinite(lower))
+      value = std::min(value, upper - (y > 0 ? 0.1 * mu_ / y : push));
+    return value;
+  }
+  /// The given multiplier or mu / slack, whichever is more central; 0 for an absent bound.
+  double multiplier(double slack, double given) const {
+    if (!std::isfinite(slack)) return 0;
+    const double ratio = slack * given / mu_;
+    return ratio > 0.1 && ratio < 10 ? given : mu_ / slack;
+  }
+
+  const Model& model_;
+  Iterate& at_;
+  const std::vector<double>& rows_;
+  const Start& start_;
+  const bool warm_;
+  const double mu_;
+};
+
+}  // namespace
+
+bool prepare(Descent& descent, const Start& start, const Options& options) {
+  Point& point = descent.point;
+  const bool floor = options.floor > 0;
+  const double first = options.warm_start ? kWarmBarrier : kFirstBarrier;
+  descent.barrier.begin(options.barrier_rule, floor ? options.floor : first,
+                        floor ? options.floor : options.tol / 10);
+  descent.newton.restart();
+  descent.search.filter().clear();
+  Beginning beginning(descent, start, options);
+  beginning.variables();
+  std::fill(descent.step.y.begin(), descent.step.y.end(), 1.0);
+  descent.model.set_scale(1, descent.step.y);
+  point.have = {.values = true, .derivatives = true};
+  if (!descent.model.evaluate(point.at, point.have, point.e)) return false;
+  set_scales(descent, options);
+  if (!floor && !descent.model.evaluate(point.at, point.have, point.e)) return false;
+  beginning.multipliers();
+  if (!options.warm_start) {
+    measure(descent.model, point);
+    descent.estimate_multipliers();
+  }
+  return descent.complete();
+}
+
+void hand_out(const Model& model, const Iterate& at, Start& out) {
+  const std::size_t n = model.variables();
+  const double objective = model.objective_scale();
+  out.x.resize(n);
+  out.zl.resize(n);
+  out.zu.resize(n);
+  out.y.resize(model.rows());
+  for (std::size_t i = 0; i < n; ++i) {
+    out.x[i] = at.w[i];
+    out.zl[i] = at.zl[i] / objective;
+    out.zu[i] = at.zu[i] / objective;
+  }
+  for (std::size_t r = 0; r < model.rows(); ++r)
+    out.y[r] = at.y[r] * model.row_scale()[r] / objective;
+}
+
+}  // namespace slalom::nlp::ipm

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "line_search.hpp"
+#include "model.hpp"
+
+namespace slalom::nlp::ipm {
+
+/// Residuals of the primal-dual equations at a point (Waechter & Biegler 2006, eq. 4).
+struct Survey {
+  double dual = 0;    ///< largest |gradient of the Lagrangian|
+  double primal = 0;  ///< largest |row residual|
+  double least_product = 0, most_product = 0, mean_product = 0;  ///< of slack * multiplier
+  double dual_scale = 1, product_scale = 1;                      ///< s_d, s_c of eq. 5
+
+  /// Largest |slack * multiplier - mu|.
+  double complementarity(double mu) const;
+  /// Largest |slack * multiplier / mu - 1|.
+  double off_centre(double mu) const { return complementarity(mu) / mu; }
+  /// Optimality error at mu with the multipliers' size divided out (eq. 5).
+  double error(double mu) const;
+};
+
+/// Takes the survey of points of one model.
+class Surveyor {
+ public:
+  explicit Surveyor(const Model& model);
+  Survey operator()(const Point& point);
+
+ private:
+  const Model& model_;
+  std::vector<double> slope_;
+};
+
+}  // namespace slalom::nlp::ipm

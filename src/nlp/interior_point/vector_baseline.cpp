@@ -1,0 +1,12 @@
+#include "vector_loops.hpp"
+
+namespace slalom::nlp::ipm {
+
+const VectorKernels kVectorBaseline = {
+    VecVectorLoops::reciprocals,    VecVectorLoops::barrier,
+    VecVectorLoops::complementarity, VecVectorLoops::dual_step,
+    VecVectorLoops::log_slacks,     VecVectorLoops::move_duals,
+    VecVectorLoops::combine,        VecVectorLoops::dot,
+    VecVectorLoops::sum_magnitudes, VecVectorLoops::largest_magnitude};
+
+}  // namespace slalom::nlp::ipm

@@ -1,0 +1,62 @@
+#include "watchdog.hpp"
+
+namespace slalom::nlp::ipm {
+namespace {
+
+constexpr int kShortenedSteps = 10, kLeaps = 3;
+
+}  // namespace
+
+Watchdog::Watchdog(const Model& model) {
+  point_.resize(model);
+  step_.resize(model.primal(), model.rows());
+}
+
+void Watchdog::restart() {
+  shortened_ = leaps_ = 0;
+}
+
+Watchdog::Outcome Watchdog::advance(Descent& descent) {
+  if (leaps_ > 0 && descent.barrier.mu() != mu_) leaps_ = 0;  // another problem by now
+  if (leaps_ > 0) return leap(descent);
+  if (shortened_ < kShortenedSteps) return search(descent);
+  shortened_ = 0;
+  mu_ = descent.barrier.mu();
+  point_ = descent.point;
+  step_ = descent.step;
+  merit_ = descent.search.merit(point_, mu_);
+  slope_ = descent.search.slope(point_, step_);
+  return leap(descent);
+}
+
+Watchdog::Outcome Watchdog::search(Descent& descent) {
+  if (!descent.take_step()) return Outcome::stuck;
+  shortened_ = descent.last.trials > 1 ? shortened_ + 1 : 0;
+  return Outcome::moved;
+}
+
+Watchdog::Outcome Watchdog::leap(Descent& descent) {
+  ++leaps_;
+  if (!descent.leap()) return go_back(descent);
+  if (leaps_ == 1) alpha_ = descent.last.alpha;
+  bool armijo = false;
+  const Merit now = descent.search.merit(descent.point, mu_);
+  if (descent.search.acceptable(merit_, now, slope_, alpha_, armijo)) {
+    if (!armijo) descent.search.filter().add(merit_);
+    leaps_ = 0;
+  } else if (leaps_ >= kLeaps) {
+    return go_back(descent);
+  }
+  return Outcome::moved;
+}
+
+Watchdog::Outcome Watchdog::go_back(Descent& descent) {
+  leaps_ = 0;
+  descent.point = point_;
+  descent.step = step_;
+  // The factorisation is of another point by now: without second-order corrections of this step.
+  if (!descent.find_step()) return Outcome::stuck;
+  return search(descent);
+}
+
+}  // namespace slalom::nlp::ipm

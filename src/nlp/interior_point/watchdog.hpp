@@ -1,0 +1,32 @@
+#pragma once
+
+#include "descent.hpp"
+
+namespace slalom::nlp::ipm {
+
+/// The watchdog (Waechter & Biegler 2006, section 3.2; Chamberlain et al., Math. Program. Study 16,
+/// 1982): after many shortened steps the full step is taken unsearched, a few times; if that leads
+/// to a point acceptable from where it began, it pays, else the search goes on from there.
+class Watchdog {
+ public:
+  explicit Watchdog(const Model& model);
+  void restart();
+
+  enum class Outcome { moved, stuck };
+  /// One iteration along the step found.
+  Outcome advance(Descent& descent);
+
+ private:
+  Outcome search(Descent& descent);
+  Outcome leap(Descent& descent);
+  Outcome go_back(Descent& descent);
+
+  int shortened_ = 0;  ///< steps in a row
+  int leaps_ = 0;      ///< of the attempt under way; 0: none
+  double mu_ = 0, slope_ = 0, alpha_ = 0;
+  Merit merit_;
+  Point point_;  ///< where it began, and the step from there
+  Step step_;
+};
+
+}  // namespace slalom::nlp::ipm

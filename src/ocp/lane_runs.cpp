@@ -1,0 +1,51 @@
+#include "lane_runs.hpp"
+
+#include "slalom/base/kernels.hpp"
+
+namespace slalom::ocp {
+
+const LaneKernels& lane_kernels() {
+  return current_kernels() == KernelSet::avx2 ? kLaneAvx2 : kLaneBaseline;
+}
+
+LaneRuns::LaneRuns(const std::vector<Scatter>& list) {
+  const auto step = [](std::uint32_t from, std::uint32_t to) {
+    return static_cast<std::int32_t>(to) - static_cast<std::int32_t>(from);
+  };
+  for (std::size_t t = 0; t < list.size();) {
+    Run run{list[t].source, list[t].target, 1, 1, 1, static_cast<std::uint32_t>(t), true};
+    std::size_t next = t + 1;
+    if (next < list.size()) {
+      run.source_step = step(list[t].source, list[next].source);
+      run.target_step = step(list[t].target, list[next].target);
+      while (next < list.size() &&
+             step(list[next - 1].source, list[next].source) == run.source_step &&
+             step(list[next - 1].target, list[next].target) == run.target_step)
+        ++next;
+    }
+    run.count = static_cast<std::uint32_t>(next - t);
+    for (; t < next; ++t) {
+      coefficients_.push_back(list[t].coefficient);
+      run.ones = run.ones && list[t].coefficient == 1;
+    }
+    runs_.push_back(run);
+  }
+}
+
+void LaneRuns::scatter(std::span<const double> from, std::span<double> to) const {
+  lane_kernels().scatter(runs_.data(), runs_.size(), coefficients_.data(), from.data(), to.data());
+}
+
+void LaneRuns::gather(std::span<const double> from, std::span<double> to) const {
+  lane_kernels().gather(runs_.data(), runs_.size(), coefficients_.data(), from.data(), to.data());
+}
+
+void LaneRuns::add_to_sources(double number, std::span<double> to) const {
+  for (const Run& run : runs_)
+    for (std::uint32_t i = 0; i < run.count; ++i)
+      to[static_cast<std::size_t>(static_cast<std::int64_t>(run.source) +
+                                  static_cast<std::int64_t>(i) * run.source_step)] +=
+          coefficients_[run.first + i] * number;
+}
+
+}  // namespace slalom::ocp

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace slalom::ocp {
+
+/// target += coefficient * source, for numbers of a batch that land in the NLP's arrays.
+struct Scatter {
+  std::uint32_t source, target;
+  double coefficient;
+};
+
+/// Many Scatters as runs over lanes, in which source and target step along evenly.
+class LaneRuns {
+ public:
+  LaneRuns() = default;
+  explicit LaneRuns(const std::vector<Scatter>& list);
+
+  /// to[target] += coefficient * from[source]
+  void scatter(std::span<const double> from, std::span<double> to) const;
+  /// to[source] += coefficient * from[target]
+  void gather(std::span<const double> from, std::span<double> to) const;
+  /// to[source] += coefficient * number
+  void add_to_sources(double number, std::span<double> to) const;
+
+  struct Run {
+    std::uint32_t source, target, count;
+    std::int32_t source_step, target_step;
+    std::uint32_t first;  ///< of its coefficients, one a lane
+    bool ones;            ///< all coefficients are 1
+  };
+  std::size_t runs() const { return runs_.size(); }
+
+ private:
+  std::vector<Run> runs_;
+  std::vector<double> coefficients_;
+};
+
+/// The loops, compiled for each instruction set: to[i step] += coefficients[i] * from[i step].
+struct LaneKernels {
+  void (*scatter)(const LaneRuns::Run* runs, std::size_t count, const double* coefficients,
+                  const double* from, double* to);
+  void (*gather)(const LaneRuns::Run* runs, std::size_t count, const double* coefficients,
+                 const double* from, double* to);
+  bool (*all_finite)(const double* numbers, std::size_t count);
+};
+extern const LaneKernels kLaneBaseline;
+extern const LaneKernels kLaneAvx2;
+const LaneKernels& lane_kernels();  ///< of the kernel set in use
+
+}  // namespace slalom::ocp
