@@ -1,10 +1,10 @@
 #include "slalom/expr/evaluator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
-#include "../base/aligned.hpp"
 #include "function_impl.hpp"
 
 namespace slalom::expr {
@@ -15,14 +15,20 @@ struct Evaluator::Impl {
   std::vector<double> data, ahead, weights, values, jacobian, hessian;
   std::vector<InputRow> inputs;             ///< variables, data, weights, what is computed ahead
   std::vector<double*> outputs, ahead_rows;  ///< room for the longest list; rows of `ahead`
-  AlignedDoubles workspace;
-  std::size_t workspace_doubles = 0;
+  TapeSpace ahead_space;
+  struct Prepared {
+    const Tape* tape = nullptr;
+    TapeSpace space;
+  };
+  std::array<Prepared, 8> prepared;
 
-  void reserve(const Tape& tape) {
-    const std::size_t doubles = workspace_size(tape, lanes);
-    if (doubles <= workspace_doubles) return;
-    workspace = aligned_doubles(doubles);
-    workspace_doubles = doubles;
+  Prepared& prepare(Wanted wanted) {
+    Prepared& p = prepared[mask_of(wanted)];
+    if (p.tape == nullptr) {
+      p.tape = &function->tape_behind(wanted);
+      p.space = TapeSpace(*p.tape, lanes);
+    }
+    return p;
   }
   static void add_rows(std::vector<double>& numbers, std::size_t lanes,
                        std::vector<double*>& rows) {
@@ -48,7 +54,7 @@ Evaluator::Evaluator(const Function& function, std::size_t lanes)
       e.inputs.push_back({list->data() + i, false});
   Impl::add_rows(e.ahead, lanes, e.ahead_rows);
   e.outputs.reserve((e.values.size() + e.jacobian.size() + e.hessian.size()) / lanes);
-  e.reserve(e.function->ahead());
+  e.ahead_space = TapeSpace(e.function->ahead(), lanes);
 }
 
 Evaluator::~Evaluator() = default;
@@ -59,7 +65,7 @@ std::size_t Evaluator::lanes() const {
   return impl_->lanes;
 }
 void Evaluator::prepare(Wanted wanted) {
-  impl_->reserve(impl_->function->tape_behind(wanted));
+  if (impl_->lanes > 0) impl_->prepare(wanted);
 }
 void Evaluator::set_variable(std::size_t i, const double* numbers, bool same) {
   impl_->inputs[i] = {numbers, same};
@@ -83,19 +89,18 @@ std::span<const double> Evaluator::hessian() const {
 void Evaluator::data_changed() {
   Impl& e = *impl_;
   if (!e.ahead.empty())
-    run(e.function->ahead(), {e.lanes, e.inputs, e.ahead_rows}, e.workspace.get());
+    e.ahead_space.run(e.function->ahead(), {e.lanes, e.inputs, e.ahead_rows});
 }
 
 void Evaluator::evaluate(Wanted wanted) {
   Impl& e = *impl_;
   if (e.lanes == 0 || mask_of(wanted) == 0) return;
-  const Tape& tape = e.function->tape_behind(wanted);
-  e.reserve(tape);
+  auto& [tape, space] = e.prepare(wanted);
   e.outputs.clear();
   if (wanted.values) Impl::add_rows(e.values, e.lanes, e.outputs);
   if (wanted.jacobian) Impl::add_rows(e.jacobian, e.lanes, e.outputs);
   if (wanted.hessian) Impl::add_rows(e.hessian, e.lanes, e.outputs);
-  run(tape, {e.lanes, e.inputs, e.outputs}, e.workspace.get());
+  space.run(*tape, {e.lanes, e.inputs, e.outputs});
 }
 
 }  // namespace slalom::expr

@@ -4,7 +4,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "../base/aligned.hpp"
 #include "function_impl.hpp"
 #include "op.hpp"
 #include "slalom/base/error.hpp"
@@ -15,22 +14,6 @@ namespace {
 void require(bool condition, const char* what) {
   if (!condition) throw Error(std::string("function: size of ") + what + " does not match");
 }
-
-/// Aligned memory that only grows; one for each thread.
-class Workspace {
- public:
-  double* reserve(std::size_t doubles) {
-    if (doubles > size_) {
-      memory_ = aligned_doubles(doubles);
-      size_ = doubles;
-    }
-    return memory_.get();
-  }
-
- private:
-  AlignedDoubles memory_;
-  std::size_t size_ = 0;
-};
 
 /// Which vertices depend on data (and constants) alone, and on some data.
 std::vector<char> data_only(const Dag& dag, std::size_t variables, std::size_t data) {
@@ -208,7 +191,6 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
   require(p.size() == data() * lanes, "data");
   thread_local std::vector<InputRow> inputs;
   thread_local std::vector<double*> results;
-  thread_local Workspace workspace;
   inputs.clear();
   results.clear();
   for (std::size_t i = 0; i < variables(); ++i) inputs.push_back({x.data() + i * lanes, false});
@@ -229,7 +211,7 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
     require(hessian.size() == n * lanes, "the Hessian");
     for (std::size_t i = 0; i < n; ++i) results.push_back(hessian.data() + i * lanes);
   }
-  run(tape, {lanes, inputs, results}, workspace.reserve(workspace_size(tape, lanes)));
+  TapeSpace(tape, lanes).run(tape, {lanes, inputs, results});
 }
 
 void Function::operator()(std::span<const double> x, std::span<const double> p,

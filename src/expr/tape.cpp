@@ -37,6 +37,10 @@ std::size_t block_width(const Tape& tape, std::size_t lanes) {
   return lanes > 4 ? 16 : 4;
 }
 
+Kernel kernel() {
+  return current_kernels() == KernelSet::avx2 ? run_block_avx2 : run_block_baseline;
+}
+
 /// Few numbers are not worth a call.
 inline void copy(const double* from, std::size_t count, double* to) {
   if (count < 16) {
@@ -165,41 +169,70 @@ Tape compile(const Dag& dag, const std::vector<Dag::Id>& results, const Given& g
     Instruction step{code, 0, row[arg[0]], args > 1 ? row[arg[1]] : 0, args > 2 ? row[arg[2]] : 0};
     for (std::size_t i = 0; i < args; ++i) {
       const bool repeated = (i > 0 && arg[i] == arg[0]) || (i > 1 && arg[i] == arg[1]);
-      if (!repeated && last_reader[arg[i]] == id) pool.give_back(row[arg[i]]);
+      if (!repeated && last_reader[arg[i]] == id && selection.is_step(arg[i]))
+        pool.give_back(row[arg[i]]);  // an input's row is not ours to write to
     }
     row[id] = step.to = pool.take();
     tape.code.push_back(step);
   }
-  for (auto id : results) tape.outputs.push_back(row[id]);
+  std::vector<char> taken(pool.size(), 0);
+  for (auto id : results) {
+    tape.outputs.push_back({row[id], selection.is_step(id) && !taken[row[id]]});
+    taken[row[id]] = 1;
+  }
   tape.rows = pool.size();
   return tape;
 }
 
-std::size_t workspace_size(const Tape& tape, std::size_t lanes) {
-  return tape.rows * block_width(tape, lanes);
+TapeSpace::TapeSpace(const Tape& tape, std::size_t lanes)
+    : width_(block_width(tape, lanes)), memory_(aligned_doubles(tape.rows * width_)) {
+  for (std::size_t r = 0; r < tape.rows; ++r) own_.push_back(memory_.get() + r * width_);
+  rows_ = own_;
+  for (const auto& fill : tape.constants) std::fill_n(own_[fill.row], width_, fill.value);
 }
 
-void run(const Tape& tape, const TapeRun& rows, double* workspace) {
-  const std::size_t width = block_width(tape, rows.lanes);
-  const Kernel kernel = current_kernels() == KernelSet::avx2 ? run_block_avx2 : run_block_baseline;
-  for (const auto& fill : tape.constants)
-    std::fill_n(workspace + fill.row * width, width, fill.value);
-  for (std::size_t lane = 0; lane < rows.lanes; lane += width) {
-    const std::size_t count = std::min(width, rows.lanes - lane);
-    for (const auto& load : tape.inputs) {
-      const InputRow& input = rows.inputs[load.input];
-      double* to = workspace + load.row * width;
-      if (input.same) {
-        std::fill_n(to, width, *input.numbers);
-        continue;
-      }
-      copy(input.numbers + lane, count, to);
-      std::fill(to + count, to + width, to[count - 1]);  // idle lanes compute the last one again
+void TapeSpace::run(const Tape& tape, const TapeRun& rows) {
+  fill_same(tape, rows);
+  std::size_t lane = 0;
+  for (; lane + width_ <= rows.lanes; lane += width_) run_whole(tape, rows, lane);
+  if (lane < rows.lanes) run_rest(tape, rows, lane);
+}
+
+void TapeSpace::fill_same(const Tape& tape, const TapeRun& rows) {
+  for (const auto& load : tape.inputs)
+    if (rows.inputs[load.input].same) {
+      rows_[load.row] = own_[load.row];
+      std::fill_n(own_[load.row], width_, *rows.inputs[load.input].numbers);
     }
-    kernel(tape, workspace, width);
-    for (std::size_t k = 0; k < tape.outputs.size(); ++k)
-      copy(workspace + tape.outputs[k] * width, count, rows.outputs[k] + lane);
+}
+
+void TapeSpace::run_whole(const Tape& tape, const TapeRun& rows, std::size_t lane) {
+  for (const auto& load : tape.inputs)
+    if (const InputRow& input = rows.inputs[load.input]; !input.same)
+      rows_[load.row] = const_cast<double*>(input.numbers) + lane;  // never written to
+  for (std::size_t k = 0; k < tape.outputs.size(); ++k)
+    if (tape.outputs[k].direct) rows_[tape.outputs[k].row] = rows.outputs[k] + lane;
+  kernel()(tape, rows_.data(), width_);
+  for (std::size_t k = 0; k < tape.outputs.size(); ++k)
+    if (!tape.outputs[k].direct)
+      copy(rows_[tape.outputs[k].row], width_, rows.outputs[k] + lane);
+}
+
+/// Fewer lanes than a block has: the idle ones compute the last one again.
+void TapeSpace::run_rest(const Tape& tape, const TapeRun& rows, std::size_t lane) {
+  const std::size_t count = rows.lanes - lane;
+  for (const auto& load : tape.inputs) {
+    const InputRow& input = rows.inputs[load.input];
+    if (input.same) continue;
+    double* to = rows_[load.row] = own_[load.row];
+    copy(input.numbers + lane, count, to);
+    std::fill(to + count, to + width_, to[count - 1]);
   }
+  for (const auto& output : tape.outputs)
+    if (output.direct) rows_[output.row] = own_[output.row];
+  kernel()(tape, rows_.data(), width_);
+  for (std::size_t k = 0; k < tape.outputs.size(); ++k)
+    copy(rows_[tape.outputs[k].row], count, rows.outputs[k] + lane);
 }
 
 }  // namespace slalom::expr

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "../base/aligned.hpp"
 #include "dag.hpp"
 
 namespace slalom::expr {
@@ -36,10 +37,14 @@ struct Tape {
     std::uint32_t row;
     double value;
   };
+  struct Output {
+    std::uint32_t row;
+    bool direct;  ///< computed where the result goes; else copied there
+  };
   std::vector<Load> inputs;
   std::vector<Fill> constants;
   std::vector<Instruction> code;
-  std::vector<std::uint32_t> outputs;  ///< row of each result
+  std::vector<Output> outputs;  ///< row of each result
   std::size_t rows = 0;
 };
 
@@ -74,14 +79,27 @@ struct TapeRun {
   std::span<double* const> outputs;
 };
 
-/// Doubles a run needs as workspace.
-std::size_t workspace_size(const Tape& tape, std::size_t lanes);
-/// `workspace` is aligned to 64 bytes.
-void run(const Tape& tape, const TapeRun& rows, double* workspace);
+/// Memory for runs of one tape at one number of lanes: a block's rows, of which inputs and results
+/// are read and written where they stand. Constants are filled in once.
+class TapeSpace {
+ public:
+  TapeSpace() = default;
+  TapeSpace(const Tape& tape, std::size_t lanes);
+  void run(const Tape& tape, const TapeRun& rows);
 
-/// Executes the code on a workspace of rows of `width` lanes (width from block_widths).
-using Kernel = void (*)(const Tape& tape, double* workspace, std::size_t width);
-void run_block_baseline(const Tape& tape, double* workspace, std::size_t width);
-void run_block_avx2(const Tape& tape, double* workspace, std::size_t width);
+ private:
+  void fill_same(const Tape& tape, const TapeRun& rows);
+  void run_whole(const Tape& tape, const TapeRun& rows, std::size_t lane);
+  void run_rest(const Tape& tape, const TapeRun& rows, std::size_t lane);
+
+  std::size_t width_ = 0;
+  AlignedDoubles memory_;
+  std::vector<double*> own_, rows_;  ///< each row's place in memory_; where it is this time
+};
+
+/// Executes the code on a block of `width` lanes: 4, 16 or 64.
+using Kernel = void (*)(const Tape& tape, double* const* rows, std::size_t width);
+void run_block_baseline(const Tape& tape, double* const* rows, std::size_t width);
+void run_block_avx2(const Tape& tape, double* const* rows, std::size_t width);
 
 }  // namespace slalom::expr

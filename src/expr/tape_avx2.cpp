@@ -10,8 +10,8 @@ namespace {
 struct Vector {
   using type = __m256d;
   static constexpr std::size_t size = 4;
-  static type load(const double* p) { return _mm256_load_pd(p); }
-  static void store(double* p, type v) { _mm256_store_pd(p, v); }
+  static type load(const double* p) { return _mm256_loadu_pd(p); }
+  static void store(double* p, type v) { _mm256_storeu_pd(p, v); }
   static type sqrt(type v) { return _mm256_sqrt_pd(v); }
   static type exp(type v) { return Sleef_finz_expd4_u10avx2(v); }
   static type log(type v) { return Sleef_finz_logd4_u10avx2(v); }
@@ -42,8 +42,8 @@ struct Vector {
 
 }  // namespace
 
-void run_block_avx2(const Tape& tape, double* workspace, std::size_t width) {
-  run_block<Vector>(tape, workspace, width);
+void run_block_avx2(const Tape& tape, double* const* rows, std::size_t width) {
+  run_block<Vector>(tape, rows, width);
 }
 
 }  // namespace slalom::expr

@@ -10,8 +10,8 @@ namespace {
 struct Vector {
   using type = __m128d;
   static constexpr std::size_t size = 2;
-  static type load(const double* p) { return _mm_load_pd(p); }
-  static void store(double* p, type v) { _mm_store_pd(p, v); }
+  static type load(const double* p) { return _mm_loadu_pd(p); }
+  static void store(double* p, type v) { _mm_storeu_pd(p, v); }
   static type sqrt(type v) { return _mm_sqrt_pd(v); }
   static type exp(type v) { return Sleef_cinz_expd2_u10sse2(v); }
   static type log(type v) { return Sleef_cinz_logd2_u10sse2(v); }
@@ -42,8 +42,8 @@ struct Vector {
 
 }  // namespace
 
-void run_block_baseline(const Tape& tape, double* workspace, std::size_t width) {
-  run_block<Vector>(tape, workspace, width);
+void run_block_baseline(const Tape& tape, double* const* rows, std::size_t width) {
+  run_block<Vector>(tape, rows, width);
 }
 
 }  // namespace slalom::expr

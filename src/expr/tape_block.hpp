@@ -28,13 +28,13 @@ inline void map3(double* to, const double* a, const double* b, const double* c, 
 }
 
 template <class V, std::size_t Width>
-void run_width(const Tape& tape, double* workspace) {
+void run_width(const Tape& tape, double* const* rows) {
   using T = typename V::type;
   for (const Instruction& step : tape.code) {
-    double* to = workspace + step.to * Width;
-    const double* a = workspace + step.a * Width;
-    const double* b = workspace + step.b * Width;
-    const double* c = workspace + step.c * Width;
+    double* to = rows[step.to];
+    const double* a = rows[step.a];
+    const double* b = rows[step.b];
+    const double* c = rows[step.c];
     switch (step.code) {
       case code_of(Op::constant):
       case code_of(Op::symbol):
@@ -128,14 +128,14 @@ void run_width(const Tape& tape, double* workspace) {
 }
 
 template <class V>
-void run_block(const Tape& tape, double* workspace, std::size_t width) {
+void run_block(const Tape& tape, double* const* rows, std::size_t width) {
   switch (width) {
     case 4:
-      return run_width<V, 4>(tape, workspace);
+      return run_width<V, 4>(tape, rows);
     case 16:
-      return run_width<V, 16>(tape, workspace);
+      return run_width<V, 16>(tape, rows);
     default:
-      return run_width<V, 64>(tape, workspace);
+      return run_width<V, 64>(tape, rows);
   }
 }
 

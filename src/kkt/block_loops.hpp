@@ -70,12 +70,28 @@ class Loops {
 
   /// Applies the panel's earlier pivots p ... q - 1 to column c.
   static void catch_up(const Block& b, std::size_t p, std::size_t q, std::size_t c) {
+    switch (q - p) {
+      case 0:
+        return;
+      case 1:
+        return subtract<1>(b, p, c);
+      case 2:
+        return subtract<2>(b, p, c);
+      default:
+        return subtract<3>(b, p, c);
+    }
+  }
+  template <std::size_t Pivots>
+  static void subtract(const Block& b, std::size_t p, std::size_t c) {
     double* column = b.a + c * b.ld;
-    for (std::size_t e = p; e < q; ++e) {
-      const T factor = V::all(b.panel[(e - p) * b.ld + c]);
-      const double* l = b.a + e * b.ld;
-      for (std::size_t r = first(c); r < b.ld; r += V::size)
-        V::store(column + r, V::fnma(V::load(l + r), factor, V::load(column + r)));
+    const double* l = b.a + p * b.ld;
+    T factor[Pivots];
+    for (std::size_t e = 0; e < Pivots; ++e) factor[e] = V::all(b.panel[e * b.ld + c]);
+    for (std::size_t r = first(c); r < b.ld; r += V::size) {
+      T value = V::load(column + r);
+      for (std::size_t e = 0; e < Pivots; ++e)
+        value = V::fnma(V::load(l + e * b.ld + r), factor[e], value);
+      V::store(column + r, value);
     }
   }
 
@@ -170,13 +186,7 @@ class Loops {
         V::store(to + b.ld + r, y);
       }
     }
-    for (; c < b.size; ++c)
-      for (std::size_t r = first(c); r < b.ld; r += V::size) {
-        T x = V::load(b.a + c * b.ld + r);
-        for (std::size_t e = 0; e < Pivots; ++e)
-          x = V::fnma(V::load(l + e * b.ld + r), V::all(b.panel[e * b.ld + c]), x);
-        V::store(b.a + c * b.ld + r, x);
-      }
+    for (; c < b.size; ++c) subtract<Pivots>(b, p, c);
   }
 
   // --- solution ----------------------------------------------------------------------------

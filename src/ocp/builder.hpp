@@ -37,7 +37,7 @@ struct Transcribed {
   std::vector<Batch> batches;
   std::vector<BatchData> batch_data;  ///< one a batch
   LaneRuns linear;  ///< from variables to rows
-  std::vector<double> constant_jacobian;  ///< what the linear terms put there
+  LaneRuns linear_jacobian;               ///< the same terms' coefficients, from a 1
   std::vector<std::string> terms;         ///< cost terms switched on
   nlp::Structure structure;
   nlp::Limits limits;

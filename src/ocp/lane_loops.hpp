@@ -15,16 +15,19 @@ class LaneLoops {
                       const double* from, double* to) {
     for (std::size_t k = 0; k < count; ++k) {
       const auto& r = runs[k];
-      move(r, coefficients + r.first, from + r.source, r.source_step, to + r.target,
-           r.target_step);
+      const double* c = coefficients + r.first;
+      if (r.sets && r.source_step == 1 && r.target_step == 1)
+        set(r, c, from + r.source, to + r.target);
+      else
+        add(r, c, from + r.source, r.source_step, to + r.target, r.target_step, r.sets);
     }
   }
   static void gather(const LaneRuns::Run* runs, std::size_t count, const double* coefficients,
                      const double* from, double* to) {
     for (std::size_t k = 0; k < count; ++k) {
       const auto& r = runs[k];
-      move(r, coefficients + r.first, from + r.target, r.target_step, to + r.source,
-           r.source_step);
+      add(r, coefficients + r.first, from + r.target, r.target_step, to + r.source, r.source_step,
+          false);
     }
   }
   static bool all_finite(const double* numbers, std::size_t count) {
@@ -43,9 +46,22 @@ class LaneLoops {
  private:
   using T = typename V::type;
 
-  static void move(const LaneRuns::Run& run, const double* c, const double* from,
-                   std::int32_t from_step, double* to, std::int32_t to_step) {
+  static void set(const LaneRuns::Run& run, const double* c, const double* from, double* to) {
     const std::size_t n = run.count;
+    std::size_t i = 0;
+    if (run.ones) {
+      for (; i + V::size <= n; i += V::size) V::store(to + i, V::load(from + i));
+    } else {
+      for (; i + V::size <= n; i += V::size)
+        V::store(to + i, V::load(c + i) * V::load(from + i));
+    }
+    for (; i < n; ++i) to[i] = c[i] * from[i];
+  }
+
+  static void add(const LaneRuns::Run& run, const double* c, const double* from,
+                  std::int32_t from_step, double* to, std::int32_t to_step, bool clear) {
+    const std::size_t n = run.count;
+    for (std::size_t i = 0; clear && i < n; ++i) to[static_cast<std::ptrdiff_t>(i) * to_step] = 0;
     std::size_t i = 0;
     if (to_step == 1 && from_step == 1) {
       if (run.ones) {

@@ -17,9 +17,11 @@ struct Scatter {
 class LaneRuns {
  public:
   LaneRuns() = default;
-  explicit LaneRuns(const std::vector<Scatter>& list);
+  /// `written`: by target, whether earlier scatters of the same pass write there; a run that is the
+  /// first on all its targets sets them instead of adding. Without it all add.
+  explicit LaneRuns(const std::vector<Scatter>& list, std::vector<char>* written = nullptr);
 
-  /// to[target] += coefficient * from[source]
+  /// to[target] += coefficient * from[source], or = where the run is the first
   void scatter(std::span<const double> from, std::span<double> to) const;
   /// to[source] += coefficient * from[target]
   void gather(std::span<const double> from, std::span<double> to) const;
@@ -31,6 +33,7 @@ class LaneRuns {
     std::int32_t source_step, target_step;
     std::uint32_t first;  ///< of its coefficients, one a lane
     bool ones;            ///< all coefficients are 1
+    bool sets;            ///< scatter sets its targets
   };
   std::size_t runs() const { return runs_.size(); }
 

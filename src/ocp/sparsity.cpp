@@ -53,7 +53,7 @@ class Filler {
         jacobian_(out.structure.jacobian_row, out.structure.jacobian_col),
         hessian_(out.structure.hessian_row, out.structure.hessian_col) {}
 
-  void values(const std::vector<Use>& uses, Batch& batch) const {
+  void values(const std::vector<Use>& uses, Batch& batch) {
     std::vector<Scatter> to_rows, to_terms;
     for (const Use& use : uses) {
       const auto source = narrow(use.output * batch.lanes + use.lane);
@@ -62,7 +62,7 @@ class Filler {
       else
         to_terms.push_back({source, narrow(use.term), use.coefficient});
     }
-    batch.to_rows = LaneRuns(to_rows);
+    batch.to_rows = LaneRuns(to_rows, &written(rows_written_, rows_.size()));
     batch.to_terms = LaneRuns(to_terms);
   }
 
@@ -84,7 +84,8 @@ class Filler {
         }
       }
     });
-    batch.to_jacobian = LaneRuns(to_jacobian);
+    batch.to_jacobian =
+        LaneRuns(to_jacobian, &written(jacobian_written_, out_.structure.jacobian_row.size()));
     batch.to_gradient = LaneRuns(to_gradient);
   }
 
@@ -100,27 +101,33 @@ class Filler {
             {narrow(e * batch.lanes + lane), hessian_.number(std::max(a, b), std::min(a, b)),
              twice * batch.gather_scale[pattern[e].row] * batch.gather_scale[pattern[e].col]});
       }
-    batch.to_hessian = LaneRuns(list);
+    batch.to_hessian =
+        LaneRuns(list, &written(hessian_written_, out_.structure.hessian_row.size()));
   }
 
   void linear_terms(const std::vector<RowTerm>& linear) {
     std::vector<Scatter> values, constant;
-    std::vector<double> coefficients;
     for (const auto& term : linear) {
       const double coefficient = term.coefficient * rows_[term.row].scale *
                                  out_.structure.variable_scale[term.col];
       values.push_back({narrow(term.col), narrow(term.row), coefficient});
       constant.push_back({0, jacobian_.number(term.row, term.col), coefficient});
     }
-    out_.linear = LaneRuns(values);
-    out_.constant_jacobian.assign(out_.structure.jacobian_row.size(), 0.0);
-    for (const auto& term : constant) out_.constant_jacobian[term.target] += term.coefficient;
+    out_.linear = LaneRuns(values, &written(rows_written_, rows_.size()));
+    out_.linear_jacobian =
+        LaneRuns(constant, &written(jacobian_written_, out_.structure.jacobian_row.size()));
   }
 
  private:
   const std::vector<RowInfo>& rows_;
   Transcribed& out_;
   Places jacobian_, hessian_;
+  std::vector<char> rows_written_, jacobian_written_, hessian_written_;
+
+  static std::vector<char>& written(std::vector<char>& list, std::size_t size) {
+    list.resize(size, 0);
+    return list;
+  }
 };
 
 }  // namespace

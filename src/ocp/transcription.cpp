@@ -88,26 +88,28 @@ class Transcription::Impl {
   }
 
   void sum_values(std::span<const double> x, nlp::Evaluation& out) {
-    out.rows.assign(data.structure.rows, 0.0);
+    out.rows.resize(data.structure.rows);
     std::fill(terms.begin(), terms.end(), 0.0);
-    data.linear.scatter(x, out.rows);
     for (const auto& batch : data.batches) {
       batch.to_rows.scatter(batch.evaluator->values(), out.rows);
       batch.to_terms.scatter(batch.evaluator->values(), terms);
     }
+    data.linear.scatter(x, out.rows);
     out.objective = 0;
     for (double term : terms) out.objective += term;
   }
   void sum_derivatives(nlp::Evaluation& out) const {
     out.gradient.assign(data.structure.variables, 0.0);
-    out.jacobian = data.constant_jacobian;
+    out.jacobian.resize(data.structure.jacobian_row.size());
     for (const auto& batch : data.batches) {
       batch.to_jacobian.scatter(batch.evaluator->jacobian(), out.jacobian);
       batch.to_gradient.scatter(batch.evaluator->jacobian(), out.gradient);
     }
+    const double one = 1;
+    data.linear_jacobian.scatter({&one, 1}, out.jacobian);
   }
   void sum_hessian(nlp::Evaluation& out) const {
-    out.hessian.assign(data.structure.hessian_row.size(), 0.0);
+    out.hessian.resize(data.structure.hessian_row.size());
     for (const auto& batch : data.batches)
       batch.to_hessian.scatter(batch.evaluator->hessian(), out.hessian);
   }

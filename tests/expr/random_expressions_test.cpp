@@ -7,7 +7,6 @@
 #include <unordered_map>
 
 #include "../../src/expr/dag.hpp"
-#include "../../src/base/aligned.hpp"
 #include "../../src/expr/tape.hpp"
 #include "expr/reference.hpp"
 #include "slalom/base/kernels.hpp"
@@ -191,7 +190,7 @@ TEST(RandomExpressions, BothWaysToTheHessianAgree) {
       for (const double& v : in) inputs.push_back({&v, true});
       std::vector<double*> results;
       for (const auto& [row, col] : ways[way].pattern) results.push_back(&full[way][row * 3 + col]);
-      run(tape, {1, inputs, results}, aligned_doubles(workspace_size(tape, 1)).get());
+      TapeSpace(tape, 1).run(tape, {1, inputs, results});
     }
     for (int k = 0; k < 9; ++k)
       ASSERT_NEAR(full[0][k], full[1][k], 1e-10 * std::max(1.0, std::fabs(full[0][k])))

@@ -43,7 +43,7 @@ class Function {
 
   /// x: variables x lanes; p: data x lanes; weights: outputs x lanes, used for the Hessian alone;
   /// values: outputs x lanes; jacobian, hessian: pattern size x lanes. What is not wanted may be
-  /// empty. Workspace is per thread and kept.
+  /// empty. For many evaluations at the same number of lanes use an Evaluator.
   void evaluate(std::size_t lanes, std::span<const double> x, std::span<const double> p,
                 std::span<const double> weights, Wanted wanted, std::span<double> values,
                 std::span<double> jacobian, std::span<double> hessian) const;

@@ -168,7 +168,7 @@ class Run final : public Restoration::Watch {
 
   void offer_best() {
     const Point& point = descent_.point;
-    best_.offer(point.at, descent_.model.violation(point.e).largest,
+    best_.offer(point.at, descent_.model.violation(point.e),
                 barrier_function(descent_.model, point, descent_.barrier.mu()));
   }
 
@@ -207,9 +207,8 @@ class Run final : public Restoration::Watch {
     if (descent_.model.problem().evaluate(answer.point.x, 1, {}, {.values = true}, e)) return;
     answer.objective = e.objective;
     for (std::size_t r = 0; r < e.rows.size(); ++r) e.rows[r] *= descent_.model.row_scale()[r];
-    const auto worst = descent_.model.violation(e);
-    answer.violation = worst.largest;
-    answer.worst_row = worst.row;
+    answer.violation = descent_.model.violation(e);
+    answer.worst_row = descent_.model.worst_row(e);
   }
 
   const std::uint64_t structure_id_;

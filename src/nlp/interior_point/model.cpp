@@ -32,6 +32,7 @@ Model::Model(Problem& problem, const Elastic* elastic)
       hessian_runs_(shape_->hessian_row, shape_->hessian_col),
       condensed_(shape_->hessian_row, shape_->hessian_col, row_blocks_, opposite(equation_)),
       row_scale_(shape_->rows, 1.0),
+      users_unit_(shape_->rows),
       scaled_y_(shape_->rows) {
   for (std::size_t r = 0; r < rows(); ++r)
     if (equation_[r]) equations_.push_back(static_cast<std::uint32_t>(r));
@@ -55,6 +56,8 @@ void Model::refresh(Problem& problem) {
   for (std::size_t i = 0; i < variables(); ++i) set(i, fixed_[i], limits.xl[i], limits.xu[i]);
   for (std::size_t r = 0; r < rows(); ++r)
     set(slack(r), equation_[r], limits.gl[r] * row_scale_[r], limits.gu[r] * row_scale_[r]);
+  for (std::size_t r = 0; r < rows(); ++r)
+    users_unit_[r] = 1 / (row_scale_[r] * shape_->row_scale[r]);
 }
 
 void Model::set_scale(double objective, std::span<const double> rows) {
@@ -151,14 +154,24 @@ double Model::residuals(const Evaluation& e, std::span<const double> w,
   return kernels.sum_magnitudes(rows(), out.data());
 }
 
-Model::Violation Model::violation(const Evaluation& e) const {
-  Violation worst;
+double Model::violation(const Evaluation& e) const {
   const Limits& limits = problem_->limits();
+  return vector_kernels().most_outside(rows(), e.rows.data(), limits.gl.data(), limits.gu.data(),
+                                       row_scale_.data(), users_unit_.data());
+}
+
+std::size_t Model::worst_row(const Evaluation& e) const {
+  const Limits& limits = problem_->limits();
+  std::size_t worst = 0;
+  double largest = 0;
   for (std::size_t r = 0; r < rows(); ++r) {
-    const double value = e.rows[r] / row_scale_[r];
     const double outside =
-        std::max(limits.gl[r] - value, value - limits.gu[r]) / shape_->row_scale[r];
-    if (outside > worst.largest) worst = {outside, r};
+        std::max(row_scale_[r] * limits.gl[r] - e.rows[r], e.rows[r] - row_scale_[r] * limits.gu[r]) *
+        users_unit_[r];
+    if (outside > largest) {
+      largest = outside;
+      worst = r;
+    }
   }
   return worst;
 }

@@ -72,12 +72,9 @@ class Model {
 
   /// Row residuals g - s - p + n; returns their 1-norm.
   double residuals(const Evaluation& e, std::span<const double> w, std::span<double> out) const;
-  /// Largest violation of a row or bound by x in the user's units, and which.
-  struct Violation {
-    double largest = 0;
-    std::size_t row = 0;
-  };
-  Violation violation(const Evaluation& e) const;
+  /// Largest violation of a row in the user's units, and the row where it stands.
+  double violation(const Evaluation& e) const;
+  std::size_t worst_row(const Evaluation& e) const;
 
  private:
   void find_segments();
@@ -95,7 +92,8 @@ class Model {
   kkt::SymmetricRuns hessian_runs_;
   kkt::CondensedHessian condensed_;
   double objective_scale_ = 1;
-  std::vector<double> row_scale_, scaled_y_;
+  std::vector<double> row_scale_, users_unit_;  ///< by row; users_unit_: user's value / e.rows
+  std::vector<double> scaled_y_;
   bool scaled_ = false;
   Fault fault_;
 };

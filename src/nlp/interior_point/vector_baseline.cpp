@@ -7,6 +7,7 @@ const VectorKernels kVectorBaseline = {
     VecVectorLoops::complementarity, VecVectorLoops::dual_step,
     VecVectorLoops::log_slacks,     VecVectorLoops::move_duals,
     VecVectorLoops::combine,        VecVectorLoops::dot,
-    VecVectorLoops::sum_magnitudes, VecVectorLoops::largest_magnitude};
+    VecVectorLoops::sum_magnitudes, VecVectorLoops::largest_magnitude,
+    VecVectorLoops::most_outside};
 
 }  // namespace slalom::nlp::ipm

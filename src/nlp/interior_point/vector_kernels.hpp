@@ -57,6 +57,9 @@ struct VectorKernels {
   double (*dot)(std::size_t n, const double* a, const double* b);
   double (*sum_magnitudes)(std::size_t n, const double* a);
   double (*largest_magnitude)(std::size_t n, const double* a);
+  /// Largest of max(scale lower - a, a - scale upper, 0) * unit.
+  double (*most_outside)(std::size_t n, const double* a, const double* lower, const double* upper,
+                         const double* scale, const double* unit);
 };
 
 extern const VectorKernels kVectorBaseline;

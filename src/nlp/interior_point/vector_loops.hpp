@@ -159,6 +159,18 @@ class VectorLoops {
     return V::largest(most) + V::sum(finite);
   }
 
+  static double most_outside(std::size_t n, const double* a, const double* lower,
+                             const double* upper, const double* scale, const double* unit) {
+    T most{};
+    for_vectors(n, [&](std::size_t i, auto load, auto) {
+      const T value = load(a + i), factor = load(scale + i);
+      const T outside =
+          V::max(factor * load(lower + i) - value, value - factor * load(upper + i));
+      most = V::max(outside * load(unit + i), most);  // NaN, of an absent lane, is let go
+    });
+    return V::largest(most);
+  }
+
  private:
   using T = typename V::type;
 
