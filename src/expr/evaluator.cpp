@@ -14,11 +14,12 @@ struct Evaluator::Impl {
   std::size_t lanes;
   std::vector<double> data, ahead, weights, values, jacobian, hessian;
   std::vector<InputRow> inputs;             ///< variables, data, weights, what is computed ahead
-  std::vector<double*> outputs, ahead_rows;  ///< room for the longest list; rows of `ahead`
+  std::vector<double*> ahead_rows;
   TapeSpace ahead_space;
   struct Prepared {
     const Tape* tape = nullptr;
     TapeSpace space;
+    std::vector<double*> outputs;
   };
   std::array<Prepared, 8> prepared;
 
@@ -27,6 +28,9 @@ struct Evaluator::Impl {
     if (p.tape == nullptr) {
       p.tape = &function->tape_behind(wanted);
       p.space = TapeSpace(*p.tape, lanes);
+      if (wanted.values) add_rows(values, lanes, p.outputs);
+      if (wanted.jacobian) add_rows(jacobian, lanes, p.outputs);
+      if (wanted.hessian) add_rows(hessian, lanes, p.outputs);
     }
     return p;
   }
@@ -53,7 +57,6 @@ Evaluator::Evaluator(const Function& function, std::size_t lanes)
     for (std::size_t i = 0; i < list->size(); i += lanes)
       e.inputs.push_back({list->data() + i, false});
   Impl::add_rows(e.ahead, lanes, e.ahead_rows);
-  e.outputs.reserve((e.values.size() + e.jacobian.size() + e.hessian.size()) / lanes);
   e.ahead_space = TapeSpace(e.function->ahead(), lanes);
 }
 
@@ -95,12 +98,8 @@ void Evaluator::data_changed() {
 void Evaluator::evaluate(Wanted wanted) {
   Impl& e = *impl_;
   if (e.lanes == 0 || mask_of(wanted) == 0) return;
-  auto& [tape, space] = e.prepare(wanted);
-  e.outputs.clear();
-  if (wanted.values) Impl::add_rows(e.values, e.lanes, e.outputs);
-  if (wanted.jacobian) Impl::add_rows(e.jacobian, e.lanes, e.outputs);
-  if (wanted.hessian) Impl::add_rows(e.hessian, e.lanes, e.outputs);
-  space.run(*tape, {e.lanes, e.inputs, e.outputs});
+  auto& [tape, space, outputs] = e.prepare(wanted);
+  space.run(*tape, {e.lanes, e.inputs, outputs});
 }
 
 }  // namespace slalom::expr

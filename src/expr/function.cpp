@@ -1,6 +1,7 @@
 #include "slalom/expr/function.hpp"
 
 #include <algorithm>
+#include <array>
 #include <unordered_map>
 #include <utility>
 
@@ -14,6 +15,28 @@ namespace {
 void require(bool condition, const char* what) {
   if (!condition) throw Error(std::string("function: size of ") + what + " does not match");
 }
+
+/// Spaces of the last few tapes a thread ran, each keeping its function alive.
+class RecentSpaces {
+ public:
+  TapeSpace& of(const std::shared_ptr<const void>& owner, const Tape& tape, std::size_t lanes) {
+    for (auto& entry : entries_)
+      if (entry.tape == &tape && entry.lanes == lanes) return entry.space;
+    Entry& entry = entries_[next_++ % entries_.size()];
+    entry = {owner, &tape, lanes, TapeSpace(tape, lanes)};
+    return entry.space;
+  }
+
+ private:
+  struct Entry {
+    std::shared_ptr<const void> owner;
+    const Tape* tape = nullptr;
+    std::size_t lanes = 0;
+    TapeSpace space;
+  };
+  std::array<Entry, 8> entries_;
+  std::size_t next_ = 0;
+};
 
 /// Which vertices depend on data (and constants) alone, and on some data.
 std::vector<char> data_only(const Dag& dag, std::size_t variables, std::size_t data) {
@@ -191,6 +214,7 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
   require(p.size() == data() * lanes, "data");
   thread_local std::vector<InputRow> inputs;
   thread_local std::vector<double*> results;
+  thread_local RecentSpaces spaces;
   inputs.clear();
   results.clear();
   for (std::size_t i = 0; i < variables(); ++i) inputs.push_back({x.data() + i * lanes, false});
@@ -211,7 +235,7 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
     require(hessian.size() == n * lanes, "the Hessian");
     for (std::size_t i = 0; i < n; ++i) results.push_back(hessian.data() + i * lanes);
   }
-  TapeSpace(tape, lanes).run(tape, {lanes, inputs, results});
+  spaces.of(impl_, tape, lanes).run(tape, {lanes, inputs, results});
 }
 
 void Function::operator()(std::span<const double> x, std::span<const double> p,

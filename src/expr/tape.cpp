@@ -32,8 +32,7 @@ class RowPool {
 };
 
 std::size_t block_width(const Tape& tape, std::size_t lanes) {
-  for (std::size_t width : {std::size_t{64}, std::size_t{16}})
-    if (lanes > width / 4 && tape.rows * width * sizeof(double) <= kCacheBytes) return width;
+  if (lanes >= 64 && tape.rows * 64 * sizeof(double) <= kCacheBytes) return 64;
   return lanes > 4 ? 16 : 4;
 }
 
@@ -177,7 +176,9 @@ Tape compile(const Dag& dag, const std::vector<Dag::Id>& results, const Given& g
   }
   std::vector<char> taken(pool.size(), 0);
   for (auto id : results) {
-    tape.outputs.push_back({row[id], selection.is_step(id) && !taken[row[id]]});
+    const bool direct = selection.is_step(id) && !taken[row[id]];
+    if (!direct) tape.copied.push_back(static_cast<std::uint32_t>(tape.outputs.size()));
+    tape.outputs.push_back({row[id], direct});
     taken[row[id]] = 1;
   }
   tape.rows = pool.size();
@@ -194,8 +195,10 @@ TapeSpace::TapeSpace(const Tape& tape, std::size_t lanes)
 void TapeSpace::run(const Tape& tape, const TapeRun& rows) {
   fill_same(tape, rows);
   std::size_t lane = 0;
-  for (; lane + width_ <= rows.lanes; lane += width_) run_whole(tape, rows, lane);
-  if (lane < rows.lanes) run_rest(tape, rows, lane);
+  for (const std::size_t width : {width_, std::size_t{16}})
+    for (; width <= width_ && lane + width <= rows.lanes; lane += width)
+      run_whole(tape, rows, lane, width);
+  if (lane < rows.lanes) run_rest(tape, rows, lane, rows.lanes - lane > 4 ? 16 : 4);
 }
 
 void TapeSpace::fill_same(const Tape& tape, const TapeRun& rows) {
@@ -206,31 +209,32 @@ void TapeSpace::fill_same(const Tape& tape, const TapeRun& rows) {
     }
 }
 
-void TapeSpace::run_whole(const Tape& tape, const TapeRun& rows, std::size_t lane) {
+void TapeSpace::run_whole(const Tape& tape, const TapeRun& rows, std::size_t lane,
+                          std::size_t width) {
   for (const auto& load : tape.inputs)
     if (const InputRow& input = rows.inputs[load.input]; !input.same)
       rows_[load.row] = const_cast<double*>(input.numbers) + lane;  // never written to
   for (std::size_t k = 0; k < tape.outputs.size(); ++k)
     if (tape.outputs[k].direct) rows_[tape.outputs[k].row] = rows.outputs[k] + lane;
-  kernel()(tape, rows_.data(), width_);
-  for (std::size_t k = 0; k < tape.outputs.size(); ++k)
-    if (!tape.outputs[k].direct)
-      copy(rows_[tape.outputs[k].row], width_, rows.outputs[k] + lane);
+  kernel()(tape, rows_.data(), width);
+  for (const auto k : tape.copied)
+    copy(rows_[tape.outputs[k].row], width, rows.outputs[k] + lane);
 }
 
 /// Fewer lanes than a block has: the idle ones compute the last one again.
-void TapeSpace::run_rest(const Tape& tape, const TapeRun& rows, std::size_t lane) {
+void TapeSpace::run_rest(const Tape& tape, const TapeRun& rows, std::size_t lane,
+                         std::size_t width) {
   const std::size_t count = rows.lanes - lane;
   for (const auto& load : tape.inputs) {
     const InputRow& input = rows.inputs[load.input];
     if (input.same) continue;
     double* to = rows_[load.row] = own_[load.row];
     copy(input.numbers + lane, count, to);
-    std::fill(to + count, to + width_, to[count - 1]);
+    std::fill(to + count, to + width, to[count - 1]);
   }
   for (const auto& output : tape.outputs)
     if (output.direct) rows_[output.row] = own_[output.row];
-  kernel()(tape, rows_.data(), width_);
+  kernel()(tape, rows_.data(), width);
   for (std::size_t k = 0; k < tape.outputs.size(); ++k)
     copy(rows_[tape.outputs[k].row], count, rows.outputs[k] + lane);
 }

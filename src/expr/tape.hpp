@@ -44,7 +44,8 @@ struct Tape {
   std::vector<Load> inputs;
   std::vector<Fill> constants;
   std::vector<Instruction> code;
-  std::vector<Output> outputs;  ///< row of each result
+  std::vector<Output> outputs;        ///< row of each result
+  std::vector<std::uint32_t> copied;  ///< those that are not direct
   std::size_t rows = 0;
 };
 
@@ -89,8 +90,8 @@ class TapeSpace {
 
  private:
   void fill_same(const Tape& tape, const TapeRun& rows);
-  void run_whole(const Tape& tape, const TapeRun& rows, std::size_t lane);
-  void run_rest(const Tape& tape, const TapeRun& rows, std::size_t lane);
+  void run_whole(const Tape& tape, const TapeRun& rows, std::size_t lane, std::size_t width);
+  void run_rest(const Tape& tape, const TapeRun& rows, std::size_t lane, std::size_t width);
 
   std::size_t width_ = 0;
   AlignedDoubles memory_;

@@ -37,7 +37,11 @@ class Planner {
     for (auto& plan : plans_) variables.push_back(plan.ids.size());
     for (std::size_t e = 0; e < p_.equations; ++e)
       plans_[front_[p_.variables + e]].ids.push_back(narrow(p_.variables + e));
-    for (auto& plan : plans_) plan.own = plan.ids.size();
+    std::size_t equations = 0;
+    for (std::size_t k = 0; k < plans_.size(); ++k) {
+      plans_[k].own = plans_[k].ids.size();
+      plans_[k].equations_so_far = equations += plans_[k].own - variables[k];
+    }
     const std::size_t border = plans_.size() - 1;
     const auto border_ids = plans_[border].ids;
     for (std::size_t k = 0; k < border; ++k) {

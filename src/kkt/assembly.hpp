@@ -12,6 +12,7 @@ namespace slalom::kkt {
 struct FrontPlan {
   std::vector<std::uint32_t> ids;  ///< of its rows: to eliminate, next stage's variables, border
   std::size_t own = 0;             ///< how many of them it may eliminate
+  std::size_t equations_so_far = 0;  ///< in this front and those before it
 
   struct Term {
     std::uint32_t source, a, b;  ///< number and the two ids it stands between

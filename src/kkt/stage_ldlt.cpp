@@ -210,6 +210,7 @@ class Chain final : public Backend {
       for (std::size_t t = 0; t < factor.flexibility.size(); ++t)
         a[factor.flexibility[t]] -= values.flexibility[plans_[k].flexibility[t].source];
       if (!kernels.factor(factor.block(panel_.get()), inertia)) return false;
+      if (values.minimum_only && inertia.negative > plans_[k].equations_so_far) return true;
     }
     return true;
   }

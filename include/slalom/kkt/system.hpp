@@ -41,6 +41,10 @@ struct Values {
   std::span<const double> diagonal;     ///< d, one a variable
   std::span<const double> jacobian;     ///< E, read by JacobianEntry::source
   std::span<const double> flexibility;  ///< c >= 0, one an equation
+  /// Only the inertia of a minimum is wanted: factorize may stop, with part of the inertia, once
+  /// there are more negative pivots than equations, for what is left has as many at least as it has
+  /// equations.
+  bool minimum_only = false;
 };
 
 /// Signs of the pivots. A regular step on a minimum has as many positive as free variables and as

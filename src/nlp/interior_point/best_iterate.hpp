@@ -5,19 +5,21 @@
 namespace slalom::nlp::ipm {
 
 /// The best point a solve has seen: the least barrier function among those that meet the rows to
-/// tolerance, else the least violation. What a solve that is cut short answers with.
+/// tolerance, else the least violation. What a solve that is cut short answers with. Of multipliers
+/// it keeps those of the rows; those of bounds are mu / slack.
 class BestIterate {
  public:
   void begin(const Model& model, double tolerance);
   /// `violation`: largest, in the user's units; `barrier`: at the last mu.
   void offer(const Iterate& at, double violation, double barrier);
   bool empty() const { return !known_; }
-  bool feasible() const { return known_ && violation_ <= tolerance_; }
-  double violation() const { return violation_; }
-  const Iterate& iterate() const { return at_; }
+  /// Copies the point into `at`, with mu / slack for the multipliers of bounds.
+  void restore(const Model& model, double mu, Iterate& at) const;
 
  private:
-  Iterate at_;
+  bool feasible() const { return violation_ <= tolerance_; }
+
+  std::vector<double> w_, y_;
   bool known_ = false;
   double tolerance_ = 0, violation_ = 0, barrier_ = 0;
 };

@@ -25,7 +25,7 @@ bool Descent::complete() {
     if (!model.evaluate(point.at, missing, point.e)) return false;
     point.have = {true, true, true};
   }
-  measure(model, point);
+  if (!point.measured) measure(model, point);
   return true;
 }
 
@@ -59,6 +59,7 @@ void Descent::move_duals() {
   vector_kernels().move_duals(model.segments(), point.local.bounded(model, point.at),
                               barrier.mu(), last.alpha_dual, kKappaSigma, step.zl.data(),
                               step.zu.data(), point.at.zl.data(), point.at.zu.data());
+  point.measured = true;  // the line search has done the rest
 }
 
 bool Descent::tiny_step() const {

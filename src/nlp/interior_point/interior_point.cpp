@@ -169,7 +169,7 @@ class Run final : public Restoration::Watch {
   void offer_best() {
     const Point& point = descent_.point;
     best_.offer(point.at, descent_.model.violation(point.e),
-                barrier_function(descent_.model, point, descent_.barrier.mu()));
+                barrier_function(point, descent_.barrier.mu()));
   }
 
   void note_iteration(const Descent& descent, bool restoration) {
@@ -189,10 +189,17 @@ class Run final : public Restoration::Watch {
     answer.backend += descent_.newton.backend().name();
     answer.message = reason(status);
     answer.fault = status == Status::invalid_number ? model.fault() : Fault{};
-    const bool last = status == Status::solved || best_.empty();
-    hand_out(model, last ? descent_.point.at : best_.iterate(), answer.point);
-    if (best_.empty()) answer.point.x = start.x;
-    judge(answer);
+    if (best_.empty()) {
+      hand_out(model, descent_.point.at, answer.point);
+      answer.point.x = start.x;
+      answer.objective = answer.violation = 0;
+    } else {
+      if (status != Status::solved) go_back_to_best();
+      hand_out(model, descent_.point.at, answer.point);
+      answer.objective = descent_.point.e.objective / model.objective_scale();
+      answer.violation = model.violation(descent_.point.e);
+      answer.worst_row = model.worst_row(descent_.point.e);
+    }
     answer.iterations = iterations_;
     answer.cpu_s = timer_.cpu();
     answer.wall_s = timer_.wall();
@@ -200,15 +207,10 @@ class Run final : public Restoration::Watch {
     answer.longest_step_s = longest_step_;
   }
 
-  /// Objective and violation at the answer's point.
-  void judge(Answer& answer) {
-    Evaluation& e = descent_.point.e;
-    answer.violation = 0;
-    if (descent_.model.problem().evaluate(answer.point.x, 1, {}, {.values = true}, e)) return;
-    answer.objective = e.objective;
-    for (std::size_t r = 0; r < e.rows.size(); ++r) e.rows[r] *= descent_.model.row_scale()[r];
-    answer.violation = descent_.model.violation(e);
-    answer.worst_row = descent_.model.worst_row(e);
+  void go_back_to_best() {
+    Point& point = descent_.point;
+    best_.restore(descent_.model, descent_.barrier.mu(), point.at);
+    (void)descent_.model.evaluate(point.at, {.values = true}, point.e);  // it was finite there
   }
 
   const std::uint64_t structure_id_;

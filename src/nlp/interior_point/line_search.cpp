@@ -31,15 +31,17 @@ double boundary_fraction(double mu) {
 }
 
 void measure(const Model& model, Point& point) {
-  vector_kernels().reciprocals(model.segments(), point.local.bounded(model, point.at),
-                               point.local.over_lower.data(), point.local.over_upper.data());
+  const auto& kernels = vector_kernels();
+  const BoundedVector bounded = point.local.bounded(model, point.at);
+  kernels.reciprocals(model.segments(), bounded, point.local.over_lower.data(),
+                      point.local.over_upper.data());
+  point.logs = kernels.log_slacks(model.segments(), bounded);
   point.local.violation = model.residuals(point.e, point.at.w, point.local.residuals);
+  point.measured = true;
 }
 
-double barrier_function(const Model& model, const Point& point, double mu) {
-  const double logs =
-      vector_kernels().log_slacks(model.segments(), point.local.bounded(model, point.at));
-  return point.e.objective - mu * logs;
+double barrier_function(const Point& point, double mu) {
+  return point.e.objective - mu * point.logs;
 }
 
 LineSearch::LineSearch(Model& model) : model_(model) {
@@ -55,7 +57,7 @@ void LineSearch::reset(double violation_at_start) {
 }
 
 Merit LineSearch::merit(const Point& point, double mu) const {
-  return {point.local.violation, barrier_function(model_, point, mu)};
+  return {point.local.violation, barrier_function(point, mu)};
 }
 
 double LineSearch::slope(const Point& point, const Step& step) const {
@@ -74,13 +76,13 @@ bool LineSearch::try_step(const Point& from, const Step& step, double alpha, dou
   const auto& kernels = vector_kernels();
   kernels.combine(model_.primal(), from.at.w.data(), alpha, step.w.data(), trial_.at.w.data());
   kernels.combine(model_.rows(), from.at.y.data(), alpha, step.y.data(), trial_.at.y.data());
-  const double logs =
-      kernels.log_slacks(model_.segments(), trial_.local.bounded(model_, trial_.at));
-  if (!std::isfinite(logs)) return false;
+  trial_.logs = kernels.log_slacks(model_.segments(), trial_.local.bounded(model_, trial_.at));
+  trial_.measured = false;
+  if (!std::isfinite(trial_.logs)) return false;
   trial_.have = {.values = true, .derivatives = derivatives, .hessian = derivatives};
   if (!model_.evaluate(trial_.at, trial_.have, trial_.e)) return false;
   trial_.local.violation = model_.residuals(trial_.e, trial_.at.w, trial_.local.residuals);
-  merit = {trial_.local.violation, trial_.e.objective - mu * logs};
+  merit = {trial_.local.violation, barrier_function(trial_, mu)};
   return std::isfinite(merit.violation) && std::isfinite(merit.barrier);
 }
 

@@ -12,8 +12,10 @@ namespace slalom::nlp::ipm {
 struct Point {
   Iterate at;
   Evaluation e;
-  Parts have;   ///< which parts of e are of this iterate
-  Local local;  ///< reciprocals and residuals are of this iterate; sigma and slope once surveyed
+  Parts have;      ///< which parts of e are of this iterate
+  bool measured = false;  ///< local's reciprocals, residuals and the logarithms are too
+  double logs = 0;        ///< sum of the logarithms of all slacks
+  Local local;            ///< sigma and slope are of the iterate once a step is asked for
 
   void resize(const Model& model);
 };
@@ -21,10 +23,10 @@ struct Point {
 /// Fraction to the boundary rule (Waechter & Biegler 2006, eq. 8).
 double boundary_fraction(double mu);
 
-/// Fills what a point's Local holds of its primal part and residuals.
+/// Fills what a point holds of its slacks and residuals.
 void measure(const Model& model, Point& point);
 /// f - mu sum of the logarithms of all slacks; infinity unless all are positive.
-double barrier_function(const Model& model, const Point& point, double mu);
+double barrier_function(const Point& point, double mu);
 
 /// Backtracking along a step by the filter, with second-order corrections (Waechter & Biegler 2006,
 /// Algorithm A, step A-5).

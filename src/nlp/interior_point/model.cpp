@@ -36,6 +36,9 @@ Model::Model(Problem& problem, const Elastic* elastic)
       scaled_y_(shape_->rows) {
   for (std::size_t r = 0; r < rows(); ++r)
     if (equation_[r]) equations_.push_back(static_cast<std::uint32_t>(r));
+  for (std::size_t i = 0; i < variables(); ++i)
+    if (fixed_[i]) constant_.push_back(static_cast<std::uint32_t>(i));
+  for (const auto r : equations_) constant_.push_back(static_cast<std::uint32_t>(slack(r)));
   const std::size_t size = variables() + (elastic ? 3 : 1) * rows();
   lower_.assign(size, 0.0);  // of the elastic parts
   upper_.assign(size, kInfinity);
@@ -48,16 +51,19 @@ void Model::refresh(Problem& problem) {
   problem_ = &problem;
   shape_ = &problem.structure();
   const Limits& limits = problem.limits();
-  const auto set = [&](std::size_t i, bool constant, double lower, double upper) {
-    lower_[i] = constant ? -kInfinity : lower;
-    upper_[i] = constant ? kInfinity : upper;
-    constants_[i] = constant ? lower : 0;
-  };
-  for (std::size_t i = 0; i < variables(); ++i) set(i, fixed_[i], limits.xl[i], limits.xu[i]);
-  for (std::size_t r = 0; r < rows(); ++r)
-    set(slack(r), equation_[r], limits.gl[r] * row_scale_[r], limits.gu[r] * row_scale_[r]);
-  for (std::size_t r = 0; r < rows(); ++r)
+  const std::size_t n = variables();
+  std::copy(limits.xl.begin(), limits.xl.end(), lower_.begin());
+  std::copy(limits.xu.begin(), limits.xu.end(), upper_.begin());
+  for (std::size_t r = 0; r < rows(); ++r) {
+    lower_[n + r] = limits.gl[r] * row_scale_[r];
+    upper_[n + r] = limits.gu[r] * row_scale_[r];
     users_unit_[r] = 1 / (row_scale_[r] * shape_->row_scale[r]);
+  }
+  for (const auto i : constant_) {
+    constants_[i] = lower_[i];
+    lower_[i] = -kInfinity;
+    upper_[i] = kInfinity;
+  }
 }
 
 void Model::set_scale(double objective, std::span<const double> rows) {

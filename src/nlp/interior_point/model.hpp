@@ -85,7 +85,7 @@ class Model {
   const Structure* shape_;
   const Elastic* elastic_;
   std::vector<char> equation_, fixed_;
-  std::vector<std::uint32_t> equations_;
+  std::vector<std::uint32_t> equations_, constant_;  ///< rows; entries of w that do not move
   std::vector<double> lower_, upper_, constants_;
   std::vector<Segment> segments_;
   kkt::RowBlocks row_blocks_;

@@ -64,7 +64,7 @@ bool Newton::factorize(const Evaluation& e, const Local& local, double mu) {
       sigma_x_[i] = local.sigma[i] + delta_w_ + (model_.elastic() ? model_.proximity(i) : 0);
     for (std::size_t k = 0; k < flexibility_.size(); ++k)
       flexibility_[k] = delta_c_ + give_[model_.equations()[k]];
-    return backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_});
+    return backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_, true});
   };
   delta_w_ = delta_c_ = 0;
   auto inertia = attempt();
@@ -90,8 +90,8 @@ void Newton::shift(const Local& local, const Iterate& at, std::span<const double
   const double* slope = local.slope.data() + n;
   if (!model_.elastic()) {
     // y - b / F = sigma residual + slope of an inequality
-    for (std::size_t r = 0; r < model_.rows(); ++r)
-      multipliers_[r] = slope[r] + weight_[r] * residuals[r];
+    vector_kernels().multiply_add(model_.rows(), weight_.data(), residuals.data(), slope,
+                                  multipliers_.data());
     for (const auto r : model_.equations()) {
       multipliers_[r] = at.y[r];
       row_rhs_[r] = -residuals[r];
@@ -137,8 +137,7 @@ bool Newton::step_for(const Evaluation& e, const Local& local, const Iterate& at
   if (!(left <= kBadResidual * std::max(size, 1e-3))) backend_->distrust();
   out.reach = kernels.dual_step(model_.segments(), local.bounded(model_, at), mu, out.w.data(),
                                 out.zl.data(), out.zu.data());
-  return std::isfinite(kernels.largest_magnitude(out.w.size(), out.w.data()) +
-                       kernels.largest_magnitude(out.y.size(), out.y.data()));
+  return std::isfinite(left + out.reach.primal + out.reach.dual);
 }
 
 /// The system  [I J'; J 0] (d, y) = (-gradient, 0)  with a unit weight on slacks too, condensed.
@@ -180,10 +179,9 @@ void Newton::recover(const Evaluation& e, const Local& local, const Iterate& at,
   double* ds = out.w.data() + n;
   const double* slope = local.slope.data() + n;
   if (!model_.elastic()) {
-    for (std::size_t r = 0; r < model_.rows(); ++r) {
-      ds[r] = products_[r] + residuals[r];
-      out.y[r] = weight_[r] * ds[r] + slope[r] - at.y[r];
-    }
+    vector_kernels().combine(model_.rows(), products_.data(), 1, residuals.data(), ds);
+    vector_kernels().multiply_add(model_.rows(), weight_.data(), ds, slope, out.y.data());
+    vector_kernels().combine(model_.rows(), out.y.data(), -1, at.y.data(), out.y.data());
     for (std::size_t k = 0; k < model_.equations().size(); ++k) {
       ds[model_.equations()[k]] = 0;
       out.y[model_.equations()[k]] = solution_[n + k];

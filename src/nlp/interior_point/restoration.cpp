@@ -61,6 +61,7 @@ void Restoration::begin() {
   inner_.newton.restart();
   inner_.barrier.begin(BarrierRule::monotone, mu, kLeastBarrier);
   inner_.point.have = {};
+  inner_.point.measured = false;
 }
 
 bool Restoration::accepted_by_main() {
@@ -78,6 +79,7 @@ bool Restoration::accepted_by_main() {
 void Restoration::hand_back() {
   std::copy_n(inner_.point.at.w.begin(), main_.model.primal(), main_.point.at.w.begin());
   main_.point.have = {};
+  main_.point.measured = false;
 }
 
 Restoration::Outcome Restoration::run(Watch& watch) {

@@ -128,14 +128,12 @@ bool prepare(Descent& descent, const Start& start, const Options& options) {
   std::fill(descent.step.y.begin(), descent.step.y.end(), 1.0);
   descent.model.set_scale(1, descent.step.y);
   point.have = {.values = true, .derivatives = true};
+  point.measured = false;
   if (!descent.model.evaluate(point.at, point.have, point.e)) return false;
   set_scales(descent, options);
   if (!floor && !descent.model.evaluate(point.at, point.have, point.e)) return false;
   beginning.multipliers();
-  if (!options.warm_start) {
-    measure(descent.model, point);
-    descent.estimate_multipliers();
-  }
+  if (!options.warm_start) descent.estimate_multipliers();
   return descent.complete();
 }
 

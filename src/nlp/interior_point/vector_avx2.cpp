@@ -6,7 +6,7 @@ const VectorKernels kVectorAvx2 = {
     VecVectorLoops::reciprocals,    VecVectorLoops::barrier,
     VecVectorLoops::complementarity, VecVectorLoops::dual_step,
     VecVectorLoops::log_slacks,     VecVectorLoops::move_duals,
-    VecVectorLoops::combine,        VecVectorLoops::dot,
+    VecVectorLoops::combine,        VecVectorLoops::multiply_add, VecVectorLoops::dot,
     VecVectorLoops::sum_magnitudes, VecVectorLoops::largest_magnitude,
     VecVectorLoops::most_outside};
 

@@ -54,6 +54,9 @@ struct VectorKernels {
                      double kappa, const double* dzl, const double* dzu, double* zl, double* zu);
   /// to = a + alpha b
   void (*combine)(std::size_t n, const double* a, double alpha, const double* b, double* to);
+  /// to = c + a b
+  void (*multiply_add)(std::size_t n, const double* a, const double* b, const double* c,
+                       double* to);
   double (*dot)(std::size_t n, const double* a, const double* b);
   double (*sum_magnitudes)(std::size_t n, const double* a);
   double (*largest_magnitude)(std::size_t n, const double* a);

@@ -136,6 +136,12 @@ class VectorLoops {
       store(to + i, V::fma(factor, load(b + i), load(a + i)));
     });
   }
+  static void multiply_add(std::size_t n, const double* a, const double* b, const double* c,
+                           double* to) {
+    for_vectors(n, [&](std::size_t i, auto load, auto store) {
+      store(to + i, V::fma(load(a + i), load(b + i), load(c + i)));
+    });
+  }
   static double dot(std::size_t n, const double* a, const double* b) {
     T sum{};
     for_vectors(n, [&](std::size_t i, auto load, auto) {
