@@ -48,6 +48,13 @@ struct Vec {
     const type kept = _mm256_and_pd(v, _mm256_castsi256_pd(_mm256_set1_epi64x(0xFFFFFFFFFFFFF)));
     return _mm256_or_pd(kept, _mm256_set1_pd(1.0));
   }
+  /// v with its first n < size lanes 0.
+  static type without_first(type v, std::size_t n) {
+    return _mm256_andnot_pd(_mm256_castsi256_pd(first_lanes(n)), v);
+  }
+  static void store_four(double* p, double a, double b, double c, double d) {
+    _mm256_storeu_pd(p, _mm256_set_pd(d, c, b, a));
+  }
   static __m256i first_lanes(std::size_t n) {
     const __m256i lane = _mm256_set_epi64x(3, 2, 1, 0);
     return _mm256_cmpgt_epi64(_mm256_set1_epi64x(static_cast<long long>(n)), lane);
@@ -73,6 +80,13 @@ struct Vec {
   static type abs(type v) { return _mm_andnot_pd(_mm_set1_pd(-0.0), v); }
   static double sum(type v) { return _mm_cvtsd_f64(_mm_add_sd(v, _mm_unpackhi_pd(v, v))); }
   static double largest(type v) { return _mm_cvtsd_f64(_mm_max_sd(v, _mm_unpackhi_pd(v, v))); }
+  static type without_first(type v, std::size_t n) {
+    return n == 0 ? v : _mm_unpackhi_pd(_mm_setzero_pd(), v);
+  }
+  static void store_four(double* p, double a, double b, double c, double d) {
+    _mm_storeu_pd(p, _mm_set_pd(b, a));
+    _mm_storeu_pd(p + 2, _mm_set_pd(d, c));
+  }
   using ints = __m128i;
   static ints exponents(type v) { return _mm_srli_epi64(_mm_castpd_si128(v), 52); }
   static ints plus(ints a, ints b) { return _mm_add_epi64(a, b); }

@@ -57,7 +57,7 @@ class Loops {
   static constexpr double magnitude(double v) { return v < 0 ? -v : v; }
   static constexpr double larger(double a, double b) { return a > b ? a : b; }
   /// First row of the vector that holds row p: columns start there, zero above their diagonal.
-  static constexpr std::size_t first(std::size_t p) { return p & ~std::size_t{3}; }
+  static constexpr std::size_t first(std::size_t p) { return p & ~(V::size - 1); }
 
   static std::size_t panel_end(const Block& b, std::size_t p) {
     std::size_t end = p + 4 < b.eliminated ? p + 4 : b.eliminated;
@@ -95,9 +95,18 @@ class Loops {
     }
   }
 
-  /// Sets rows up to `last` of the vectors from first(q) on to zero.
-  static void clear_head(double* column, std::size_t q, std::size_t last) {
-    for (std::size_t r = first(q); r <= last; ++r) column[r] = 0;
+  /// Calls f(row, load) for the vectors of rows behind `head`: load gives 0 for rows up to head.
+  template <class F>
+  static void for_rows_behind(const Block& b, std::size_t head, F f) {
+    const std::size_t begin = first(head + 1);
+    if (begin >= b.ld) return;
+    std::size_t r = begin;
+    f(r, [skip = head + 1 - begin](const double* p) { return V::without_first(V::load(p), skip); });
+    for (r += V::size; r < b.ld; r += V::size) f(r, [](const double* p) { return V::load(p); });
+  }
+  /// Zeros in the vectors between the one of row q and the first behind `head`.
+  static void clear_between(double* column, std::size_t q, std::size_t head) {
+    for (std::size_t r = first(q); r < first(head + 1); ++r) column[r] = 0;
   }
 
   static bool pivot_one(const Block& b, std::size_t p, std::size_t q, Inertia& inertia) {
@@ -105,18 +114,20 @@ class Loops {
     double* column = b.a + q * b.ld;
     double* u = b.panel + (q - p) * b.ld;
     const double d = column[q];
-    clear_head(column, q, q);
-    const T inverse = V::all(1 / d);
+    const double over = 1 / d;
+    const T inverse = V::all(over);
     T largest{};
-    for (std::size_t r = first(q); r < b.ld; r += V::size) {
-      const T value = V::load(column + r);
+    for_rows_behind(b, q, [&](std::size_t r, auto load) {
+      const T value = load(column + r);
       largest = V::max(largest, V::abs(value));
       V::store(u + r, value);
       V::store(column + r, value * inverse);
-    }
+    });
+    clear_between(column, q, q);
+    clear_between(u, q, q);
     const double size = magnitude(d);
     if (!(size > kTinyPivot && size >= kLeastRatio * V::largest(largest))) return false;
-    b.inverse[2 * q] = 1 / d;
+    b.inverse[2 * q] = over;
     b.inverse[2 * q + 1] = 0;
     ++(d > 0 ? inertia.positive : inertia.negative);
     return true;
@@ -132,19 +143,18 @@ class Loops {
     const double d0 = first_column[q], d1 = first_column[q + 1], d2 = second_column[q + 1];
     const double det = d0 * d2 - d1 * d1;
     const double i0 = d2 / det, i1 = -d1 / det, i2 = d0 / det;
-    clear_head(first_column, q, q + 1);
-    clear_head(second_column, q, q + 1);
     const T j0 = V::all(i0), j1 = V::all(i1), j2 = V::all(i2);
     T largest0{}, largest1{};
-    for (std::size_t r = first(q); r < b.ld; r += V::size) {
-      const T x = V::load(first_column + r), y = V::load(second_column + r);
+    for_rows_behind(b, q + 1, [&](std::size_t r, auto load) {
+      const T x = load(first_column + r), y = load(second_column + r);
       largest0 = V::max(largest0, V::abs(x));
       largest1 = V::max(largest1, V::abs(y));
       V::store(u + r, x);
       V::store(v + r, y);
       V::store(first_column + r, V::fma(y, j1, x * j0));
       V::store(second_column + r, V::fma(y, j2, x * j1));
-    }
+    });
+    for (double* column : {first_column, second_column, u, v}) clear_between(column, q, q + 1);
     const double m0 = V::largest(largest0), m1 = V::largest(largest1), size = magnitude(det);
     const double bound = size / kLeastRatio;
     if (!(size > kTinyPivot * kTinyPivot && magnitude(d2) * m0 + magnitude(d1) * m1 <= bound &&
@@ -222,10 +232,9 @@ class Loops {
     const double y3 = y[p + 3] - V::sum(sum[3]);
     const double y2 = y[p + 2] - V::sum(sum[2]) - l[2 * b.ld + p + 3] * y3;
     const double y1 = y[p + 1] - V::sum(sum[1]) - l[b.ld + p + 2] * y2 - l[b.ld + p + 3] * y3;
-    y[p] = y[p] - V::sum(sum[0]) - l[p + 1] * y1 - l[p + 2] * y2 - l[p + 3] * y3;
-    y[p + 1] = y1;
-    y[p + 2] = y2;
-    y[p + 3] = y3;
+    const double y0 =
+        y[p] - V::sum(sum[0]) - l[p + 1] * y1 - l[p + 2] * y2 - l[p + 3] * y3;
+    V::store_four(y + p, y0, y1, y2, y3);
   }
 };
 

@@ -24,7 +24,10 @@ struct Factor {
   std::size_t size = 0, eliminated = 0, ld = 0;
   std::vector<std::uint32_t> ids;   ///< of the rows, in the order of pivots
   std::vector<std::uint8_t> order;  ///< of the pivots
-  std::vector<std::uint32_t> hessian, diagonal, jacobian, flexibility;  ///< places of the terms
+  struct Move {
+    std::uint32_t source, place;
+  };
+  std::vector<Move> hessian, diagonal, jacobian, flexibility;
   std::vector<std::uint32_t> to_next;  ///< places of the Schur complement in the next front
   AlignedDoubles a;
   std::vector<double> inverse;
@@ -176,9 +179,10 @@ class Chain final : public Backend {
       for (std::size_t i = 0; i < factor.size; ++i) place_[factor.ids[i]] = narrow(i);
       if (k > 0) plan_hand_over(factor, factors_[k - 1]);
       const auto places = [&](const std::vector<FrontPlan::Term>& terms,
-                              std::vector<std::uint32_t>& list) {
+                              std::vector<Factor::Move>& list) {
         list.clear();
-        for (const auto& term : terms) list.push_back(place(factor, place_[term.a], place_[term.b]));
+        for (const auto& term : terms)
+          list.push_back({term.source, place(factor, place_[term.a], place_[term.b])});
       };
       places(plans_[k].hessian, factor.hessian);
       places(plans_[k].diagonal, factor.diagonal);
@@ -202,22 +206,27 @@ class Chain final : public Backend {
     for (std::size_t k = 0; k < factors_.size(); ++k) {
       Factor& factor = factors_[k];
       double* a = factor.a.get();
-      std::fill_n(a, factor.ld * factor.size, 0.0);
+      clear_lower(factor);
       if (k > 0) hand_over(factors_[k - 1], a);
-      add(plans_[k].hessian, factor.hessian, values.hessian, a);
-      add(plans_[k].diagonal, factor.diagonal, values.diagonal, a);
-      add(plans_[k].jacobian, factor.jacobian, values.jacobian, a);
-      for (std::size_t t = 0; t < factor.flexibility.size(); ++t)
-        a[factor.flexibility[t]] -= values.flexibility[plans_[k].flexibility[t].source];
+      add(factor.hessian, values.hessian, a);
+      add(factor.diagonal, values.diagonal, a);
+      add(factor.jacobian, values.jacobian, a);
+      for (const auto& move : factor.flexibility) a[move.place] -= values.flexibility[move.source];
       if (!kernels.factor(factor.block(panel_.get()), inertia)) return false;
       if (values.minimum_only && inertia.negative > plans_[k].equations_so_far) return true;
     }
     return true;
   }
-  static void add(const std::vector<FrontPlan::Term>& terms,
-                  const std::vector<std::uint32_t>& places, std::span<const double> numbers,
+  static void add(const std::vector<Factor::Move>& moves, std::span<const double> numbers,
                   double* a) {
-    for (std::size_t t = 0; t < terms.size(); ++t) a[places[t]] += numbers[terms[t].source];
+    for (const auto& move : moves) a[move.place] += numbers[move.source];
+  }
+  /// Zeros on and below the diagonal, and in the vectors that hold it.
+  static void clear_lower(Factor& factor) {
+    for (std::size_t c = 0; c < factor.size; ++c) {
+      const std::size_t begin = c & ~std::size_t{3};
+      std::fill_n(factor.a.get() + c * factor.ld + begin, factor.ld - begin, 0.0);
+    }
   }
   static void hand_over(const Factor& from, double* to) {
     const std::uint32_t* place = from.to_next.data();

@@ -127,7 +127,9 @@ bool prepare(Descent& descent, const Start& start, const Options& options) {
   beginning.variables();
   std::fill(descent.step.y.begin(), descent.step.y.end(), 1.0);
   descent.model.set_scale(1, descent.step.y);
-  point.have = {.values = true, .derivatives = true};
+  // The rows' multipliers are known only of a warm start, so with it the Hessian comes along.
+  if (options.warm_start) std::copy(start.y.begin(), start.y.end(), point.at.y.begin());
+  point.have = {.values = true, .derivatives = true, .hessian = floor && options.warm_start};
   point.measured = false;
   if (!descent.model.evaluate(point.at, point.have, point.e)) return false;
   set_scales(descent, options);
