@@ -45,13 +45,18 @@ class ClosedLoop {
     if (hooks_.on_cycle) hooks_.on_cycle(drive_.cycles.back());
   }
 
-  /// Predict, plan, drive [t0, t0 + tex] on the old signal, check, and swap signals.
+  /// Predict, plan, drive [t0, t0 + tex] on the old signal, check, and swap signals. A failure to
+  /// plan ends the drive when the plan is due: the plant drives meanwhile and may crash first.
   void cycle(int index) {
     const double t0 = (index - 1) * loop_.tex, t1 = index * loop_.tex;
     if (interrupted()) return end(Outcome::interrupted, "interrupted");
     Cycle cycle = plan_ahead(index, t0);
-    judge(cycle);
-    if (!ended_) drive_until(std::min(t1, loop_.timeout));
+    if (interrupted()) {
+      end(Outcome::interrupted, "interrupted while planning");
+    } else {
+      drive_until(std::min(t1, loop_.timeout));
+      if (!ended_) judge(cycle);
+    }
     if (!ended_ && t1 <= loop_.timeout + kSameTime) check_goal();
     if (!ended_ && t1 >= loop_.timeout - kSameTime)
       end(Outcome::timeout, fmt::format("not at the goal after {:.6g} s", loop_.timeout));
@@ -94,9 +99,8 @@ class ClosedLoop {
     return plan.report.solved && ControlSignal::usable(plan);
   }
 
-  /// Ends the drive at t0 when planning took too long or failed.
+  /// Ends the drive when planning took too long or failed.
   void judge(const Cycle& cycle) {
-    if (interrupted()) return end(Outcome::interrupted, "interrupted while planning");
     const bool is_solved = solved(cycle.plan);
     // A solve cut off by its time limit may stop a little short of it.
     const double limit = loop_.solve_time_limit * (is_solved ? 1 : 0.99);

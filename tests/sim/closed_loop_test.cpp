@@ -153,18 +153,46 @@ TEST(ClosedLoop, GoalAtTheLastCheckBeatsTheTimeout) {
   EXPECT_EQ(drive(s, straight_on).outcome, Outcome::timeout);
 }
 
-TEST(ClosedLoop, UnsolvedStopsAtTheTimeItWasPlanned) {
+TEST(ClosedLoop, UnsolvedStopsWhenThePlanIsDue) {
   auto s = open_field();
   int calls = 0;
   const Drive d =
       drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : unsolved(r); });
   EXPECT_EQ(d.outcome, Outcome::not_optimal);
-  EXPECT_EQ(d.time, 1.5);
-  EXPECT_EQ(d.plant.back().t, 1.5);
+  EXPECT_EQ(d.time, 2);
+  EXPECT_EQ(d.plant.back().t, 2);
   ASSERT_EQ(d.cycles.size(), 4u);
   EXPECT_FALSE(d.cycles.back().used);
   EXPECT_NE(d.message.find("cycle 4"), std::string::npos);
   EXPECT_NE(d.message.find("iteration limit"), std::string::npos);
+}
+
+TEST(ClosedLoop, CrashBeforeThePlanIsDueBeatsTheFailureToPlan) {
+  auto s = open_field();
+  s.obstacles = {testing::circle("rock", 0, 25, 1)};  // touched at 22/17 s
+  int calls = 0;
+  const auto fails_at = [&](int call) {
+    calls = 0;
+    return drive(
+        s, [&calls, call](const auto& r) { return ++calls < call ? straight_on(r) : unsolved(r); });
+  };
+  const Drive crashed = fails_at(3);  // planned from 1 s, due at 1.5 s
+  EXPECT_EQ(crashed.outcome, Outcome::crash) << crashed.message;
+  EXPECT_NEAR(crashed.time, 22. / 17, 1e-6);
+  EXPECT_EQ(crashed.cycles.size(), 3u);
+  const Drive stopped = fails_at(2);  // due at 1 s
+  EXPECT_EQ(stopped.outcome, Outcome::not_optimal) << stopped.message;
+  EXPECT_EQ(stopped.time, 1);
+}
+
+TEST(ClosedLoop, FailureToPlanBeatsTheGoal) {
+  auto s = open_field();
+  s.goal = {0, 34, 1.5, 1};
+  int calls = 0;
+  const Drive d =
+      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : unsolved(r); });
+  EXPECT_EQ(d.time, 2);
+  EXPECT_EQ(d.outcome, Outcome::not_optimal);
 }
 
 TEST(ClosedLoop, SolvedPlanWithoutUsableControlsCountsAsUnsolved) {
@@ -219,7 +247,7 @@ TEST(ClosedLoop, SolveTimeOverTheLimitEndsTheDriveEvenIfSolved) {
     return plan;
   });
   EXPECT_EQ(d.outcome, Outcome::solve_time);
-  EXPECT_EQ(d.time, 1);
+  EXPECT_EQ(d.time, 1.5);
 }
 
 TEST(ClosedLoop, SolveCutOffByItsTimeLimitIsSolveTime) {
@@ -230,7 +258,7 @@ TEST(ClosedLoop, SolveCutOffByItsTimeLimitIsSolveTime) {
     return unsolved(r);
   });
   EXPECT_EQ(d.outcome, Outcome::solve_time);
-  EXPECT_EQ(d.time, 0);
+  EXPECT_EQ(d.time, .5);
 }
 
 TEST(ClosedLoop, InterruptedBetweenCyclesWhilePlanningAndWhileDriving) {
