@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce robustness format clean build
+.PHONY: help run test bench reproduce results robustness format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -36,8 +36,13 @@ reproduce: ## all drives of the paper's figures into run/reproduce/, ours beside
 	$(MAKE) --no-print-directory build
 	build/slalom reproduce --out run/reproduce --force
 
+results: ## the same drives into docs/results.md and docs/figures/
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/results.py --program build/slalom
+
 robustness: ## outcomes over floors, starts and horizons into docs/robustness.md (takes minutes)
-	tools/setup.sh run
+	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/robustness.py --program build/slalom --out docs/robustness.md
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# setup.sh run|test|bench: sees to it that what `make run`, `make test` or `make bench` needs is
-# there. What is missing is installed by apt, after saying which package and why. Where apt cannot
-# do it, this says what to install and goes on: the build then tells whether it was there after all.
+# setup.sh run|test|bench|results: sees to it that what `make run`, `make test`, `make bench` or
+# `make results` and `make robustness` need is there. What is missing is installed by apt, after
+# saying which package and why. Where apt cannot do it, this says what to install and goes on: the
+# build then tells whether it was there after all.
 set -euo pipefail
 
 # package | needed for | how to see that it is there (any one) | why
@@ -27,6 +28,7 @@ python3             | test  | cmd:python3               | runs the checks of the
 chromium            | test  | cmd:chromium cmd:chromium-browser cmd:google-chrome | drives the report's page
 nodejs              | test  | cmd:node                  | runs the test of the page
 npm                 | test  | cmd:npm                   | installs playwright-core for the test of the page
+python3             | results | cmd:python3               | tabulates drives
 python3             | bench | cmd:python3               | runs the benchmarks
 python3-venv        | bench | py:ensurepip              | keeps the peer they compare with to a folder of its own
 gcc                 | bench | cmd:gcc                   | compiles the C code that peer generates
@@ -66,6 +68,7 @@ wanted() { # needed for $1, when asked for $2
     run) [ "$1" = run ] ;;
     test) [ "$1" = run ] || [ "$1" = test ] ;;
     bench) [ "$1" = run ] || [ "$1" = bench ] ;;
+    results) [ "$1" = run ] || [ "$1" = results ] ;;
   esac
 }
 
@@ -87,9 +90,9 @@ go_on() {
 
 purpose=${1:-}
 case $purpose in
-  run | test | bench) ;;
+  run | test | bench | results) ;;
   *)
-    echo "usage: tools/setup.sh run|test|bench" >&2
+    echo "usage: tools/setup.sh run|test|bench|results" >&2
     exit 2
     ;;
 esac

@@ -14,28 +14,40 @@ namespace {
 
 const std::vector<std::string> kOutcomes = {"solved", "not_optimal", "interrupted"};
 
-/// The first cycle of the closed loop: predicted from the start, solved, not driven.
-std::optional<sim::Cycle> first_cycle(const sim::Scenario& scenario) {
-  std::optional<sim::Cycle> first;
+/// The first cycle of the closed loop, predicted from the start and solved, and the warm-up solve
+/// before it.
+struct First {
+  std::optional<sim::Cycle> cycle;
+  std::optional<sim::Cycle> warm_up;
+
+  const sim::Cycle* warm_up_or_null() const { return warm_up ? &*warm_up : nullptr; }
+};
+
+First first_cycle(const sim::Scenario& scenario) {
+  First first;
   sim::LoopHooks hooks;
   hooks.on_cycle = [&](const sim::Cycle& cycle) {
-    if (cycle.index > 0 && !first) first = cycle;
+    (cycle.index > 0 ? first.cycle : first.warm_up) = cycle;
   };
-  hooks.interrupted = [&] { return first.has_value() || interrupted(); };
-  const auto drive = sim::drive(scenario, hooks);
-  if (first) return first;
-  for (const auto& cycle : drive.cycles)
-    if (cycle.index > 0) return cycle;
-  return std::nullopt;
+  hooks.interrupted = [&] { return first.cycle.has_value() || interrupted(); };
+  (void)sim::drive(scenario, hooks);
+  return first;
 }
 
-std::string plan_text(const sim::Scenario& scenario, const sim::Cycle& cycle) {
+std::string plan_text(const sim::Scenario& scenario, const First& first) {
+  const auto& cycle = *first.cycle;
   const auto& plan = cycle.plan;
   const auto& report = plan.report;
   auto text = fmt::format(
       "{} with {}: {} after {} iterations, {:.3f} s; from {:g} s on, {:.3f} s long, cost {:.4f}\n",
       scenario.name, scenario.planner.name, report.status, report.iterations, report.wall_s,
       plan.t_start, plan.tf, report.cost);
+  if (first.warm_up) {
+    const auto& before = first.warm_up->plan.report;
+    text += fmt::format(
+        "  after a warm-up solve of the same problem: {} after {} iterations, {:.3f} s\n",
+        before.status, before.iterations, before.wall_s);
+  }
   for (const auto& [name, value] : report.cost_terms)
     text += fmt::format("  {:<12} {:>12.4f}\n", name, value);
   text += fmt::format("{:>7} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "t",
@@ -54,14 +66,16 @@ int plan(const CommonOptions& options) {
   check_expectations(options.expect, kOutcomes);
   const auto scenario = io::load_scenario(options.request);
   if (options.writes()) write_or_fail([&] { io::prepare_folder(options.out, options.force); });
-  const auto cycle = first_cycle(scenario);
+  const auto first = first_cycle(scenario);
+  const auto& cycle = first.cycle;
   if (!cycle || (interrupted() && !cycle->plan.report.solved))
     return exit_code_for("interrupted", options.expect);
-  if (options.writes()) write_or_fail([&] { io::write_plan(options.out, scenario, *cycle); });
+  if (options.writes())
+    write_or_fail([&] { io::write_plan(options.out, scenario, *cycle, first.warm_up_or_null()); });
   if (options.json) {
-    print(io::plan_json(scenario, *cycle));
+    print(io::plan_json(scenario, *cycle, first.warm_up_or_null()));
   } else if (!options.quiet) {
-    print(plan_text(scenario, *cycle));
+    print(plan_text(scenario, first));
   }
   return exit_code_for(cycle->plan.report.solved ? "solved" : "not_optimal", options.expect);
 }

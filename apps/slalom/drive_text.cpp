@@ -8,14 +8,24 @@
 
 namespace slalom::app {
 
+namespace {
+
+/// A crash is located to rounding: what prints as -0.00 is 0.
+double without_sign(double clearance) {
+  return std::fabs(clearance) < 0.005 ? 0 : clearance;
+}
+
+}  // namespace
+
 std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
   auto text = fmt::format("{} with {}: {} at {:.2f} s\n", scenario.name, scenario.planner.name,
                           sim::to_string(drive.outcome), drive.time);
   if (!drive.message.empty()) text += fmt::format("  {}\n", drive.message);
   if (drive.goal_time) text += fmt::format("  goal entered       {:.2f} s\n", *drive.goal_time);
   if (std::isfinite(drive.least_clearance))
-    text += fmt::format("  least clearance    {:.2f} m, to {} at {:.2f} s\n", drive.least_clearance,
-                        drive.least_clearance_obstacle, drive.least_clearance_t);
+    text += fmt::format("  least clearance    {:.2f} m, to {} at {:.2f} s\n",
+                        without_sign(drive.least_clearance), drive.least_clearance_obstacle,
+                        drive.least_clearance_t);
   text += fmt::format("  least wheel load   {:.0f} N\n", drive.least_wheel_load);
 
   std::vector<double> wall;
@@ -23,9 +33,11 @@ std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
     if (cycle.index > 0) wall.push_back(cycle.plan.report.wall_s);
   if (wall.empty()) return text;
   std::sort(wall.begin(), wall.end());
+  const auto n = wall.size();
+  const double median = (wall[(n - 1) / 2] + wall[n / 2]) / 2;
   text += fmt::format(
-      "  solve times        {} cycles, median {:.3f} s, greatest {:.3f} s, tex {:g} s\n",
-      wall.size(), wall[wall.size() / 2], wall.back(), scenario.loop.tex);
+      "  solve times        {} cycles, median {:.3f} s, greatest {:.3f} s, tex {:g} s\n", n, median,
+      wall.back(), scenario.loop.tex);
   return text;
 }
 

@@ -34,6 +34,14 @@ double greatest(const std::vector<double>& values) {
   return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
 }
 
+Json warm_up_json(const sim::Cycle& cycle) {
+  const auto& report = cycle.plan.report;
+  return {{"status", report.status},
+          {"iterations", report.iterations},
+          {"solve_time_s", number(report.wall_s)},
+          {"cpu_time_s", number(report.cpu_s)}};
+}
+
 /// Median and greatest time of the solves on the clock; the warm-up stands by itself.
 void add_solve_times(Json& summary, const sim::Drive& drive) {
   std::vector<double> wall, cpu;
@@ -49,11 +57,7 @@ void add_solve_times(Json& summary, const sim::Drive& drive) {
   summary["cpu_time_max_s"] = number(greatest(cpu));
   Json warm_up = nullptr;
   for (const auto& cycle : drive.cycles)
-    if (cycle.index == 0)
-      warm_up = {{"status", cycle.plan.report.status},
-                 {"iterations", cycle.plan.report.iterations},
-                 {"solve_time_s", number(cycle.plan.report.wall_s)},
-                 {"cpu_time_s", number(cycle.plan.report.cpu_s)}};
+    if (cycle.index == 0) warm_up = warm_up_json(cycle);
   summary["warm_up"] = warm_up;
 }
 
@@ -92,7 +96,8 @@ std::string summary_json(const sim::Scenario& scenario, const sim::Drive& drive)
   return dump(summary);
 }
 
-std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle) {
+std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle,
+                      const sim::Cycle* warm_up) {
   const auto& report = cycle.plan.report;
   Json json;
   json["scenario"] = scenario.name;
@@ -104,6 +109,7 @@ std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle) {
   json["iterations"] = report.iterations;
   json["solve_time_s"] = number(report.wall_s);
   json["cpu_time_s"] = number(report.cpu_s);
+  json["warm_up"] = warm_up == nullptr ? Json(nullptr) : warm_up_json(*warm_up);
   json["t0_s"] = number(cycle.t0);
   json["tex_s"] = number(cycle.tex);
   json["t_start_s"] = number(cycle.plan.t_start);
@@ -140,10 +146,10 @@ void write_drive(const std::filesystem::path& folder, const sim::Scenario& scena
 }
 
 void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenario,
-                const sim::Cycle& cycle) {
+                const sim::Cycle& cycle, const sim::Cycle* warm_up) {
   FileSet files;
   files.add(folder / "plan.csv", plan_csv(cycle.plan));
-  files.add(folder / "plan.json", plan_json(scenario, cycle));
+  files.add(folder / "plan.json", plan_json(scenario, cycle, warm_up));
   files.add(folder / "resolved.yaml", to_yaml(scenario));
   files.commit();
 }

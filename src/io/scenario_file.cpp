@@ -58,6 +58,17 @@ class Loader {
     if (const Value* title = root_.find("title")) scenario_.title = to_text(*title, "a title");
   }
 
+  /// The vehicle or planner file that stands at `where`, which must be there.
+  static fs::path referenced(const std::string& what, const std::string& name, const fs::path& base,
+                             const std::string& where) {
+    const auto file = find_config(what, name, base, where);
+    std::error_code error;
+    if (fs::status(file, error).type() == fs::file_type::not_found)
+      throw InvalidValue(where, fmt::format("{} '{}'", what, name),
+                         fmt::format("an existing file ({} is none)", file.string()));
+    return file;
+  }
+
   /// Reads a vehicle or planner file over the struct's defaults.
   template <class S>
   void read_base(const std::string& what, const fs::path& file, const OptionTable<S>& table,
@@ -81,11 +92,11 @@ class Loader {
     const auto content = fmt::format("the name of a {}, a file, or a map of its settings", what);
     if (base != nullptr) to_text(*base, content);
     if (base != nullptr && !chosen)
-      read_base(what, find_config(what, base->text, file_.parent_path(), base->place.to_string()),
+      read_base(what, referenced(what, base->text, file_.parent_path(), base->place.to_string()),
                 table, settings);
     const auto read_chosen = [&] {
       const auto option = "--" + what;
-      read_base(what, find_config(what, *chosen, "", option), table, settings);
+      read_base(what, referenced(what, *chosen, "", option), table, settings);
     };
     if (base != nullptr && chosen) read_chosen();
     if (value != nullptr && value->kind == Value::Kind::map) {

@@ -23,9 +23,10 @@ void prepare_folder(const std::filesystem::path& folder, bool force);
 void write_drive(const std::filesystem::path& folder, const sim::Scenario& scenario,
                  const sim::Drive& drive);
 
-/// Writes plan.csv (one row a node), plan.json and resolved.yaml of a single plan.
+/// Writes plan.csv (one row a node), plan.json and resolved.yaml of a single plan. `warm_up` is the
+/// solve before it, or nullptr if there was none.
 void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenario,
-                const sim::Cycle& cycle);
+                const sim::Cycle& cycle, const sim::Cycle* warm_up);
 
 /// Writes index.html and the figures of a reproduction; the drives stand in folders of their own.
 void write_reproduction(const std::filesystem::path& folder,
@@ -40,6 +41,7 @@ std::string plans_csv(const sim::Drive& drive);
 std::string cycles_csv(const sim::Drive& drive);
 std::string summary_json(const sim::Scenario& scenario, const sim::Drive& drive);
 std::string plan_csv(const planner::Plan& plan);
-std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle);
+std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle,
+                      const sim::Cycle* warm_up);
 
 }  // namespace slalom::io
