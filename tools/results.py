@@ -115,6 +115,12 @@ def snapshot_table(drives, paper):
     return lines
 
 
+def change(before, after):
+    """In per cent; what rounds to nothing has no sign."""
+    percent = round(100 * (after / before - 1), 1)
+    return f"{percent:+.1f} %" if percent else "0.0 %"
+
+
 def effort_table(drives, environment, paper, by_paper):
     b, c = drives[environment, "P_B"], drives[environment, "P_C"]
     head = "| term | P_B | P_C | change |"
@@ -125,15 +131,15 @@ def effort_table(drives, environment, paper, by_paper):
         weight = 0.1 if by_paper else weight
         eb, ec = weight * b.square(column), weight * c.square(column)
         total_b, total_c = total_b + eb, total_c + ec
-        line = f"| {name} | {eb:.3g} | {ec:.3g} | {100 * (ec / eb - 1):+.1f} % |"
+        line = f"| {name} | {eb:.3g} | {ec:.3g} | {change(eb, ec)} |"
         if paper:
             pb, pc = paper["P_B"][kept], paper["P_C"][kept]
-            line += f" {pb:.3g} | {pc:.3g} | {100 * (pc / pb - 1):+.1f} % |"
+            line += f" {pb:.3g} | {pc:.3g} | {change(pb, pc)} |"
         lines.append(line)
-    line = f"| total | {total_b:.4f} | {total_c:.4f} | {100 * (total_c / total_b - 1):+.1f} % |"
+    line = f"| total | {total_b:.4f} | {total_c:.4f} | {change(total_b, total_c)} |"
     if paper:
         pb, pc = paper["P_B"]["total"], paper["P_C"]["total"]
-        line += f" {pb:.3g} | {pc:.3g} | {100 * (pc / pb - 1):+.1f} % |"
+        line += f" {pb:.3g} | {pc:.3g} | {change(pb, pc)} |"
     return lines + [line]
 
 
