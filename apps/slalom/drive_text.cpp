@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "slalom/sim/solve_times.hpp"
 
 namespace slalom::app {
-
 namespace {
 
 /// A crash is located to rounding: what prints as -0.00 is 0.
@@ -28,16 +27,11 @@ std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
                         drive.least_clearance_t);
   text += fmt::format("  least wheel load   {:.0f} N\n", drive.least_wheel_load);
 
-  std::vector<double> wall;
-  for (const auto& cycle : drive.cycles)
-    if (cycle.index > 0) wall.push_back(cycle.plan.report.wall_s);
+  const auto wall = sim::solve_times(drive);
   if (wall.empty()) return text;
-  std::sort(wall.begin(), wall.end());
-  const auto n = wall.size();
-  const double median = (wall[(n - 1) / 2] + wall[n / 2]) / 2;
   text += fmt::format(
-      "  solve times        {} cycles, median {:.3f} s, greatest {:.3f} s, tex {:g} s\n", n, median,
-      wall.back(), scenario.loop.tex);
+      "  solve times        {} cycles, median {:.3f} s, greatest {:.3f} s, tex {:g} s\n",
+      wall.size(), sim::median(wall), sim::greatest(wall), scenario.loop.tex);
   return text;
 }
 

@@ -1,12 +1,12 @@
 #include "slalom/io/drive_files.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "file_set.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/io/version.hpp"
+#include "slalom/sim/solve_times.hpp"
 #include "slalom/study/report.hpp"
 
 namespace slalom::io {
@@ -23,17 +23,6 @@ Json text_or_null(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const auto n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
-
-double greatest(const std::vector<double>& values) {
-  return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
-}
-
 Json warm_up_json(const sim::Cycle& cycle) {
   const auto& report = cycle.plan.report;
   return {{"status", report.status},
@@ -44,17 +33,12 @@ Json warm_up_json(const sim::Cycle& cycle) {
 
 /// Median and greatest time of the solves on the clock; the warm-up stands by itself.
 void add_solve_times(Json& summary, const sim::Drive& drive) {
-  std::vector<double> wall, cpu;
-  for (const auto& cycle : drive.cycles) {
-    if (cycle.index == 0) continue;
-    wall.push_back(cycle.plan.report.wall_s);
-    cpu.push_back(cycle.plan.report.cpu_s);
-  }
+  const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
   summary["cycles"] = wall.size();
-  summary["solve_time_median_s"] = number(median(wall));
-  summary["solve_time_max_s"] = number(greatest(wall));
-  summary["cpu_time_median_s"] = number(median(cpu));
-  summary["cpu_time_max_s"] = number(greatest(cpu));
+  summary["solve_time_median_s"] = number(sim::median(wall));
+  summary["solve_time_max_s"] = number(sim::greatest(wall));
+  summary["cpu_time_median_s"] = number(sim::median(cpu));
+  summary["cpu_time_max_s"] = number(sim::greatest(cpu));
   Json warm_up = nullptr;
   for (const auto& cycle : drive.cycles)
     if (cycle.index == 0) warm_up = warm_up_json(cycle);

@@ -31,24 +31,6 @@ std::string outcome_words(const sim::Drive& drive) {
   return "Ended";
 }
 
-std::vector<double> solve_times(const sim::Drive& drive, bool cpu) {
-  std::vector<double> times;
-  for (const auto& cycle : drive.cycles)
-    if (cycle.index > 0) times.push_back(cpu ? cycle.plan.report.cpu_s : cycle.plan.report.wall_s);
-  return times;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kNaN;
-  std::sort(values.begin(), values.end());
-  const auto n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
-
-double greatest(const std::vector<double>& values) {
-  return values.empty() ? kNaN : *std::max_element(values.begin(), values.end());
-}
-
 double mean_speed(const sim::Drive& drive) {
   const auto& plant = drive.plant;
   if (plant.empty()) return kNaN;

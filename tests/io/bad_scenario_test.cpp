@@ -220,7 +220,8 @@ TEST(BadScenario, AFileThatAScenarioNames) {
   expect_contains(message_of({folder / "my.yaml", {}, {}, {}}),
                   {"car.yaml:1:24", "unit 'lb' of m", "'kg'"});
   test::write(folder / "my.yaml", kGood + "vehicle: lorry.yaml\n");
-  expect_contains(message_of({folder / "my.yaml", {}, {}, {}}), {"lorry.yaml: found no such file"});
+  expect_contains(message_of({folder / "my.yaml", {}, {}, {}}),
+                  {"my.yaml:3:10: found vehicle 'lorry.yaml', expected an existing file"});
   expect_contains(message_of_text(kGood + "vehicle: humvee\n"),
                   {"my.yaml:3:10", "vehicle 'humvee'", "hmmwv"});
   expect_contains(message_of_text(kGood + "planner: {base: P_Z}\n"),

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "slalom/sim/drive.hpp"
+
+namespace slalom::sim {
+
+/// Wall-clock or CPU times of the cycles on the clock, the warm-up left out [s].
+std::vector<double> solve_times(const Drive& drive, bool cpu = false);
+
+/// The mean of the middle two for an even number; NaN for none.
+double median(std::vector<double> values);
+/// NaN for no values.
+double greatest(const std::vector<double>& values);
+
+}  // namespace slalom::sim

@@ -1,0 +1,26 @@
+#include "slalom/sim/solve_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slalom::sim {
+
+std::vector<double> solve_times(const Drive& drive, bool cpu) {
+  std::vector<double> times;
+  for (const auto& cycle : drive.cycles)
+    if (cycle.index > 0) times.push_back(cpu ? cycle.plan.report.cpu_s : cycle.plan.report.wall_s);
+  return times;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const auto n = values.size();
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+double greatest(const std::vector<double>& values) {
+  return values.empty() ? std::nan("") : *std::max_element(values.begin(), values.end());
+}
+
+}  // namespace slalom::sim

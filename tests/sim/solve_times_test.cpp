@@ -1,0 +1,32 @@
+#include "slalom/sim/solve_times.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace slalom::sim {
+namespace {
+
+TEST(SolveTimes, TheWarmUpIsLeftOut) {
+  Drive drive;
+  for (int index : {0, 1, 2}) {
+    Cycle cycle;
+    cycle.index = index;
+    cycle.plan.report.wall_s = 10 - index;
+    cycle.plan.report.cpu_s = 20 - index;
+    drive.cycles.push_back(cycle);
+  }
+  EXPECT_EQ(solve_times(drive), (std::vector<double>{9, 8}));
+  EXPECT_EQ(solve_times(drive, true), (std::vector<double>{19, 18}));
+}
+
+TEST(SolveTimes, MedianAndGreatestOfUnsortedValues) {
+  EXPECT_EQ(median({5, 1, 3}), 3);
+  EXPECT_EQ(median({5, 1, 3, 2}), 2.5);
+  EXPECT_TRUE(std::isnan(median({})));
+  EXPECT_EQ(greatest({5, 7, 3}), 7);
+  EXPECT_TRUE(std::isnan(greatest({})));
+}
+
+}  // namespace
+}  // namespace slalom::sim
