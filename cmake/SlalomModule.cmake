@@ -63,24 +63,36 @@ function(slalom_library)
   target_link_libraries(slalom PRIVATE ${ARG_DEPENDS})
 endfunction()
 
-# slalom_test_module(NAME): GoogleTest programs of tests/NAME.
+# slalom_test_module(NAME [LIBRARIES ...]): GoogleTest programs of tests/NAME.
 #   *_test.cpp       test_NAME, label `unit`: run in every build, with sanitizers too
 #   *_slow_test.cpp  test_NAME_slow, label `slow`: whole drives and the like, run in Release only
+#   */*.cpp          a library for both, such as a collection of problems
+# LIBRARIES are what these need besides the module itself.
 function(slalom_test_module name)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  set(libraries slalom_${name} ${ARG_LIBRARIES})
+  file(GLOB support CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${name}/*/*.cpp)
+  if(support)
+    add_library(test_${name}_support STATIC EXCLUDE_FROM_ALL ${support})
+    target_compile_options(test_${name}_support PRIVATE ${SLALOM_WARNINGS})
+    target_include_directories(test_${name}_support PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_link_libraries(test_${name}_support PUBLIC ${libraries})
+    list(PREPEND libraries test_${name}_support)
+  endif()
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${name}/*_test.cpp)
   set(slow_sources ${sources})
   list(FILTER slow_sources INCLUDE REGEX "_slow_test\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_slow_test\\.cpp$")
-  slalom_test_program(test_${name} ${name} unit ${sources})
-  slalom_test_program(test_${name}_slow ${name} slow ${slow_sources})
+  slalom_test_program(test_${name} "${libraries}" unit ${sources})
+  slalom_test_program(test_${name}_slow "${libraries}" slow ${slow_sources})
 endfunction()
 
-function(slalom_test_program target module label)
+function(slalom_test_program target libraries label)
   if(NOT ARGN)
     return()
   endif()
   add_executable(${target} EXCLUDE_FROM_ALL ${ARGN})
-  target_link_libraries(${target} PRIVATE slalom_${module} GTest::gtest GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE ${libraries} GTest::gtest GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE SLALOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_dependencies(${label}_tests ${target})
