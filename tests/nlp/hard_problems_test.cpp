@@ -88,6 +88,28 @@ TEST_P(SolvableProblem, DependentEquations) {
   expect_solved(nonlinear, -1);
 }
 
+TEST_P(SolvableProblem, EquationOfTwoInequalities) {
+  // No point is strictly inside both rows: the multipliers are not bounded.
+  Statement p;
+  const auto x = p.variables({4, -2});
+  p.minimise(square(x[1]) + square(x[2]));
+  p.nonnegative(x[1] + x[2] - 1);
+  p.nonnegative(1 - x[1] - x[2]);
+  expect_solved(p, 0.5);
+}
+
+TEST_P(SolvableProblem, Complementarity) {
+  // x1 x2 <= 0 with x >= 0: no constraint qualification holds at any feasible point.
+  for (const bool equation : {false, true}) {
+    Statement p;
+    const auto x = p.variables({0.6, 0.4});
+    p.lower({0});
+    p.minimise(square(x[1] - 1) + square(x[2] - 1));
+    p.between(equation ? 0 : -kInf, x[1] * x[2], 0, "complementarity");
+    expect_solved(p, 1);
+  }
+}
+
 TEST_P(SolvableProblem, SingularHessianAndManyOptima) {
   Statement p;
   const auto x = p.variables({2, 3, 4});

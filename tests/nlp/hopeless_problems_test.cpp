@@ -10,6 +10,33 @@ class HopelessProblem : public HardProblem {};
 INSTANTIATE_TEST_SUITE_P(BackEnds, HopelessProblem, testing::ValuesIn(backends()),
                          [](const auto& info) { return info.param; });
 
+// --- unbounded ---------------------------------------------------------------------------------
+
+TEST_P(HopelessProblem, UnboundedAlongABound) {
+  Statement p;
+  const auto x = p.variables({1, 1});
+  p.lower({0});
+  p.minimise(square(x[1]) - x[2]);
+  expect_unbounded(p);
+}
+
+TEST_P(HopelessProblem, UnboundedAlongARow) {
+  Statement p;
+  const auto x = p.variables({1, 2, 3});
+  p.minimise(-x[1] - x[2]);
+  p.zero(x[1] - x[2]);
+  p.nonnegative(x[1] + x[3]);
+  expect_unbounded(p);
+}
+
+TEST_P(HopelessProblem, UnboundedWithNegativeCurvature) {
+  Statement p;
+  const auto x = p.variables({1, 2});
+  p.minimise(-square(x[1]) + x[2]);
+  p.zero(x[1] - x[2]);
+  expect_unbounded(p);
+}
+
 // --- infeasible --------------------------------------------------------------------------------
 
 TEST_P(HopelessProblem, RowAgainstBounds) {
@@ -142,6 +169,15 @@ TEST_P(HopelessProblem, StepsBackFromNumbersThatAreNone) {
   p.zero(log(x[1]) + 2);
   const Answer answer = expect_solved(p, std::exp(-4.0));
   EXPECT_FALSE(answer.fault);
+}
+
+TEST_P(HopelessProblem, NotANumberInTheWay) {
+  // Falls towards x = 1, and is not defined below: steps shrink to nothing before the edge.
+  if (GetParam() == "ipopt") GTEST_SKIP() << "Ipopt 3.11 takes steps of no length to the end";
+  Statement p;
+  const auto x = p.variables({3});
+  p.minimise(x[1] + pow(x[1] - 1, 2.5));
+  expect_invalid(p, "objective", "");
 }
 
 }  // namespace
