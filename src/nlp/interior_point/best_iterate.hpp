@@ -13,12 +13,11 @@ class BestIterate {
   /// `violation`: largest, in the user's units; `barrier`: at the last mu.
   void offer(const Iterate& at, double violation, double barrier);
   bool empty() const { return !known_; }
+  bool feasible() const { return known_ && violation_ <= tolerance_; }
   /// Copies the point into `at`, with mu / slack for the multipliers of bounds.
   void restore(const Model& model, double mu, Iterate& at) const;
 
  private:
-  bool feasible() const { return violation_ <= tolerance_; }
-
   std::vector<double> w_, y_;
   bool known_ = false;
   double tolerance_ = 0, violation_ = 0, barrier_ = 0;

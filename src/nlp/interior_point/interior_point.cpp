@@ -22,6 +22,7 @@ using namespace ipm;
 
 constexpr double kMostVariable = 1e20;  ///< beyond, iterates diverge
 constexpr int kMostTinySteps = 2;
+constexpr double kRoom = 1e-9;
 
 /// The workspace of one problem structure, and a solve on it.
 class Run final : public Restoration::Watch {
@@ -43,7 +44,13 @@ class Run final : public Restoration::Watch {
 
   void solve(Problem& problem, const Start& start, const Options& options, Answer& answer) {
     begin(problem, options);
-    const Status status = enough_freedom() ? iterate(start) : Status::too_few_freedoms;
+    Status status = enough_freedom() ? iterate(start) : Status::too_few_freedoms;
+    if (status == Status::numerical_failure && options.floor == 0 && best_.feasible()) {
+      // Rows that leave no interior have no central path: once more, with a little room.
+      descent_.model.set_room(kRoom);
+      status = iterate(start);
+      descent_.model.set_room(0);
+    }
     fill(status, start, answer);
   }
 
@@ -74,7 +81,10 @@ class Run final : public Restoration::Watch {
     if (floor > 0)
       return descent_.barrier.at_least() && s.dual <= options_->dual_tol &&
              s.primal <= options_->constraint_tol && s.off_centre(floor) <= options_->floor_tol;
-    return s.error(0) <= options_->tol;
+    const double unit = descent_.model.objective_scale();  // the checker's terms
+    return s.error(0) <= options_->tol && s.dual <= options_->dual_tol * unit &&
+           s.complementarity(0) <= options_->dual_tol * unit &&
+           descent_.model.violation(descent_.point.e) <= options_->constraint_tol;
   }
 
   /// Along the step, by line search or, after many short ones, by the watchdog's leap.
@@ -93,7 +103,8 @@ class Run final : public Restoration::Watch {
   /// When no step is acceptable: less violation first, then on. Empty: go on.
   std::optional<Status> restore() {
     Point& point = descent_.point;
-    if (point.local.violation <= 1e-2 * options_->constraint_tol) return Status::numerical_failure;
+    if (point.local.violation <= 1e-2 * options_->constraint_tol)
+      return descent_.last.faulted ? Status::invalid_number : Status::numerical_failure;
     descent_.search.filter().add(descent_.search.merit(point, descent_.barrier.mu()));
     if (!restoration_) restoration_.emplace(descent_);
     restoration_->refresh();
@@ -194,7 +205,8 @@ class Run final : public Restoration::Watch {
       answer.point.x = start.x;
       answer.objective = answer.violation = 0;
     } else {
-      if (status != Status::solved) go_back_to_best();
+      // An infeasible problem's answer is where the sum of its violations is least.
+      if (status != Status::solved && status != Status::infeasible) go_back_to_best();
       hand_out(model, descent_.point.at, answer.point);
       answer.objective = descent_.point.e.objective / model.objective_scale();
       answer.violation = model.violation(descent_.point.e);

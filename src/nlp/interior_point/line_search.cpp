@@ -11,6 +11,7 @@ namespace {
 // Constants of Waechter & Biegler 2006, section 4.
 constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3;
 constexpr double kEta = 1e-8, kGammaAlpha = 0.05, kKappaSoc = 0.99, kTau = 0.99;
+constexpr double kRounding = 1e-15;
 constexpr int kMaxCorrections = 4;
 
 double longest(double reach, double mu) {
@@ -97,19 +98,24 @@ bool LineSearch::acceptable(const Merit& now, const Merit& trial, double slope, 
          trial.barrier <= now.barrier - kGammaPhi * now.violation + rounding(now.barrier);
 }
 
-double LineSearch::least_alpha(const Merit& now, double slope) const {
-  double least = kGammaTheta;
+/// Where backtracking ends (eq. 23), and no shorter than rounding lets a step be.
+double LineSearch::least_alpha(const Merit& now, double slope, const Point& point,
+                               const Step& step) const {
+  double least = kGammaTheta, change = 0;
   if (slope < 0) {
     least = std::min(least, kGammaPhi * now.violation / -slope);
     if (now.violation <= small_violation_)
       least = std::min(least, kDelta * std::pow(now.violation, kSTheta) / std::pow(-slope, kSPhi));
   }
-  return kGammaAlpha * least;
+  if (kGammaAlpha * least > kRounding) return kGammaAlpha * least;
+  for (std::size_t i = 0; i < model_.primal(); ++i)
+    change = std::max(change, std::fabs(step.w[i]) / (1 + std::fabs(point.at.w[i])));
+  return std::max(kGammaAlpha * least, kRounding / change);
 }
 
 LineSearch::Result LineSearch::search(Newton& newton, double mu, const Step& step, Point& point) {
   const Merit now = merit(point, mu);
-  const double slope = this->slope(point, step), least = least_alpha(now, slope);
+  const double slope = this->slope(point, step), least = least_alpha(now, slope, point, step);
   Result result;
   result.alpha_dual = longest(step.reach.dual, mu);
   bool armijo = false;
@@ -118,6 +124,7 @@ LineSearch::Result LineSearch::search(Newton& newton, double mu, const Step& ste
     ++result.trials;
     Merit trial{};
     const bool finite = try_step(point, step, alpha, mu, result.trials == 1, trial);
+    result.faulted = !finite && model_.fault();
     if (finite && acceptable(now, trial, slope, alpha, armijo)) {
       result.accepted = true;
       result.alpha = alpha;
@@ -126,7 +133,6 @@ LineSearch::Result LineSearch::search(Newton& newton, double mu, const Step& ste
     }
     if (!result.accepted) continue;
     if (!armijo) filter_.add(now);
-    result.filtered = !armijo;
     std::swap(point.at.zl, trial_.at.zl);
     std::swap(point.at.zu, trial_.at.zu);
     std::swap(point, trial_);

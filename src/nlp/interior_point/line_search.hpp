@@ -43,7 +43,7 @@ class LineSearch {
     double alpha = 0, alpha_dual = 0;
     int trials = 0;
     int corrections = 0;  ///< second-order corrections tried
-    bool filtered = false;  ///< the old point went into the filter
+    bool faulted = false;   ///< the last trial met a number that is not finite
   };
   /// On acceptance `point` is the new iterate, its multipliers y moved, those of bounds not yet. The
   /// first trial evaluates derivatives too, for it is mostly accepted.
@@ -60,7 +60,7 @@ class LineSearch {
                 Merit& merit);
   bool correct(Newton& newton, const Point& point, double mu, const Step& step, const Merit& now,
                double slope, double alpha, Result& result, bool& armijo);
-  double least_alpha(const Merit& now, double slope) const;
+  double least_alpha(const Merit& now, double slope, const Point& point, const Step& step) const;
 
   Model& model_;
   Filter filter_;

@@ -55,8 +55,9 @@ void Model::refresh(Problem& problem) {
   std::copy(limits.xl.begin(), limits.xl.end(), lower_.begin());
   std::copy(limits.xu.begin(), limits.xu.end(), upper_.begin());
   for (std::size_t r = 0; r < rows(); ++r) {
-    lower_[n + r] = limits.gl[r] * row_scale_[r];
-    upper_[n + r] = limits.gu[r] * row_scale_[r];
+    const double room = equation_[r] ? 0 : room_;
+    lower_[n + r] = (limits.gl[r] - room) * row_scale_[r];
+    upper_[n + r] = (limits.gu[r] + room) * row_scale_[r];
     users_unit_[r] = 1 / (row_scale_[r] * shape_->row_scale[r]);
   }
   for (const auto i : constant_) {

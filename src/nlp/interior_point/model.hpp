@@ -35,6 +35,10 @@ class Model {
   /// Scales objective and rows (Waechter & Biegler 2006, section 3.8); all 1 by default.
   void set_scale(double objective, std::span<const double> rows);
   double objective_scale() const { return objective_scale_; }
+  /// Moves both sides of every inequality outwards, for rows that leave no interior (the same units
+  /// as the problem's rows). Takes effect at the next refresh.
+  void set_room(double room) { room_ = room; }
+  double room() const { return room_; }
   std::span<const double> row_scale() const { return row_scale_; }
 
   Problem& problem() { return *problem_; }
@@ -91,7 +95,7 @@ class Model {
   kkt::RowBlocks row_blocks_;
   kkt::SymmetricRuns hessian_runs_;
   kkt::CondensedHessian condensed_;
-  double objective_scale_ = 1;
+  double objective_scale_ = 1, room_ = 0;
   std::vector<double> row_scale_, users_unit_;  ///< by row; users_unit_: user's value / e.rows
   std::vector<double> scaled_y_;
   bool scaled_ = false;

@@ -8,7 +8,9 @@ namespace slalom::nlp::ipm {
 namespace {
 
 constexpr double kSufficient = 0.9;  ///< of the violation, at most, to go on with (section 3.3)
-constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-9;
+/// Of its own errors, in units of rho; and its least barrier parameter, for slacks of mu / rho are to
+/// stay well above rounding.
+constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
 
 }  // namespace
 
@@ -19,6 +21,7 @@ Restoration::Restoration(Descent& main) : main_(main), inner_(main.model.problem
 }
 
 void Restoration::refresh() {
+  inner_.model.set_room(main_.model.room());
   inner_.model.refresh(main_.model.problem());
   inner_.model.set_scale(1, main_.model.row_scale());
 }
@@ -89,8 +92,8 @@ Restoration::Outcome Restoration::run(Watch& watch) {
   for (;;) {
     if (watch.stop()) return Outcome::stopped;
     inner_.take_survey();
-    if (inner_.survey.error(0) <= kTolerance ||
-        (inner_.barrier.at_least() && inner_.survey.error(kLeastBarrier) <= kTolerance)) {
+    if (inner_.barrier.at_least() && inner_.survey.primal <= kTolerance &&
+        inner_.survey.error(kLeastBarrier) <= kTolerance * elastic_.rho) {
       hand_back();
       return Outcome::infeasible;
     }

@@ -16,7 +16,7 @@ double scale(double sum, std::size_t count) {
 }  // namespace
 
 double Survey::complementarity(double mu) const {
-  return std::max({most_product - mu, mu - least_product, 0.0});
+  return bounded ? std::max({most_product - mu, mu - least_product, 0.0}) : 0;
 }
 
 double Survey::error(double mu) const {
@@ -54,6 +54,7 @@ Survey Surveyor::operator()(const Point& point) {
     bounds += (s.end - s.begin) * ((s.lower ? 1u : 0u) + (s.upper ? 1u : 0u));
   }
   if (bounds > 0) {
+    survey.bounded = true;
     survey.least_product = products.least;
     survey.most_product = products.most;
     survey.mean_product = products.sum / static_cast<double>(bounds);

@@ -11,7 +11,8 @@ namespace slalom::nlp::ipm {
 struct Survey {
   double dual = 0;    ///< largest |gradient of the Lagrangian|
   double primal = 0;  ///< largest |row residual|
-  double least_product = 0, most_product = 0, mean_product = 0;  ///< of slack * multiplier
+  bool bounded = false;  ///< there are bounds, and so products of slack and multiplier:
+  double least_product = 0, most_product = 0, mean_product = 0;
   double dual_scale = 1, product_scale = 1;                      ///< s_d, s_c of eq. 5
 
   /// Largest |slack * multiplier - mu|.
