@@ -237,7 +237,8 @@ json profile(const ocp::Problem& problem, const std::vector<double>& x, int repe
   auto data = ocp::transcribe(problem, ocp::Mesh::uniform(settings().N), ocp::trapezoidal());
   const std::vector<double> y(data.structure.rows, 1.0);
   std::vector<double> rows(data.structure.rows), terms(data.terms.size());
-  std::vector<double> gradient(data.structure.variables), jacobian(data.structure.jacobian_row.size());
+  std::vector<double> gradient(data.structure.variables),
+      jacobian(data.structure.jacobian_row.size());
   std::vector<double> hessian(data.structure.hessian_row.size());
   json result;
   for (const auto set : kernel_sets()) {

@@ -13,7 +13,7 @@ struct Evaluator::Impl {
   std::shared_ptr<const Function::Impl> function;
   std::size_t lanes;
   std::vector<double> data, ahead, weights, values, jacobian, hessian;
-  std::vector<InputRow> inputs;             ///< variables, data, weights, what is computed ahead
+  std::vector<InputRow> inputs;  ///< variables, data, weights, what is computed ahead
   std::vector<double*> ahead_rows;
   TapeSpace ahead_space;
   struct Prepared {
@@ -91,8 +91,7 @@ std::span<const double> Evaluator::hessian() const {
 
 void Evaluator::data_changed() {
   Impl& e = *impl_;
-  if (!e.ahead.empty())
-    e.ahead_space.run(e.function->ahead(), {e.lanes, e.inputs, e.ahead_rows});
+  if (!e.ahead.empty()) e.ahead_space.run(e.function->ahead(), {e.lanes, e.inputs, e.ahead_rows});
 }
 
 void Evaluator::evaluate(Wanted wanted) {

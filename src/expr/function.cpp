@@ -98,7 +98,7 @@ std::vector<Dag::Id> Function::Impl::results(Wanted wanted) const {
 }
 
 const Tape& Function::Impl::get(Tapes& tapes, Wanted wanted, const Given& given,
-                                 const std::vector<Dag::Id>& family) const {
+                                const std::vector<Dag::Id>& family) const {
   const unsigned mask = mask_of(wanted);
   if (tapes.ready[mask].load(std::memory_order_acquire)) return tapes.tape[mask];
   if (wanted.jacobian) differentiate_once();
@@ -230,7 +230,8 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
   }
   if (wanted.hessian) {
     require(weights.size() == outputs() * lanes, "weights");
-    for (std::size_t i = 0; i < outputs(); ++i) inputs.push_back({weights.data() + i * lanes, false});
+    for (std::size_t i = 0; i < outputs(); ++i)
+      inputs.push_back({weights.data() + i * lanes, false});
     const std::size_t n = impl_->hessian.pattern.size();
     require(hessian.size() == n * lanes, "the Hessian");
     for (std::size_t i = 0; i < n; ++i) results.push_back(hessian.data() + i * lanes);

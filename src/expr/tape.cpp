@@ -217,8 +217,7 @@ void TapeSpace::run_whole(const Tape& tape, const TapeRun& rows, std::size_t lan
   for (std::size_t k = 0; k < tape.outputs.size(); ++k)
     if (tape.outputs[k].direct) rows_[tape.outputs[k].row] = rows.outputs[k] + lane;
   kernel()(tape, rows_.data(), width);
-  for (const auto k : tape.copied)
-    copy(rows_[tape.outputs[k].row], width, rows.outputs[k] + lane);
+  for (const auto k : tape.copied) copy(rows_[tape.outputs[k].row], width, rows.outputs[k] + lane);
 }
 
 /// Fewer lanes than a block has: the idle ones compute the last one again.

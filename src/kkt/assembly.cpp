@@ -55,15 +55,15 @@ class Planner {
     }
   }
 
-  void add(std::vector<FrontPlan::Term> FrontPlan::* list, std::size_t source, std::size_t a,
+  void add(std::vector<FrontPlan::Term> FrontPlan::*list, std::size_t source, std::size_t a,
            std::size_t b) {
     const auto left_out = [&](std::size_t id) { return id < p_.variables && p_.fixed[id]; };
     if (left_out(a) || left_out(b)) return;
     const auto [first, last] = std::minmax(front_[a], front_[b]);
     const std::size_t border = plans_.size() - 1;
     // Of the next stage, a front knows the variables, but not the multipliers.
-    const bool multiplier_ahead = (front_[a] > first && a >= p_.variables) ||
-                                  (front_[b] > first && b >= p_.variables);
+    const bool multiplier_ahead =
+        (front_[a] > first && a >= p_.variables) || (front_[b] > first && b >= p_.variables);
     if (last != first && last != border && (last != first + 1 || multiplier_ahead))
       throw Error("kkt: an entry couples stages " + std::to_string(front_[a]) + " and " +
                   std::to_string(front_[b]) +

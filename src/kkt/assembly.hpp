@@ -10,8 +10,8 @@ namespace slalom::kkt {
 /// Which rows and numbers of a system belong to one front. Ids: variable i is i, the multiplier of
 /// equation e is variables + e.
 struct FrontPlan {
-  std::vector<std::uint32_t> ids;  ///< of its rows: to eliminate, next stage's variables, border
-  std::size_t own = 0;             ///< how many of them it may eliminate
+  std::vector<std::uint32_t> ids;    ///< of its rows: to eliminate, next stage's variables, border
+  std::size_t own = 0;               ///< how many of them it may eliminate
   std::size_t equations_so_far = 0;  ///< in this front and those before it
 
   struct Term {

@@ -15,8 +15,8 @@ struct Block {
   double* a;
   std::size_t ld, size, eliminated;
   const std::uint8_t* order;  ///< 1 or 2 where a pivot of that order starts, 0 inside a 2
-  double* inverse;  ///< D^-1: [2p] the diagonal, [2p + 1] what couples p with p + 1
-  double* panel;    ///< room for 4 columns
+  double* inverse;            ///< D^-1: [2p] the diagonal, [2p + 1] what couples p with p + 1
+  double* panel;              ///< room for 4 columns
 };
 
 /// Least ratio of a pivot to the largest entry beside it that a factorisation puts up with. Small,

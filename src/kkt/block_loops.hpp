@@ -226,14 +226,12 @@ class Loops {
     T sum[4] = {};
     for (std::size_t r = p + 4; r < b.ld; r += V::size) {
       const T value = V::load(y + r);
-      for (std::size_t e = 0; e < 4; ++e)
-        sum[e] = V::fma(V::load(l + e * b.ld + r), value, sum[e]);
+      for (std::size_t e = 0; e < 4; ++e) sum[e] = V::fma(V::load(l + e * b.ld + r), value, sum[e]);
     }
     const double y3 = y[p + 3] - V::sum(sum[3]);
     const double y2 = y[p + 2] - V::sum(sum[2]) - l[2 * b.ld + p + 3] * y3;
     const double y1 = y[p + 1] - V::sum(sum[1]) - l[b.ld + p + 2] * y2 - l[b.ld + p + 3] * y3;
-    const double y0 =
-        y[p] - V::sum(sum[0]) - l[p + 1] * y1 - l[p + 2] * y2 - l[p + 3] * y3;
+    const double y0 = y[p] - V::sum(sum[0]) - l[p + 1] * y1 - l[p + 2] * y2 - l[p + 3] * y3;
     V::store_four(y + p, y0, y1, y2, y3);
   }
 };

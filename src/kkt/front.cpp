@@ -29,8 +29,7 @@ void Front::reset(std::size_t size, std::size_t candidates) {
   size_ = size;
   candidates_ = candidates;
   eliminated_ = 0;
-  for (std::size_t col = 0; col < size; ++col)
-    std::fill_n(&a_[col * ld_ + col], size - col, 0.0);
+  for (std::size_t col = 0; col < size; ++col) std::fill_n(&a_[col * ld_ + col], size - col, 0.0);
 }
 
 double Front::largest(std::size_t j, std::size_t skip) const {
@@ -154,8 +153,7 @@ Inertia Front::eliminate(bool force) {
   if (force)
     while (eliminated_ < candidates_) {
       bool picked = false;
-      for (const double threshold : kThresholds)
-        picked = picked || pick_pivot(threshold, inertia);
+      for (const double threshold : kThresholds) picked = picked || pick_pivot(threshold, inertia);
       if (!picked) force_one(inertia);
     }
   return inertia;

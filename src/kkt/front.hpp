@@ -22,9 +22,7 @@ class Front {
   /// Starts a matrix of zeros; `candidates` <= `size` <= capacity. ids name its rows.
   void reset(std::size_t size, std::size_t candidates);
   /// Entry of the lower triangle at either (i, j) or (j, i).
-  double& at(std::size_t i, std::size_t j) {
-    return i >= j ? a_[j * ld_ + i] : a_[i * ld_ + j];
-  }
+  double& at(std::size_t i, std::size_t j) { return i >= j ? a_[j * ld_ + i] : a_[i * ld_ + j]; }
   double at(std::size_t i, std::size_t j) const {
     return i >= j ? a_[j * ld_ + i] : a_[i * ld_ + j];
   }

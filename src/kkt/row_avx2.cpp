@@ -3,6 +3,6 @@
 namespace slalom::kkt {
 
 const RowKernels kRowAvx2 = {VecRowLoops::multiply, VecRowLoops::transposed, VecRowLoops::symmetric,
-                           VecRowLoops::condense};
+                             VecRowLoops::condense};
 
 }  // namespace slalom::kkt

@@ -2,7 +2,7 @@
 
 namespace slalom::kkt {
 
-const RowKernels kRowBaseline = {VecRowLoops::multiply, VecRowLoops::transposed, VecRowLoops::symmetric,
-                           VecRowLoops::condense};
+const RowKernels kRowBaseline = {VecRowLoops::multiply, VecRowLoops::transposed,
+                                 VecRowLoops::symmetric, VecRowLoops::condense};
 
 }  // namespace slalom::kkt

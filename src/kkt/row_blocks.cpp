@@ -82,15 +82,15 @@ void RowBlocks::multiply(std::span<const double> values, std::span<const double>
 
 void RowBlocks::add_transposed(std::span<const double> values, std::span<const double> y,
                                std::span<double> out) const {
-  row_kernels().transposed(blocks_.data(), blocks_.size(), entries_.data(), values.data(),
-                           y.data(), nullptr, out.data(), nullptr);
+  row_kernels().transposed(blocks_.data(), blocks_.size(), entries_.data(), values.data(), y.data(),
+                           nullptr, out.data(), nullptr);
 }
 
 void RowBlocks::add_transposed(std::span<const double> values, std::span<const double> y,
                                std::span<const double> y2, std::span<double> out,
                                std::span<double> out2) const {
-  row_kernels().transposed(blocks_.data(), blocks_.size(), entries_.data(), values.data(),
-                           y.data(), y2.data(), out.data(), out2.data());
+  row_kernels().transposed(blocks_.data(), blocks_.size(), entries_.data(), values.data(), y.data(),
+                           y2.data(), out.data(), out2.data());
 }
 
 SymmetricRuns::SymmetricRuns(std::span<const std::uint32_t> row,

@@ -58,8 +58,7 @@ class RowLoops {
       } else if (p.step == 1) {
         add3(p.count, w, a, b, out + p.target);
       } else {
-        for (std::size_t i = 0; i < p.count; ++i)
-          out[index[p.target + i]] += w[i] * a[i] * b[i];
+        for (std::size_t i = 0; i < p.count; ++i) out[index[p.target + i]] += w[i] * a[i] * b[i];
       }
     }
   }
@@ -72,10 +71,12 @@ class RowLoops {
   static void for_vectors(std::size_t n, F f) {
     std::size_t i = 0;
     for (; i + V::size <= n; i += V::size)
-      f(i, [](const double* p) { return V::load(p); }, [](double* p, T v) { V::store(p, v); });
+      f(
+          i, [](const double* p) { return V::load(p); }, [](double* p, T v) { V::store(p, v); });
     if (i < n)
-      f(i, [rest = n - i](const double* p) { return V::load_part(p, rest); },
-        [rest = n - i](double* p, T v) { V::store_part(p, rest, v); });
+      f(
+          i, [rest = n - i](const double* p) { return V::load_part(p, rest); },
+          [rest = n - i](double* p, T v) { V::store_part(p, rest, v); });
   }
 
   /// out[i] += a[i] x[i stride]
@@ -91,7 +92,8 @@ class RowLoops {
         store(out + i, V::fma(load(a + i), load(x + i), load(out + i)));
       });
     } else {
-      for (std::size_t i = 0; i < n; ++i) out[i] += a[i] * x[static_cast<std::ptrdiff_t>(i) * stride];
+      for (std::size_t i = 0; i < n; ++i)
+        out[i] += a[i] * x[static_cast<std::ptrdiff_t>(i) * stride];
     }
   }
 
@@ -100,9 +102,8 @@ class RowLoops {
                          double* out) {
     if (stride == 0) {
       T sum{};
-      for_vectors(n, [&](std::size_t i, auto load, auto) {
-        sum = V::fma(load(a + i), load(y + i), sum);
-      });
+      for_vectors(
+          n, [&](std::size_t i, auto load, auto) { sum = V::fma(load(a + i), load(y + i), sum); });
       *out += V::sum(sum);
     } else if (stride == 1) {
       for_vectors(n, [&](std::size_t i, auto load, auto store) {

@@ -16,7 +16,8 @@ std::size_t first_bad(std::span<const double> numbers) {
 
 void Batch::finish() {
   evaluator.emplace(function, lanes);
-  for (const nlp::Parts parts : {nlp::Parts{.values = true}, {.values = true, .derivatives = true},
+  for (const nlp::Parts parts : {nlp::Parts{.values = true},
+                                 {.values = true, .derivatives = true},
                                  {.hessian = true},
                                  {.values = true, .derivatives = true, .hessian = true}})
     evaluator->prepare({parts.values, parts.derivatives, parts.hessian});
@@ -35,8 +36,7 @@ void Batch::finish() {
     if (in_place) continue;
     evaluator->set_variable(i, &copied_[i * lanes], false);
     for (std::size_t lane = 0; lane < lanes; ++lane)
-      copies.push_back(
-          {from[lane], static_cast<std::uint32_t>(i * lanes + lane), gather_scale[i]});
+      copies.push_back({from[lane], static_cast<std::uint32_t>(i * lanes + lane), gather_scale[i]});
   }
   copies_ = LaneRuns(copies);
 }

@@ -51,7 +51,7 @@ struct Batch {
     std::uint32_t first;
   };
   std::vector<Source> sources_;
-  LaneRuns copies_;           ///< into copied_
+  LaneRuns copies_;             ///< into copied_
   std::vector<double> copied_;  ///< variables that do not stand in a row, or are scaled
 };
 

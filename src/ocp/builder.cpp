@@ -544,8 +544,8 @@ void fill_data(const Problem& problem, Transcribed& transcribed) {
     for (std::size_t i = 0; i < data.sources.size(); ++i)
       for (std::size_t lane = 0; lane < batch.lanes; ++lane)
         numbers[i * batch.lanes + lane] =
-            datum(problem, transcribed.layout, data.family, data.sources[i],
-                  batch.lane_point[lane], batch.lane_member[lane]);
+            datum(problem, transcribed.layout, data.family, data.sources[i], batch.lane_point[lane],
+                  batch.lane_member[lane]);
     batch.evaluator->data_changed();
   }
 }

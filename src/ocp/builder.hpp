@@ -36,15 +36,15 @@ struct Transcribed {
   Layout layout;
   std::vector<Batch> batches;
   std::vector<BatchData> batch_data;  ///< one a batch
-  LaneRuns linear;  ///< from variables to rows
-  LaneRuns linear_jacobian;               ///< the same terms' coefficients, from a 1
-  std::vector<std::string> terms;         ///< cost terms switched on
+  LaneRuns linear;                    ///< from variables to rows
+  LaneRuns linear_jacobian;           ///< the same terms' coefficients, from a 1
+  std::vector<std::string> terms;     ///< cost terms switched on
   nlp::Structure structure;
   nlp::Limits limits;
   std::vector<RowName> row_names;
-  std::size_t defect_begin = 0;           ///< row of the first defect of state 0 in interval 0
-  std::size_t defects = 0;                ///< of an interval and state
-  std::vector<double> share_after;        ///< of each node's quadrature weight: the next interval's
+  std::size_t defect_begin = 0;     ///< row of the first defect of state 0 in interval 0
+  std::size_t defects = 0;          ///< of an interval and state
+  std::vector<double> share_after;  ///< of each node's quadrature weight: the next interval's
 };
 
 /// Row of a defect: for each defect of the scheme and each state, interval by interval.

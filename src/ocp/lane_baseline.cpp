@@ -3,6 +3,6 @@
 namespace slalom::ocp {
 
 const LaneKernels kLaneBaseline = {VecLaneLoops::scatter, VecLaneLoops::gather,
-                             VecLaneLoops::all_finite};
+                                   VecLaneLoops::all_finite};
 
 }  // namespace slalom::ocp

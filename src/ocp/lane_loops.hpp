@@ -51,17 +51,18 @@ class LaneLoops {
   static void for_vectors(std::size_t n, F f) {
     std::size_t i = 0;
     for (; i + V::size <= n; i += V::size)
-      f(i, [](const double* p) { return V::load(p); }, [](double* p, T v) { V::store(p, v); });
+      f(
+          i, [](const double* p) { return V::load(p); }, [](double* p, T v) { V::store(p, v); });
     if (i < n)
-      f(i, [rest = n - i](const double* p) { return V::load_part(p, rest); },
-        [rest = n - i](double* p, T v) { V::store_part(p, rest, v); });
+      f(
+          i, [rest = n - i](const double* p) { return V::load_part(p, rest); },
+          [rest = n - i](double* p, T v) { V::store_part(p, rest, v); });
   }
 
   static void set(const LaneRuns::Run& run, const double* c, const double* from, double* to) {
     if (run.ones)
-      for_vectors(run.count, [&](std::size_t i, auto load, auto store) {
-        store(to + i, load(from + i));
-      });
+      for_vectors(run.count,
+                  [&](std::size_t i, auto load, auto store) { store(to + i, load(from + i)); });
     else
       for_vectors(run.count, [&](std::size_t i, auto load, auto store) {
         store(to + i, load(c + i) * load(from + i));

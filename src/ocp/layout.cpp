@@ -118,8 +118,8 @@ std::string variable_name(const Problem& problem, const Layout& layout, std::siz
     if (layout.lifted_final[i] == index) return problem.states()[i].final_symbol.name();
   }
   const std::size_t which = index / layout.points();
-  const std::string& name = which < layout.nx ? problem.states()[which].name
-                                              : problem.controls()[which - layout.nx].name;
+  const std::string& name =
+      which < layout.nx ? problem.states()[which].name : problem.controls()[which - layout.nx].name;
   return name + " at " + layout.point_name(index % layout.points());
 }
 

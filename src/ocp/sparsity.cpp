@@ -108,8 +108,8 @@ class Filler {
   void linear_terms(const std::vector<RowTerm>& linear) {
     std::vector<Scatter> values, constant;
     for (const auto& term : linear) {
-      const double coefficient = term.coefficient * rows_[term.row].scale *
-                                 out_.structure.variable_scale[term.col];
+      const double coefficient =
+          term.coefficient * rows_[term.row].scale * out_.structure.variable_scale[term.col];
       values.push_back({narrow(term.col), narrow(term.row), coefficient});
       constant.push_back({0, jacobian_.number(term.row, term.col), coefficient});
     }

@@ -31,8 +31,8 @@ struct Use {
 /// Row part of structure, limits and names.
 void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out);
 
-/// Patterns, and the runs that add every batch's results into them. Entries are numbered as they are
-/// first met, formula by formula and within one lane by lane, which makes the runs long.
+/// Patterns, and the runs that add every batch's results into them. Entries are numbered as they
+/// are first met, formula by formula and within one lane by lane, which makes the runs long.
 void fill_sparsity(const std::vector<RowInfo>& rows, const std::vector<RowTerm>& linear,
                    const std::vector<std::vector<Use>>& uses, Transcribed& out);
 

@@ -20,9 +20,9 @@ enum class Coupling {
 ///   min f(x)   subject to   gl <= g(x) <= gu,   xl <= x <= xu
 ///
 /// Every variable belongs to a stage or, with stage number `stages`, to all of them (final time,
-/// static parameters, lifted copies): a global. Variables, rows and entries come in any order; where
-/// one formula stands at many stages, its entries best follow each other stage by stage, for then
-/// solvers run over them as over one vector.
+/// static parameters, lifted copies): a global. Variables, rows and entries come in any order;
+/// where one formula stands at many stages, its entries best follow each other stage by stage, for
+/// then solvers run over them as over one vector.
 struct Structure {
   /// Tells structures apart, so that a solver may keep its workspace from one solve to the next:
   /// next_id() for one that does not change any more; 0 keeps none.

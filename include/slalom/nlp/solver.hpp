@@ -35,8 +35,8 @@ struct IterationInfo {
   double violation = 0;  ///< largest residual of a row
   double dual = 0;       ///< largest |gradient of the Lagrangian|
   double mu = 0;
-  double step = 0;                   ///< largest |change of a variable or slack|
-  double delta_w = 0, delta_c = 0;   ///< regularisation of the Hessian and of the rows
+  double step = 0;                  ///< largest |change of a variable or slack|
+  double delta_w = 0, delta_c = 0;  ///< regularisation of the Hessian and of the rows
   double alpha_primal = 0, alpha_dual = 0;
   int trials = 0;  ///< of the line search
 };
@@ -52,7 +52,7 @@ struct Options {
   /// Deadline: this thread's processor time [s], callbacks not counted. interior_point takes no
   /// step that its longest one so far would carry past it.
   double time_limit = std::numeric_limits<double>::infinity();
-  bool warm_start = false;  ///< the start's multipliers are used
+  bool warm_start = false;                           ///< the start's multipliers are used
   BarrierRule barrier_rule = BarrierRule::adaptive;  ///< of interior_point, without a floor
   int print_level = 0;            ///< of the back end's own log, on standard output
   bool (*stop)(void*) = nullptr;  ///< polled each iteration; true ends the solve

@@ -56,9 +56,9 @@ bool Descent::leap() {
 void Descent::move_duals() {
   vector_kernels().reciprocals(model.segments(), point.local.bounded(model, point.at),
                                point.local.over_lower.data(), point.local.over_upper.data());
-  vector_kernels().move_duals(model.segments(), point.local.bounded(model, point.at),
-                              barrier.mu(), last.alpha_dual, kKappaSigma, step.zl.data(),
-                              step.zu.data(), point.at.zl.data(), point.at.zu.data());
+  vector_kernels().move_duals(model.segments(), point.local.bounded(model, point.at), barrier.mu(),
+                              last.alpha_dual, kKappaSigma, step.zl.data(), step.zu.data(),
+                              point.at.zl.data(), point.at.zu.data());
   point.measured = true;  // the line search has done the rest
 }
 

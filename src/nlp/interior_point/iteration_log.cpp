@@ -10,8 +10,7 @@ IterationInfo iteration_info(const Descent& d, int iteration, bool restoration) 
   info.iteration = iteration;
   info.restoration = restoration;
   info.objective = d.point.e.objective / d.model.objective_scale();
-  info.violation =
-      kernels.largest_magnitude(d.model.rows(), d.point.local.residuals.data());
+  info.violation = kernels.largest_magnitude(d.model.rows(), d.point.local.residuals.data());
   info.dual = d.survey.dual;
   info.mu = d.barrier.mu();
   info.step = kernels.largest_magnitude(d.model.primal(), d.step.w.data());
@@ -25,8 +24,9 @@ IterationInfo iteration_info(const Descent& d, int iteration, bool restoration) 
 
 void print(const IterationInfo& info) {
   if (info.iteration % 20 == 1)
-    std::printf("iter      objective  violation       dual  lg(mu)     |step|  delta_w  delta_c "
-                "alpha_d  alpha_p  ls\n");
+    std::printf(
+        "iter      objective  violation       dual  lg(mu)     |step|  delta_w  delta_c "
+        "alpha_d  alpha_p  ls\n");
   std::printf("%4d%c %14.7e %10.2e %10.2e %10.2e %10.2e %8.1e %8.1e %8.2e %8.2e %3d\n",
               info.iteration, info.restoration ? 'r' : ' ', info.objective, info.violation,
               info.dual, info.mu, info.step, info.delta_w, info.delta_c, info.alpha_dual,

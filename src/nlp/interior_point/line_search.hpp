@@ -12,7 +12,7 @@ namespace slalom::nlp::ipm {
 struct Point {
   Iterate at;
   Evaluation e;
-  Parts have;      ///< which parts of e are of this iterate
+  Parts have;             ///< which parts of e are of this iterate
   bool measured = false;  ///< local's reciprocals, residuals and the logarithms are too
   double logs = 0;        ///< sum of the logarithms of all slacks
   Local local;            ///< sigma and slope are of the iterate once a step is asked for
@@ -42,11 +42,11 @@ class LineSearch {
     bool accepted = false;
     double alpha = 0, alpha_dual = 0;
     int trials = 0;
-    int corrections = 0;  ///< second-order corrections tried
-    bool faulted = false;   ///< the last trial met a number that is not finite
+    int corrections = 0;   ///< second-order corrections tried
+    bool faulted = false;  ///< the last trial met a number that is not finite
   };
-  /// On acceptance `point` is the new iterate, its multipliers y moved, those of bounds not yet. The
-  /// first trial evaluates derivatives too, for it is mostly accepted.
+  /// On acceptance `point` is the new iterate, its multipliers y moved, those of bounds not yet.
+  /// The first trial evaluates derivatives too, for it is mostly accepted.
   Result search(Newton& newton, double mu, const Step& step, Point& point);
   /// The longest step without asking the filter: for the watchdog. False when it is not finite.
   [[nodiscard]] bool leap(double mu, const Step& step, Point& point, Result& result);

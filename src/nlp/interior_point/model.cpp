@@ -70,7 +70,8 @@ void Model::refresh(Problem& problem) {
 void Model::set_scale(double objective, std::span<const double> rows) {
   objective_scale_ = objective;
   std::copy(rows.begin(), rows.end(), row_scale_.begin());
-  scaled_ = objective != 1 || std::any_of(rows.begin(), rows.end(), [](double s) { return s != 1; });
+  scaled_ =
+      objective != 1 || std::any_of(rows.begin(), rows.end(), [](double s) { return s != 1; });
   refresh(*problem_);
 }
 
@@ -172,9 +173,9 @@ std::size_t Model::worst_row(const Evaluation& e) const {
   std::size_t worst = 0;
   double largest = 0;
   for (std::size_t r = 0; r < rows(); ++r) {
-    const double outside =
-        std::max(row_scale_[r] * limits.gl[r] - e.rows[r], e.rows[r] - row_scale_[r] * limits.gu[r]) *
-        users_unit_[r];
+    const double outside = std::max(row_scale_[r] * limits.gl[r] - e.rows[r],
+                                    e.rows[r] - row_scale_[r] * limits.gu[r]) *
+                           users_unit_[r];
     if (outside > largest) {
       largest = outside;
       worst = r;

@@ -25,8 +25,8 @@ void Local::resize(const Model& model) {
 }
 
 BoundedVector Local::bounded(const Model& model, const Iterate& at) const {
-  return {at.w.data(),        model.lower().data(), model.upper().data(), at.zl.data(),
-          at.zu.data(),       over_lower.data(),    over_upper.data()};
+  return {at.w.data(),  model.lower().data(), model.upper().data(), at.zl.data(),
+          at.zu.data(), over_lower.data(),    over_upper.data()};
 }
 
 Newton::Newton(Model& model) : model_(model), backend_(kkt::make_stage_ldlt(model.pattern())) {
@@ -213,9 +213,9 @@ double Newton::unsolved(const Evaluation& e, const Local& local, const Iterate& 
   model_.row_blocks().add_transposed(e.jacobian, multipliers_, force_);
   model_.hessian_runs().add_product(e.hessian, std::span(out.w).first(n), force_);
   for (std::size_t i = 0; i < n; ++i)
-    solution_[i] = model_.fixed(i) ? 0
-                                   : -(e.gradient[i] + local.slope[i] + force_[i] +
-                                       sigma_x_[i] * out.w[i]);
+    solution_[i] = model_.fixed(i)
+                       ? 0
+                       : -(e.gradient[i] + local.slope[i] + force_[i] + sigma_x_[i] * out.w[i]);
   for (std::size_t k = 0; k < model_.equations().size(); ++k) {
     const std::size_t r = model_.equations()[k];
     double left = -residuals[r] - products_[r] + delta_c_ * out.y[r];

@@ -8,8 +8,8 @@ namespace slalom::nlp::ipm {
 namespace {
 
 constexpr double kSufficient = 0.9;  ///< of the violation, at most, to go on with (section 3.3)
-/// Of its own errors, in units of rho; and its least barrier parameter, for slacks of mu / rho are to
-/// stay well above rounding.
+/// Of its own errors, in units of rho; and its least barrier parameter, for slacks of mu / rho are
+/// to stay well above rounding.
 constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
 
 }  // namespace

@@ -6,7 +6,11 @@
 namespace slalom::nlp::ipm {
 namespace {
 
-constexpr double kFirstBarrier = 0.1, kWarmBarrier = 1e-4, kPush = 1e-2, kWarmPush = 1e-6;
+constexpr double kFirstBarrier = 0.1, kPush = 1e-2, kWarmPush = 1e-2, kFloorPush = 1e-6;
+constexpr double kFarther = 10;
+/// How far a multiplier may hold a slack off its bound at a warm start: at a floor as far as it
+/// says, for there it is mu / slack; without, one next to zero says nothing.
+constexpr double kMostRoom = 0.1;
 constexpr double kMostGradient = 100, kLeastScale = 1e-8;
 
 /// A value inside its bounds by an absolute and a relative distance (section 3.6).
@@ -58,13 +62,40 @@ class Beginning {
         rows_(descent.point.e.rows),
         start_(start),
         warm_(options.warm_start),
-        mu_(descent.barrier.mu()) {}
+        floor_(options.floor > 0),
+        push_(!options.warm_start ? kPush
+              : options.floor > 0 ? kFloorPush
+                                  : kWarmPush),
+        barrier_(descent.barrier) {}
 
   void variables() {
-    const double push = warm_ ? kWarmPush : kPush;
     for (std::size_t i = 0; i < model_.variables(); ++i)
       at_.w[i] = model_.fixed(i) ? model_.constant(i)
-                                 : inside(start_.x[i], model_.lower()[i], model_.upper()[i], push);
+                                 : inside(start_.x[i], model_.lower()[i], model_.upper()[i], push_);
+  }
+
+  /// Mu for a warm start without floor: ten times the mean of slack * multiplier, which is about
+  /// the mu of a central point, and larger the further a shift has carried it off; at most that of
+  /// a cold start.
+  double complementarity() const {
+    double sum = 0;
+    std::size_t bounds = 0;
+    const auto add = [&](double slack, double z) {
+      if (!std::isfinite(slack)) return;
+      sum += std::fabs(slack) * z;
+      ++bounds;
+    };
+    const double objective = model_.objective_scale();
+    for (std::size_t i = 0; i < model_.variables(); ++i) {
+      add(at_.w[i] - model_.lower()[i], objective * start_.zl[i]);
+      add(model_.upper()[i] - at_.w[i], objective * start_.zu[i]);
+    }
+    for (std::size_t r = 0; r < model_.rows(); ++r) {
+      const double y = objective * start_.y[r] / model_.row_scale()[r];
+      add(rows_[r] - model_.lower()[model_.slack(r)], std::max(-y, 0.0));
+      add(model_.upper()[model_.slack(r)] - rows_[r], std::max(y, 0.0));
+    }
+    return bounds > 0 ? std::min(kFarther * sum / static_cast<double>(bounds), kFirstBarrier) : 0;
   }
 
   void multipliers() {
@@ -89,28 +120,35 @@ class Beginning {
   }
 
  private:
+  /// The row's value, but off its bound by as much as its multiplier would hold it there, within
+  /// reason.
   double slack(double row, double lower, double upper, double y) const {
-    const double push = warm_ ? kWarmPush : kPush;
-    double value = inside(row, lower, upper, push);
+    const double value = inside(row, lower, upper, push_);
+    if (!warm_) return value;
+    const auto room = [&](double z, double bound) {
+      const double held = z > 0 ? 0.1 * barrier_.mu() / z : push_;
+      return floor_ ? held : std::min(held, kMostRoom * std::max(1.0, std::fabs(bound)));
+    };
     if (std::isfinite(lower) && !std::isfinite(upper))
-      value = std::max(value, lower + (y < 0 ? 0.1 * mu_ / -y : push));
+      return std::max(value, lower + room(-y, lower));
     if (std::isfinite(upper) && !std::isfinite(lower))
-      value = std::min(value, upper - (y > 0 ? 0.1 * mu_ / y : push));
+      return std::min(value, upper - room(y, upper));
     return value;
   }
   /// The given multiplier or mu / slack, whichever is more central; 0 for an absent bound.
   double multiplier(double slack, double given) const {
     if (!std::isfinite(slack)) return 0;
-    const double ratio = slack * given / mu_;
-    return ratio > 0.1 && ratio < 10 ? given : mu_ / slack;
+    const double mu = barrier_.mu(), ratio = slack * given / mu;
+    return ratio > 0.1 && ratio < 10 ? given : mu / slack;
   }
 
   const Model& model_;
   Iterate& at_;
   const std::vector<double>& rows_;
   const Start& start_;
-  const bool warm_;
-  const double mu_;
+  const bool warm_, floor_;
+  const double push_;
+  const Barrier& barrier_;
 };
 
 }  // namespace
@@ -118,8 +156,7 @@ class Beginning {
 bool prepare(Descent& descent, const Start& start, const Options& options) {
   Point& point = descent.point;
   const bool floor = options.floor > 0;
-  const double first = options.warm_start ? kWarmBarrier : kFirstBarrier;
-  descent.barrier.begin(options.barrier_rule, floor ? options.floor : first,
+  descent.barrier.begin(options.barrier_rule, floor ? options.floor : kFirstBarrier,
                         floor ? options.floor : options.tol / 10);
   descent.newton.restart();
   descent.search.filter().clear();
@@ -134,6 +171,8 @@ bool prepare(Descent& descent, const Start& start, const Options& options) {
   if (!descent.model.evaluate(point.at, point.have, point.e)) return false;
   set_scales(descent, options);
   if (!floor && !descent.model.evaluate(point.at, point.have, point.e)) return false;
+  if (!floor && options.warm_start)
+    descent.barrier.begin(options.barrier_rule, beginning.complementarity(), options.tol / 10);
   beginning.multipliers();
   if (!options.warm_start) descent.estimate_multipliers();
   return descent.complete();

@@ -46,8 +46,8 @@ Survey Surveyor::operator()(const Point& point) {
   Survey survey;
   survey.dual = kernels.largest_magnitude(slope_.size(), slope_.data());
   survey.primal = kernels.largest_magnitude(m, point.local.residuals.data());
-  const auto products = kernels.complementarity(model_.segments(),
-                                                point.local.bounded(model_, at), 0);
+  const auto products =
+      kernels.complementarity(model_.segments(), point.local.bounded(model_, at), 0);
   std::size_t bounds = 0;
   for (std::size_t k = 0; k < model_.segments().count; ++k) {
     const Segment& s = model_.segments().first[k];

@@ -9,11 +9,11 @@ namespace slalom::nlp::ipm {
 
 /// Residuals of the primal-dual equations at a point (Waechter & Biegler 2006, eq. 4).
 struct Survey {
-  double dual = 0;    ///< largest |gradient of the Lagrangian|
-  double primal = 0;  ///< largest |row residual|
+  double dual = 0;       ///< largest |gradient of the Lagrangian|
+  double primal = 0;     ///< largest |row residual|
   bool bounded = false;  ///< there are bounds, and so products of slack and multiplier:
   double least_product = 0, most_product = 0, mean_product = 0;
-  double dual_scale = 1, product_scale = 1;                      ///< s_d, s_c of eq. 5
+  double dual_scale = 1, product_scale = 1;  ///< s_d, s_c of eq. 5
 
   /// Largest |slack * multiplier - mu|.
   double complementarity(double mu) const;

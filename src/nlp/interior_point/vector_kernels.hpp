@@ -17,8 +17,8 @@ struct Segments {
   std::size_t count;
 };
 
-/// What the loops over bounds read: w within lower and upper, its multipliers, and 1 / slack of each
-/// side (0 where there is none).
+/// What the loops over bounds read: w within lower and upper, its multipliers, and 1 / slack of
+/// each side (0 where there is none).
 struct BoundedVector {
   const double *w, *lower, *upper, *zl, *zu;
   const double *over_lower, *over_upper;
@@ -26,7 +26,7 @@ struct BoundedVector {
 
 /// Products slack * multiplier over all bounds.
 struct Complementarity {
-  double largest_gap = 0;  ///< of |s z - mu|
+  double largest_gap = 0;               ///< of |s z - mu|
   double least = 0, most = 0, sum = 0;  ///< of s z
 };
 

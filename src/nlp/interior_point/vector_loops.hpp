@@ -61,8 +61,8 @@ class VectorLoops {
     return {V::largest(gap), -V::largest(least), V::largest(most), V::sum(sum)};
   }
 
-  static StepReach dual_step(Segments segments, const BoundedVector& v, double mu,
-                             const double* dw, double* dzl, double* dzu) {
+  static StepReach dual_step(Segments segments, const BoundedVector& v, double mu, const double* dw,
+                             double* dzl, double* dzu) {
     const T m = V::all(mu);
     T primal{}, dual{};
     for_segments(segments, [&](auto lower, auto upper, std::size_t i, auto load, auto store) {
@@ -112,7 +112,8 @@ class VectorLoops {
     __builtin_memcpy(lanes, &exponents, sizeof lanes);
     long long total = 0;
     for (long long lane : lanes) total += lane;
-    const auto power = static_cast<double>(total - 1023 * static_cast<long long>(counted * V::size));
+    const auto power =
+        static_cast<double>(total - 1023 * static_cast<long long>(counted * V::size));
     return sum + power * 0.69314718055994530942;
   }
 
@@ -144,9 +145,8 @@ class VectorLoops {
   }
   static double dot(std::size_t n, const double* a, const double* b) {
     T sum{};
-    for_vectors(n, [&](std::size_t i, auto load, auto) {
-      sum = V::fma(load(a + i), load(b + i), sum);
-    });
+    for_vectors(
+        n, [&](std::size_t i, auto load, auto) { sum = V::fma(load(a + i), load(b + i), sum); });
     return V::sum(sum);
   }
   static double sum_magnitudes(std::size_t n, const double* a) {
@@ -170,8 +170,7 @@ class VectorLoops {
     T most{};
     for_vectors(n, [&](std::size_t i, auto load, auto) {
       const T value = load(a + i), factor = load(scale + i);
-      const T outside =
-          V::max(factor * load(lower + i) - value, value - factor * load(upper + i));
+      const T outside = V::max(factor * load(lower + i) - value, value - factor * load(upper + i));
       most = V::max(outside * load(unit + i), most);  // NaN, of an absent lane, is let go
     });
     return V::largest(most);
