@@ -505,23 +505,28 @@ class Builder {
   Transcribed out_;
 };
 
-/// One number of a batch's data, at a point and for a member of a family.
-double datum(const Problem& problem, const Layout& layout, std::size_t family, DataSource source,
-             std::size_t point, std::size_t member) {
+/// Fills one column of a batch's data, one number a lane.
+void fill_column(const Problem& problem, const Layout& layout, std::size_t family,
+                 DataSource source, const Batch& batch, double* to) {
   using Kind = DataSource::Kind;
+  const auto same = [&](double number) { std::fill_n(to, batch.lanes, number); };
   switch (source.kind) {
     case Kind::tau:
-      return layout.tau[point];
+      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
+        to[lane] = layout.tau[batch.lane_point[lane]];
+      break;
     case Kind::t0:
-      return problem.t0().bounds.lower;
+      return same(problem.t0().bounds.lower);
     case Kind::tf:
-      return problem.tf().bounds.lower;
+      return same(problem.tf().bounds.lower);
     case Kind::parameter:
-      return problem.parameters()[source.index].value;
-    case Kind::member:
-      return problem.constraints()[family].member_values[member][source.index];
+      return same(problem.parameters()[source.index].value);
+    case Kind::member: {
+      const auto& members = problem.constraints()[family].member_values;
+      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
+        to[lane] = members[batch.lane_member[lane]][source.index];
+    }
   }
-  return 0;
 }
 
 }  // namespace
@@ -540,12 +545,9 @@ void fill_data(const Problem& problem, Transcribed& transcribed) {
   for (std::size_t b = 0; b < transcribed.batches.size(); ++b) {
     Batch& batch = transcribed.batches[b];
     const BatchData& data = transcribed.batch_data[b];
-    const auto numbers = batch.data();
     for (std::size_t i = 0; i < data.sources.size(); ++i)
-      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
-        numbers[i * batch.lanes + lane] =
-            datum(problem, transcribed.layout, data.family, data.sources[i], batch.lane_point[lane],
-                  batch.lane_member[lane]);
+      fill_column(problem, transcribed.layout, data.family, data.sources[i], batch,
+                  batch.data().data() + i * batch.lanes);
     batch.evaluator->data_changed();
   }
 }

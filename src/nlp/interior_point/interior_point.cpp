@@ -48,6 +48,7 @@ class Run final : public Restoration::Watch {
     if (status == Status::numerical_failure && options.floor == 0 && best_.feasible()) {
       // Rows that leave no interior have no central path: once more, with a little room.
       descent_.model.set_room(kRoom);
+      descent_.model.refresh(problem);
       status = iterate(start);
       descent_.model.set_room(0);
     }
@@ -210,7 +211,7 @@ class Run final : public Restoration::Watch {
       hand_out(model, descent_.point.at, answer.point);
       answer.objective = descent_.point.e.objective / model.objective_scale();
       answer.violation = model.violation(descent_.point.e);
-      answer.worst_row = model.worst_row(descent_.point.e);
+      answer.worst_row = answer.violation > 0 ? model.worst_row(descent_.point.e) : 0;
     }
     answer.iterations = iterations_;
     answer.cpu_s = timer_.cpu();
