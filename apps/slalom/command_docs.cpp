@@ -15,6 +15,13 @@ void add_docs(CLI::App& app, Command& run) {
           return kOk;
         };
       });
+  command->add_subcommand("solver-options", "Every option of a solver, as Markdown")
+      ->callback([&run] {
+        run = [] {
+          print(io::solver_options_page());
+          return kOk;
+        };
+      });
 }
 
 }  // namespace slalom::app

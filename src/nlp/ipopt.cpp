@@ -215,6 +215,7 @@ class IpoptSolver final : public Solver {
   void solve(Problem& problem, const Start& start, const Options& options,
              Answer& answer) override {
     check_sizes(start, problem.structure(), options.warm_start);
+    check(options, "solver options");
     const Timer timer;
     Ipopt::SmartPtr<Adapter> adapter = new Adapter(problem, start, options);
     Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);

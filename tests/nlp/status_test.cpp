@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "nlp/small_problems.hpp"
 #include "slalom/base/error.hpp"
 
@@ -169,6 +171,27 @@ TEST(Solver, StartOfAnotherSizeIsRefused) {
   warm.warm_start = true;
   EXPECT_THROW((void)solve(problem, problem.cold_start(), warm), InvalidValue)
       << "a warm start without multipliers";
+}
+
+TEST(Solver, OptionsOutOfTheirRangeAreRefused) {
+  auto problem = hs071();
+  const auto message = [&](auto set) -> std::string {
+    Options options;
+    set(options);
+    try {
+      (void)make_solver()->solve(problem, problem.cold_start(), options);
+    } catch (const InvalidValue& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message([](Options& o) { o.tol = 0; }).find("tol = 0"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.floor = -1; }).find("floor = -1"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.floor_tol = NAN; }).find("floor_tol"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.time_limit = -1; }).find("time_limit"), std::string::npos);
+  EXPECT_NE(message([](Options& o) { o.max_iterations = -1; }).find("max_iterations"),
+            std::string::npos);
+  EXPECT_EQ(message([](Options&) {}), "");
 }
 
 TEST(Solver, WarmStartTakesFewerIterations) {

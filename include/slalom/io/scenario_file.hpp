@@ -36,5 +36,7 @@ std::vector<BuiltIn> built_in_vehicles();
 
 /// Markdown reference of every key, generated from the option tables (docs/scenario-reference.md).
 std::string scenario_reference();
+/// The options of solvers, as Markdown; docs/solver-options.md.
+std::string solver_options_page();
 
 }  // namespace slalom::io

@@ -61,6 +61,13 @@ struct Options {
   void* on_iteration_data = nullptr;
 };
 
+/// The registered options of Options with unit, range, meaning and reason.
+const OptionTable<Options>& solver_options();
+
+/// Throws InvalidValue, naming `where`, when a value is outside its registered range or not finite
+/// (time_limit may be infinite). Every solve checks its options so.
+void check(const Options& options, const std::string& where);
+
 /// A primal and, for a warm start, dual point. Sign convention: the Lagrangian is
 /// f + y' g - zl' (x - xl) + zu' (x - xu), so zl, zu >= 0 and y >= 0 at an upper bound of a row.
 struct Start {

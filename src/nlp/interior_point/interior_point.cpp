@@ -244,6 +244,7 @@ class InteriorPoint final : public Solver {
   void solve(Problem& problem, const Start& start, const Options& options,
              Answer& answer) override {
     check_sizes(start, problem.structure(), options.warm_start);
+    check(options, "solver options");
     for (auto& run : runs_)
       if (run && run->fits(problem)) return run->solve(problem, start, options, answer);
     auto& run = runs_[next_++ % std::size(runs_)];

@@ -70,7 +70,8 @@ void Model::refresh(Problem& problem) {
 void Model::set_scale(double objective, std::span<const double> rows) {
   const bool same = std::equal(rows.begin(), rows.end(), row_scale_.begin());
   objective_scale_ = objective;
-  scaled_ = objective != 1 || std::any_of(rows.begin(), rows.end(), [](double s) { return s != 1; });
+  scaled_ =
+      objective != 1 || std::any_of(rows.begin(), rows.end(), [](double s) { return s != 1; });
   if (same) return;
   std::copy(rows.begin(), rows.end(), row_scale_.begin());
   refresh(*problem_);
