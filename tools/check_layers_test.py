@@ -56,6 +56,13 @@ class CheckLayers(unittest.TestCase):
         self.assert_wrong("src/study/page.cpp", '#include "../sim/detail.hpp"\n',
                           "study includes a private header of sim")
 
+    def test_private_headers_of_base_serve_the_sources_of_all(self):
+        result = self.run_on(RIGHT | {"src/base/simd.hpp": "\n",
+                                      "src/sim/x.cpp": '#include "../base/simd.hpp"\n'})
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assert_wrong("include/slalom/sim/x.hpp", '#include "../../../src/base/simd.hpp"\n',
+                          "sim includes a private header of base")
+
     def test_kept_library_in_a_public_header(self):
         for header in ("CLI/CLI.hpp", "yaml-cpp/yaml.h", "spdlog/spdlog.h"):
             self.assert_wrong("include/slalom/io/files.hpp", f"#include <{header}>\n",
