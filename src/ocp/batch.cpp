@@ -19,6 +19,7 @@ void Batch::finish() {
   for (const nlp::Parts parts : {nlp::Parts{.values = true},
                                  {.values = true, .derivatives = true},
                                  {.hessian = true},
+                                 {.derivatives = true, .hessian = true},
                                  {.values = true, .derivatives = true, .hessian = true}})
     evaluator->prepare({parts.values, parts.derivatives, parts.hessian});
   std::vector<Scatter> copies;

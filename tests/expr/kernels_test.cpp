@@ -8,7 +8,6 @@
 
 #include "expr/op_cases.hpp"
 #include "expr/reference.hpp"
-#include "slalom/base/error.hpp"
 
 namespace slalom::expr {
 namespace {
@@ -111,18 +110,6 @@ TEST_P(Kernels, NeighboursDoNotTouchALane) {
 
 INSTANTIATE_TEST_SUITE_P(Sets, Kernels, testing::Values(KernelSet::baseline, KernelSet::avx2),
                          [](const auto& set) { return std::string(to_string(set.param)); });
-
-TEST(KernelSet, BestIsInUseAndEachSetHasItsName) {
-  EXPECT_EQ(current_kernels(), best_kernels());
-  EXPECT_STREQ(to_string(KernelSet::baseline), "baseline");
-  EXPECT_STREQ(to_string(KernelSet::avx2), "avx2");
-  select_kernels(KernelSet::baseline);
-  EXPECT_EQ(current_kernels(), KernelSet::baseline);
-  if (best_kernels() != KernelSet::avx2) {
-    EXPECT_THROW(select_kernels(KernelSet::avx2), Error);
-  }
-  select_kernels(best_kernels());
-}
 
 }  // namespace
 }  // namespace slalom::expr

@@ -1,0 +1,44 @@
+#include "slalom/base/kernels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "slalom/base/error.hpp"
+
+namespace slalom {
+namespace {
+
+class KernelSetTest : public testing::Test {
+ protected:
+  void TearDown() override { select_kernels(best_kernels()); }
+};
+
+TEST_F(KernelSetTest, BestIsInUseUntilAnotherIsSelected) {
+  EXPECT_EQ(current_kernels(), best_kernels());
+  select_kernels(KernelSet::baseline);
+  EXPECT_EQ(current_kernels(), KernelSet::baseline);
+  select_kernels(best_kernels());
+  EXPECT_EQ(current_kernels(), best_kernels());
+}
+
+TEST_F(KernelSetTest, SelectionHoldsForOtherThreads) {
+  select_kernels(KernelSet::baseline);
+  auto seen = best_kernels();
+  std::thread([&] { seen = current_kernels(); }).join();
+  EXPECT_EQ(seen, KernelSet::baseline);
+}
+
+TEST_F(KernelSetTest, ASetTheProcessorLacksIsRefusedAndTheOldOneKept) {
+  if (best_kernels() == KernelSet::avx2) GTEST_SKIP() << "this processor has all sets";
+  EXPECT_THROW(select_kernels(KernelSet::avx2), Error);
+  EXPECT_EQ(current_kernels(), KernelSet::baseline);
+}
+
+TEST_F(KernelSetTest, EachSetHasItsName) {
+  EXPECT_STREQ(to_string(KernelSet::baseline), "baseline");
+  EXPECT_STREQ(to_string(KernelSet::avx2), "avx2");
+}
+
+}  // namespace
+}  // namespace slalom
