@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds and runs every test: the unit tests with sanitizers, then the release build with all
-# checks. Goes on after a failure, sums up, and fails if anything did. A build that fails
+# Builds and runs every test: the unit tests with sanitizers, those of threads with the thread
+# sanitizer, then the release build with all checks. Goes on after a failure, sums up, and fails if anything did. A build that fails
 # counts as one failure.
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -51,10 +51,14 @@ step() { # TITLE COMMAND...
 
 release() { cmake --preset release -DSLALOM_TESTS=ON && cmake --build --preset release -j "$jobs"; }
 asan() { cmake --preset asan -DSLALOM_TESTS=ON && cmake --build --preset asan -j "$jobs"; }
+tsan() { cmake --preset tsan -DSLALOM_TESTS=ON && cmake --build --preset tsan -j "$jobs"; }
 
 mkdir -p build
 start=$SECONDS
 if step "build with sanitizers" asan; then run_ctest asan "unit tests with sanitizers"; fi
+if step "build with the thread sanitizer" tsan; then
+  run_ctest tsan "tests of threads with the thread sanitizer"
+fi
 if step "release build" release; then run_ctest release "tests and checks of the release build"; fi
 
 echo

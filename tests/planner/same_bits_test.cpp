@@ -1,0 +1,67 @@
+// The planner's solves give the same bits however many planners run side by side.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <thread>
+
+#include "planner/transcribed.hpp"
+#include "slalom/base/kernels.hpp"
+
+namespace slalom::planner {
+namespace {
+
+using Bits = std::vector<std::uint64_t>;
+
+/// Three cycles of each scene by interior_point, one after the other, each from the last plan.
+Bits drive_a_while() {
+  Bits bits;
+  const auto add = [&](double v) { bits.push_back(std::bit_cast<std::uint64_t>(v)); };
+  for (auto* scene : {&E_B, &E_C}) {
+    Scene s = scene();
+    s.settings.solver = SolverChoice::interior_point;
+    auto planner = s.planner();
+    Request request = s.first;
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      const Plan plan = planner.plan(request);
+      EXPECT_TRUE(plan.report.solved);
+      add(plan.tf);
+      add(plan.report.phi);
+      for (const auto& state : plan.states)
+        for (const double v : state) add(v);
+      request.t0 += request.tex;
+      request.X0p = plan.states[1];
+    }
+  }
+  return bits;
+}
+
+class PlannerBits : public testing::TestWithParam<KernelSet> {
+ protected:
+  void SetUp() override {
+    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
+      GTEST_SKIP() << "no AVX2 with FMA here";
+    select_kernels(GetParam());
+  }
+  void TearDown() override { select_kernels(best_kernels()); }
+};
+
+TEST_P(PlannerBits, SameOnAnyNumberOfThreads) {
+  const Bits alone = drive_a_while();
+  EXPECT_EQ(alone, drive_a_while());
+  for (const std::size_t count : {2u, 4u}) {
+    std::vector<Bits> results(count);
+    {
+      std::vector<std::jthread> threads;
+      for (auto& result : results) threads.emplace_back([&result] { result = drive_a_while(); });
+    }
+    for (const auto& result : results) EXPECT_EQ(alone, result) << count << " threads";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, PlannerBits, testing::Values(KernelSet::baseline, KernelSet::avx2),
+                         [](const auto& set) { return std::string(to_string(set.param)); });
+
+}  // namespace
+}  // namespace slalom::planner
