@@ -18,49 +18,50 @@ constexpr std::size_t padded(std::size_t n) {
   return (n + 3) / 4 * 4;
 }
 
+/// Rows there is room for, at least, that a front passes on; more are forced through.
+constexpr std::size_t kLeastPassed = 16;
+
 /// One front's factorisation by a known order of pivots: where every number goes, and the result.
 struct Factor {
-  std::size_t capacity = 0;  ///< rows there is room for
-  std::size_t size = 0, eliminated = 0, ld = 0;
+  std::size_t capacity = 0;   ///< rows there is room for
+  std::size_t most_left = 0;  ///< candidates that may be passed on
+  std::vector<std::size_t> children;
+  std::size_t size = 0, candidates = 0, eliminated = 0, ld = 0;
   std::vector<std::uint32_t> ids;   ///< of the rows, in the order of pivots
   std::vector<std::uint8_t> order;  ///< of the pivots
   struct Move {
     std::uint32_t source, place;
   };
   std::vector<Move> hessian, diagonal, jacobian, flexibility;
-  std::vector<std::uint32_t> to_next;  ///< places of the Schur complement in the next front
+  std::vector<std::uint32_t> to_parent;  ///< places of the Schur complement in the parent
   AlignedDoubles a;
   std::vector<double> inverse;
 
+  std::size_t passed() const { return candidates - eliminated; }
   Block block(double* panel) const {
     return {a.get(), ld, size, eliminated, order.data(), const_cast<double*>(inverse.data()),
             panel};
   }
 };
 
-/// A chain of fronts, each taking over what the one before could not eliminate. The order of pivots
-/// is found by analyse(), and kept while every pivot stays stable.
-class Chain final : public Backend {
+/// A forest of fronts, each taking over what its children could not eliminate (Duff & Reid, ACM
+/// TOMS 9(3), 1983). The order of pivots is found by analyse(), and kept while every pivot stays
+/// stable.
+class Multifrontal final : public Backend {
  public:
-  Chain(std::string name, const Pattern& pattern, std::vector<FrontPlan> plans)
+  Multifrontal(std::string name, const Pattern& pattern, std::vector<FrontPlan> plans)
       : name_(std::move(name)),
         fixed_(pattern.fixed),
         plans_(std::move(plans)),
-        place_(pattern.variables + pattern.equations, 0),
-        fronts_{Front(most_rows(plans_)), Front(most_rows(plans_))} {
-    // Room for all the rows of the two stages before it; a longer backlog is forced through.
-    std::size_t before = 0, last = 0, largest = 0;
-    for (const auto& plan : plans_) {
-      factors_.emplace_back();
-      reserve(plan, plan.ids.size() + before + last, factors_.back());
-      largest = std::max(largest, factors_.back().capacity);
-      before = last;
-      last = plan.own;
+        factors_(plans_.size()),
+        place_(pattern.variables + pattern.equations, 0) {
+    std::size_t largest = 0;
+    plan_rooms();
+    for (std::size_t k = 0; k < plans_.size(); ++k) {
+      reserve(plans_[k], factors_[k]);
+      largest = std::max(largest, factors_[k].capacity);
     }
-    for (std::size_t k = 0; k + 1 < plans_.size(); ++k) {
-      const std::size_t most = factors_[k].capacity;
-      factors_[k].to_next.reserve(most * (most + 1) / 2);
-    }
+    front_ = Front(largest);
     panel_ = aligned_doubles(4 * padded(largest));
     rhs_ = aligned_doubles(padded(largest));
   }
@@ -101,26 +102,37 @@ class Chain final : public Backend {
   }
 
  private:
-  static std::size_t most_rows(const std::vector<FrontPlan>& plans) {
-    std::size_t most = 0, before = 0, last = 0;
-    for (const auto& plan : plans) {
-      most = std::max(most, plan.ids.size() + before + last);
-      before = last;
-      last = plan.own;
+  /// Room for what two generations of fronts may pass on.
+  void plan_rooms() {
+    std::vector<std::size_t> below(plans_.size(), 0);
+    for (std::size_t k = 0; k < plans_.size(); ++k) {
+      Factor& factor = factors_[k];
+      std::size_t children = 0;
+      factor.capacity = plans_[k].ids.size();
+      below[k] += plans_[k].own;
+      for (const std::size_t child : factor.children) {
+        children += plans_[child].own;
+        factor.capacity += factors_[child].most_left;
+      }
+      const std::size_t parent = plans_[k].parent;
+      if (parent == kNoFront) continue;
+      factors_[parent].children.push_back(k);
+      below[parent] += below[k];
+      factor.most_left = std::min(below[k], std::max(kLeastPassed, plans_[k].own + children));
     }
-    return most;
   }
 
-  static void reserve(const FrontPlan& plan, std::size_t rows, Factor& factor) {
-    factor.capacity = rows;
-    factor.ids.reserve(rows);
-    factor.order.reserve(rows);
+  static void reserve(const FrontPlan& plan, Factor& factor) {
+    const std::size_t rows = factor.capacity;
+    factor.ids.resize(rows);
+    factor.order.resize(rows);
     factor.hessian.reserve(plan.hessian.size());
     factor.diagonal.reserve(plan.diagonal.size());
     factor.jacobian.reserve(plan.jacobian.size());
     factor.flexibility.reserve(plan.flexibility.size());
     factor.a = aligned_doubles(padded(rows) * (rows + 1));
     factor.inverse.resize(2 * rows + 2);
+    if (plan.parent != kNoFront) factor.to_parent.reserve(rows * (rows + 1) / 2);
   }
 
   static void load(const Factor& factor, std::span<const double> rhs, double* y) {
@@ -132,52 +144,51 @@ class Chain final : public Backend {
   Inertia analyse(const Values& values) {
     Inertia sum;
     for (std::size_t k = 0; k < plans_.size(); ++k) {
-      const Front* previous = k > 0 ? &fronts_[(k - 1) % 2] : nullptr;
-      Front& front = fronts_[k % 2];
-      start(plans_[k], previous, front);
+      Factor& factor = factors_[k];
+      start(plans_[k], factor);
       for_terms(plans_[k], values, [&](std::uint32_t a, std::uint32_t b, double number) {
-        front.at(place_[a], place_[b]) += number;
+        front_.add(place_[a], place_[b], number);
       });
-      const std::size_t passed = previous ? previous->remaining_candidates() : 0;
-      const bool crowded = k > 0 && passed > plans_[k - 1].own;  // the next front has no more room
-      const Inertia part = front.eliminate(k + 1 == plans_.size() || crowded);
+      const Inertia part = front_.eliminate(factor.most_left);
+      factor.eliminated = front_.eliminated();
       sum.positive += part.positive;
       sum.negative += part.negative;
       sum.zero += part.zero;
-      note(front, factors_[k]);
     }
     return sum;
   }
 
-  /// Rows passed on, then the plan's own, with the previous front's Schur complement in place.
-  void start(const FrontPlan& plan, const Front* previous, Front& front) {
-    const std::size_t passed = previous ? previous->remaining_candidates() : 0;
-    front.reset(plan.ids.size() + passed, plan.own + passed);
-    const auto ids = front.ids();
-    for (std::size_t i = 0; i < passed; ++i) ids[i] = previous->ids()[previous->eliminated() + i];
-    std::copy(plan.ids.begin(), plan.ids.end(), ids.begin() + static_cast<std::ptrdiff_t>(passed));
-    for (std::size_t i = 0; i < ids.size(); ++i) place_[ids[i]] = narrow(i);
-    if (previous == nullptr) return;
-    const auto from = previous->ids();
-    for (std::size_t col = previous->eliminated(); col < previous->size(); ++col)
-      for (std::size_t row = col; row < previous->size(); ++row)
-        front.at(place_[from[row]], place_[from[col]]) += previous->at(row, col);
+  /// Rows passed on, then the plan's own, with the children's Schur complements in place.
+  void start(const FrontPlan& plan, Factor& factor) {
+    std::size_t passed = 0;
+    for (const std::size_t c : factor.children)
+      for (std::size_t i = factors_[c].eliminated; i < factors_[c].candidates; ++i)
+        factor.ids[passed++] = factors_[c].ids[i];
+    std::copy(plan.ids.begin(), plan.ids.end(),
+              factor.ids.begin() + static_cast<std::ptrdiff_t>(passed));
+    factor.size = plan.ids.size() + passed;
+    factor.candidates = plan.own + passed;
+    factor.ld = padded(factor.size);
+    front_.reset({factor.a.get(), factor.ld, factor.ids.data(), factor.order.data()}, factor.size,
+                 factor.candidates);
+    number(factor);
+    for (const std::size_t c : factor.children) {
+      const Factor& from = factors_[c];
+      for (std::size_t col = from.eliminated; col < from.size; ++col)
+        for (std::size_t row = col; row < from.size; ++row)
+          front_.add(place_[from.ids[row]], place_[from.ids[col]], from.a[col * from.ld + row]);
+    }
   }
-
-  static void note(const Front& front, Factor& factor) {
-    factor.size = front.size();
-    factor.eliminated = front.eliminated();
-    factor.ld = padded(front.size());
-    factor.ids.assign(front.ids().begin(), front.ids().end());
-    factor.order.assign(front.order().begin(), front.order().end());
+  void number(const Factor& factor) {
+    for (std::size_t i = 0; i < factor.size; ++i) place_[factor.ids[i]] = narrow(i);
   }
 
   /// Where each number goes when rows stand in the order of pivots.
   void plan_places() {
     for (std::size_t k = 0; k < plans_.size(); ++k) {
       Factor& factor = factors_[k];
-      for (std::size_t i = 0; i < factor.size; ++i) place_[factor.ids[i]] = narrow(i);
-      if (k > 0) plan_hand_over(factor, factors_[k - 1]);
+      number(factor);
+      for (const std::size_t child : factor.children) plan_hand_over(factor, factors_[child]);
       const auto places = [&](const std::vector<FrontPlan::Term>& terms,
                               std::vector<Factor::Move>& list) {
         list.clear();
@@ -194,10 +205,10 @@ class Chain final : public Backend {
     return narrow(std::min(i, j) * factor.ld + std::max(i, j));
   }
   void plan_hand_over(const Factor& to, Factor& from) const {
-    from.to_next.clear();
+    from.to_parent.clear();
     for (std::size_t col = from.eliminated; col < from.size; ++col)
       for (std::size_t row = col; row < from.size; ++row)
-        from.to_next.push_back(place(to, place_[from.ids[row]], place_[from.ids[col]]));
+        from.to_parent.push_back(place(to, place_[from.ids[row]], place_[from.ids[col]]));
   }
 
   // --- by the known order ------------------------------------------------------------------
@@ -207,13 +218,15 @@ class Chain final : public Backend {
       Factor& factor = factors_[k];
       double* a = factor.a.get();
       clear_lower(factor);
-      if (k > 0) hand_over(factors_[k - 1], a);
+      for (const std::size_t child : factor.children) hand_over(factors_[child], a);
       add(factor.hessian, values.hessian, a);
       add(factor.diagonal, values.diagonal, a);
       add(factor.jacobian, values.jacobian, a);
       for (const auto& move : factor.flexibility) a[move.place] -= values.flexibility[move.source];
       if (!kernels.factor(factor.block(panel_.get()), inertia)) return false;
-      if (values.minimum_only && inertia.negative > plans_[k].equations_so_far) return true;
+      if (values.minimum_only && plans_[k].equations_so_far != kNoFront &&
+          inertia.negative > plans_[k].equations_so_far)
+        return true;
     }
     return true;
   }
@@ -229,7 +242,7 @@ class Chain final : public Backend {
     }
   }
   static void hand_over(const Factor& from, double* to) {
-    const std::uint32_t* place = from.to_next.data();
+    const std::uint32_t* place = from.to_parent.data();
     for (std::size_t col = from.eliminated; col < from.size; ++col)
       for (std::size_t row = col; row < from.size; ++row)
         to[*place++] += from.a[col * from.ld + row];
@@ -240,7 +253,7 @@ class Chain final : public Backend {
   std::vector<FrontPlan> plans_;
   std::vector<Factor> factors_;
   std::vector<std::uint32_t> place_;  ///< of each id in the front at hand
-  Front fronts_[2];                   ///< for analyse(): the one at hand and the one before
+  Front front_{0};                    ///< for analyse()
   bool known_ = false;
   AlignedDoubles panel_, rhs_;
 };
@@ -248,10 +261,10 @@ class Chain final : public Backend {
 }  // namespace
 
 std::unique_ptr<Backend> make_stage_ldlt(const Pattern& pattern) {
-  return std::make_unique<Chain>("stage_ldlt", pattern, plan_chain(pattern));
+  return std::make_unique<Multifrontal>("stage_ldlt", pattern, plan_chain(pattern));
 }
-std::unique_ptr<Backend> make_dense_ldlt(const Pattern& pattern) {
-  return std::make_unique<Chain>("dense_ldlt", pattern, plan_whole(pattern));
+std::unique_ptr<Backend> make_sparse_ldlt(const Pattern& pattern) {
+  return std::make_unique<Multifrontal>("sparse_ldlt", pattern, plan_forest(pattern));
 }
 
 }  // namespace slalom::kkt

@@ -1,4 +1,4 @@
-// The stage-structured factorisation against the dense one, and both against their residual.
+// The stage-structured factorisation against the generic one, and both against their residual.
 
 #include "slalom/kkt/system.hpp"
 
@@ -136,7 +136,7 @@ std::vector<double> random_rhs(const System& s, Maker& maker) {
 /// Factorises by both, checks inertia against the expected one and both residuals.
 void expect_solved(const System& s, Maker& maker) {
   const auto rhs = random_rhs(s, maker);
-  for (const auto& backend : {make_stage_ldlt(s.pattern), make_dense_ldlt(s.pattern)}) {
+  for (const auto& backend : {make_stage_ldlt(s.pattern), make_sparse_ldlt(s.pattern)}) {
     const Inertia expected{free_variables(s), s.pattern.equations, 0};
     for (int again = 0; again < 2; ++again) {  // the second time by the order kept from the first
       EXPECT_EQ(backend->factorize(s.values()), expected) << backend->name();
@@ -147,7 +147,7 @@ void expect_solved(const System& s, Maker& maker) {
   }
 }
 
-TEST(StageLdlt, AgreesWithTheDenseOneOnUglySizes) {
+TEST(StageLdlt, AgreesWithTheGenericOneOnUglySizes) {
   const std::vector<Shape> shapes = {
       {{3, 3, 3}, {2, 2}, 0, 1, 0},
       {{1}, {}, 0, 0, 0},
@@ -210,7 +210,7 @@ TEST(StageLdlt, SaysSingularWhereTheSystemIs) {
   Maker maker(7);
   System s = maker.make({{2, 2}, {1}, 0, 0, 0, 0});  // no Hessian, one equation, four unknowns
   EXPECT_GT(make_stage_ldlt(s.pattern)->factorize(s.values()).zero, 0u);
-  EXPECT_GT(make_dense_ldlt(s.pattern)->factorize(s.values()).zero, 0u);
+  EXPECT_GT(make_sparse_ldlt(s.pattern)->factorize(s.values()).zero, 0u);
 }
 
 TEST(StageLdlt, CountsNegativeCurvature) {

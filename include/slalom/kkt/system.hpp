@@ -71,7 +71,8 @@ class Backend {
 /// stage passes on to the next, at last to the border. Cost linear in stages and entries. The order
 /// of pivots is kept from one factorisation to the next for as long as every pivot stays stable.
 std::unique_ptr<Backend> make_stage_ldlt(const Pattern& pattern);
-/// One dense matrix with the same pivoting, blind to the structure: the reference in tests.
-std::unique_ptr<Backend> make_dense_ldlt(const Pattern& pattern);
+/// The same pivoting over a forest of fronts in an order of least fill, blind to the stages: the
+/// generic method beside it, for any sparse pattern. Values::minimum_only does not end it early.
+std::unique_ptr<Backend> make_sparse_ldlt(const Pattern& pattern);
 
 }  // namespace slalom::kkt
