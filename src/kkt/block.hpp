@@ -17,17 +17,20 @@ struct Block {
   const std::uint8_t* order;  ///< 1 or 2 where a pivot of that order starts, 0 inside a 2
   double* inverse;            ///< D^-1: [2p] the diagonal, [2p + 1] what couples p with p + 1
   double* panel;              ///< room for 4 columns
+  double least_ratio;         ///< of a pivot to the largest entry beside it, for factor
 };
 
 /// Least ratio of a pivot to the largest entry beside it that a factorisation puts up with. Small,
 /// for the systems are refined; large enough to bound the growth in one step by 1e6.
 inline constexpr double kLeastRatio = 1e-6;
+/// The same of an order just found, with room for it to be kept a while.
+inline constexpr double kFoundRatio = 1e-5;
 inline constexpr double kTinyPivot = 1e-20;
 
 /// The loops over one block, compiled for each instruction set.
 struct BlockKernels {
   /// P A P' = L D L' in the order given; counts the pivots' signs. False as soon as a pivot is not
-  /// stable by kLeastRatio (Duff & Reid, ACM TOMS 9(3), 1983, section 3).
+  /// stable by least_ratio (Duff & Reid, ACM TOMS 9(3), 1983, section 3).
   bool (*factor)(const Block& block, Inertia& inertia);
   /// y <- L^-1 y on the eliminated rows, and their effect on the others. y has ld entries.
   void (*forward)(const Block& block, double* y);

@@ -126,7 +126,7 @@ class Loops {
     clear_between(column, q, q);
     clear_between(u, q, q);
     const double size = magnitude(d);
-    if (!(size > kTinyPivot && size >= kLeastRatio * V::largest(largest))) return false;
+    if (!(size > kTinyPivot && size >= b.least_ratio * V::largest(largest))) return false;
     b.inverse[2 * q] = over;
     b.inverse[2 * q + 1] = 0;
     ++(d > 0 ? inertia.positive : inertia.negative);
@@ -156,7 +156,7 @@ class Loops {
     });
     for (double* column : {first_column, second_column, u, v}) clear_between(column, q, q + 1);
     const double m0 = V::largest(largest0), m1 = V::largest(largest1), size = magnitude(det);
-    const double bound = size / kLeastRatio;
+    const double bound = size / b.least_ratio;
     if (!(size > kTinyPivot * kTinyPivot && magnitude(d2) * m0 + magnitude(d1) * m1 <= bound &&
           magnitude(d1) * m0 + magnitude(d0) * m1 <= bound))
       return false;

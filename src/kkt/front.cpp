@@ -10,9 +10,8 @@
 namespace slalom::kkt {
 namespace {
 
-/// Least ratios of a pivot to the largest entry beside it, tried in turn before a row is passed on;
-/// the last leaves kLeastRatio room for rounding.
-constexpr double kThresholds[] = {0.1, 1e-3, 10 * kLeastRatio};
+/// Least ratios of a pivot to the largest entry beside it, tried in turn before a row is passed on.
+constexpr double kThresholds[] = {0.1, 1e-3, kFoundRatio};
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 }  // namespace

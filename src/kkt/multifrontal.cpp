@@ -27,8 +27,13 @@ struct Factor {
   std::size_t most_left = 0;  ///< candidates that may be passed on
   std::vector<std::size_t> children;
   std::size_t size = 0, candidates = 0, eliminated = 0, ld = 0;
-  std::vector<std::uint32_t> ids;   ///< of the rows, in the order of pivots
-  std::vector<std::uint8_t> order;  ///< of the pivots
+  std::size_t received = 0;            ///< rows passed on by its children
+  std::vector<std::uint32_t> ids;      ///< of the rows, in the order of pivots
+  std::vector<std::uint32_t> natural;  ///< of each row: its place among what came and its own
+  std::vector<std::uint8_t> order;     ///< of the pivots
+  bool known = false;                  ///< the order is one to go by
+  bool placed = false;                 ///< moves fit the order
+  bool handed = false;                 ///< so does to_parent
   struct Move {
     std::uint32_t source, place;
   };
@@ -38,15 +43,20 @@ struct Factor {
   std::vector<double> inverse;
 
   std::size_t passed() const { return candidates - eliminated; }
-  Block block(double* panel) const {
-    return {a.get(), ld, size, eliminated, order.data(), const_cast<double*>(inverse.data()),
-            panel};
+  Block block(double* panel, double least_ratio = 0) const {
+    return {a.get(),    ld,           size,
+            eliminated, order.data(), const_cast<double*>(inverse.data()),
+            panel,      least_ratio};
   }
 };
 
 /// A forest of fronts, each taking over what its children could not eliminate (Duff & Reid, ACM
-/// TOMS 9(3), 1983). The order of pivots is found by analyse(), and kept while every pivot stays
-/// stable.
+/// TOMS 9(3), 1983).
+///
+/// A front's order of pivots is the one it had as long as every pivot stays stable. Anew it is the
+/// order of the front before, where that is of the same shape and stable enough here, for the
+/// stages of a chain are much alike; else it is searched for. After distrust() all are found anew,
+/// and depend on nothing from before.
 class Multifrontal final : public Backend {
  public:
   Multifrontal(std::string name, const Pattern& pattern, std::vector<FrontPlan> plans)
@@ -62,26 +72,29 @@ class Multifrontal final : public Backend {
       largest = std::max(largest, factors_[k].capacity);
     }
     front_ = Front(largest);
+    gathered_.resize(largest);
     panel_ = aligned_doubles(4 * padded(largest));
     rhs_ = aligned_doubles(padded(largest));
   }
 
   std::string name() const override { return name_; }
-  void distrust() override { known_ = false; }
+  void distrust() override {
+    for (auto& factor : factors_) factor.known = false;
+  }
 
   Inertia factorize(const Values& values) override {
-    Inertia inertia;
-    if (known_ && run(values, inertia)) return inertia;
-    inertia = analyse(values);
-    known_ = inertia.zero == 0;
-    if (!known_) return inertia;
-    plan_places();
-    Inertia again;
-    if (!run(values, again)) {  // NaN among the numbers
-      known_ = false;
-      again.zero = 1;
+    Inertia sum;
+    for (std::size_t k = 0; k < plans_.size(); ++k) {
+      Inertia part;
+      factorize_front(k, values, part);
+      sum.positive += part.positive;
+      sum.negative += part.negative;
+      sum.zero += part.zero;
+      const bool too_many =
+          plans_[k].equations_so_far != kNoFront && sum.negative > plans_[k].equations_so_far;
+      if (part.zero > 0 || (values.minimum_only && too_many)) break;
     }
-    return again;
+    return sum;
   }
 
   void solve(std::span<double> rhs) override {
@@ -125,6 +138,7 @@ class Multifrontal final : public Backend {
   static void reserve(const FrontPlan& plan, Factor& factor) {
     const std::size_t rows = factor.capacity;
     factor.ids.resize(rows);
+    factor.natural.resize(rows);
     factor.order.resize(rows);
     factor.hessian.reserve(plan.hessian.size());
     factor.diagonal.reserve(plan.diagonal.size());
@@ -140,35 +154,82 @@ class Multifrontal final : public Backend {
     for (std::size_t i = factor.size; i < factor.ld; ++i) y[i] = 0;
   }
 
-  // --- finding the order -------------------------------------------------------------------
-  Inertia analyse(const Values& values) {
-    Inertia sum;
-    for (std::size_t k = 0; k < plans_.size(); ++k) {
-      Factor& factor = factors_[k];
-      start(plans_[k], factor);
-      for_terms(plans_[k], values, [&](std::uint32_t a, std::uint32_t b, double number) {
-        front_.add(place_[a], place_[b], number);
-      });
-      const Inertia part = front_.eliminate(factor.most_left);
-      factor.eliminated = front_.eliminated();
-      sum.positive += part.positive;
-      sum.negative += part.negative;
-      sum.zero += part.zero;
+  // --- the order of pivots -----------------------------------------------------------------
+  void factorize_front(std::size_t k, const Values& values, Inertia& inertia) {
+    Factor& factor = factors_[k];
+    const bool was_known = factor.known && gathers_the_same(k);
+    if (was_known || foresee(k)) {
+      plan_places(k);
+      factor.known = by_order(k, values, was_known ? kLeastRatio : kFoundRatio, inertia);
+      if (factor.known) return;
     }
-    return sum;
+    search(k, values, inertia);
+    if (inertia.zero > 0) return;
+    inertia = {};
+    plan_places(k);
+    factor.known = by_order(k, values, kLeastRatio, inertia);
+    if (!factor.known) inertia.zero = 1;  // NaN among the numbers
   }
 
-  /// Rows passed on, then the plan's own, with the children's Schur complements in place.
-  void start(const FrontPlan& plan, Factor& factor) {
-    std::size_t passed = 0;
-    for (const std::size_t c : factor.children)
+  /// Rows passed on by the children, then the plan's own, into gathered_.
+  std::size_t gather(std::size_t k) {
+    std::size_t received = 0;
+    for (const std::size_t c : factors_[k].children)
       for (std::size_t i = factors_[c].eliminated; i < factors_[c].candidates; ++i)
-        factor.ids[passed++] = factors_[c].ids[i];
-    std::copy(plan.ids.begin(), plan.ids.end(),
-              factor.ids.begin() + static_cast<std::ptrdiff_t>(passed));
-    factor.size = plan.ids.size() + passed;
-    factor.candidates = plan.own + passed;
+        gathered_[received++] = factors_[c].ids[i];
+    std::copy(plans_[k].ids.begin(), plans_[k].ids.end(),
+              gathered_.begin() + static_cast<std::ptrdiff_t>(received));
+    return received;
+  }
+  /// Whether the rows are those the order is of.
+  bool gathers_the_same(std::size_t k) {
+    const Factor& factor = factors_[k];
+    const bool current = std::all_of(factor.children.begin(), factor.children.end(),
+                                     [&](std::size_t c) { return factors_[c].handed; });
+    if (current) return true;
+    if (gather(k) != factor.received) return false;
+    for (std::size_t i = 0; i < factor.size; ++i)
+      if (factor.ids[i] != gathered_[factor.natural[i]]) return false;
+    return true;
+  }
+
+  /// Takes the order of the front before, if that is of the same shape.
+  bool foresee(std::size_t k) {
+    if (k == 0) return false;
+    const Factor& like = factors_[k - 1];
+    Factor& factor = factors_[k];
+    const std::size_t received = gather(k), size = plans_[k].ids.size() + received;
+    if (!like.known || like.size != size || like.received != received ||
+        plans_[k].own != plans_[k - 1].own || like.candidates - like.eliminated > factor.most_left)
+      return false;
+    bool same =
+        factor.placed && factor.size == size && factor.eliminated == like.eliminated &&
+        std::equal(like.order.begin(), like.order.begin() + like.eliminated, factor.order.begin());
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::uint32_t id = gathered_[like.natural[i]];
+      same = same && factor.ids[i] == id;
+      factor.ids[i] = id;
+    }
+    if (same) return true;
+    std::copy_n(like.natural.begin(), size, factor.natural.begin());
+    std::copy_n(like.order.begin(), like.eliminated, factor.order.begin());
+    set_shape(k, received);
+    factor.eliminated = like.eliminated;
+    return true;
+  }
+  void set_shape(std::size_t k, std::size_t received) {
+    Factor& factor = factors_[k];
+    factor.received = received;
+    factor.size = plans_[k].ids.size() + received;
+    factor.candidates = plans_[k].own + received;
     factor.ld = padded(factor.size);
+    factor.placed = factor.handed = false;
+  }
+
+  void search(std::size_t k, const Values& values, Inertia& inertia) {
+    Factor& factor = factors_[k];
+    set_shape(k, gather(k));
+    std::copy_n(gathered_.begin(), factor.size, factor.ids.begin());
     front_.reset({factor.a.get(), factor.ld, factor.ids.data(), factor.order.data()}, factor.size,
                  factor.candidates);
     number(factor);
@@ -178,28 +239,38 @@ class Multifrontal final : public Backend {
         for (std::size_t row = col; row < from.size; ++row)
           front_.add(place_[from.ids[row]], place_[from.ids[col]], from.a[col * from.ld + row]);
     }
+    for_terms(plans_[k], values, [&](std::uint32_t a, std::uint32_t b, double value) {
+      front_.add(place_[a], place_[b], value);
+    });
+    inertia = front_.eliminate(factor.most_left);
+    factor.eliminated = front_.eliminated();
+    for (std::size_t i = 0; i < factor.size; ++i) factor.natural[i] = place_[factor.ids[i]];
   }
   void number(const Factor& factor) {
     for (std::size_t i = 0; i < factor.size; ++i) place_[factor.ids[i]] = narrow(i);
   }
 
   /// Where each number goes when rows stand in the order of pivots.
-  void plan_places() {
-    for (std::size_t k = 0; k < plans_.size(); ++k) {
-      Factor& factor = factors_[k];
-      number(factor);
-      for (const std::size_t child : factor.children) plan_hand_over(factor, factors_[child]);
-      const auto places = [&](const std::vector<FrontPlan::Term>& terms,
-                              std::vector<Factor::Move>& list) {
-        list.clear();
-        for (const auto& term : terms)
-          list.push_back({term.source, place(factor, place_[term.a], place_[term.b])});
-      };
-      places(plans_[k].hessian, factor.hessian);
-      places(plans_[k].diagonal, factor.diagonal);
-      places(plans_[k].jacobian, factor.jacobian);
-      places(plans_[k].flexibility, factor.flexibility);
-    }
+  void plan_places(std::size_t k) {
+    Factor& factor = factors_[k];
+    const bool current =
+        factor.placed && std::all_of(factor.children.begin(), factor.children.end(),
+                                     [&](std::size_t c) { return factors_[c].handed; });
+    if (current) return;
+    number(factor);
+    for (const std::size_t child : factor.children) plan_hand_over(factor, factors_[child]);
+    if (factor.placed) return;
+    const auto places = [&](const std::vector<FrontPlan::Term>& terms,
+                            std::vector<Factor::Move>& list) {
+      list.clear();
+      for (const auto& term : terms)
+        list.push_back({term.source, place(factor, place_[term.a], place_[term.b])});
+    };
+    places(plans_[k].hessian, factor.hessian);
+    places(plans_[k].diagonal, factor.diagonal);
+    places(plans_[k].jacobian, factor.jacobian);
+    places(plans_[k].flexibility, factor.flexibility);
+    factor.placed = true;
   }
   static std::uint32_t place(const Factor& factor, std::uint32_t i, std::uint32_t j) {
     return narrow(std::min(i, j) * factor.ld + std::max(i, j));
@@ -209,26 +280,20 @@ class Multifrontal final : public Backend {
     for (std::size_t col = from.eliminated; col < from.size; ++col)
       for (std::size_t row = col; row < from.size; ++row)
         from.to_parent.push_back(place(to, place_[from.ids[row]], place_[from.ids[col]]));
+    from.handed = true;
   }
 
-  // --- by the known order ------------------------------------------------------------------
-  bool run(const Values& values, Inertia& inertia) {
-    const BlockKernels& kernels = block_kernels();
-    for (std::size_t k = 0; k < factors_.size(); ++k) {
-      Factor& factor = factors_[k];
-      double* a = factor.a.get();
-      clear_lower(factor);
-      for (const std::size_t child : factor.children) hand_over(factors_[child], a);
-      add(factor.hessian, values.hessian, a);
-      add(factor.diagonal, values.diagonal, a);
-      add(factor.jacobian, values.jacobian, a);
-      for (const auto& move : factor.flexibility) a[move.place] -= values.flexibility[move.source];
-      if (!kernels.factor(factor.block(panel_.get()), inertia)) return false;
-      if (values.minimum_only && plans_[k].equations_so_far != kNoFront &&
-          inertia.negative > plans_[k].equations_so_far)
-        return true;
-    }
-    return true;
+  // --- by a given order --------------------------------------------------------------------
+  bool by_order(std::size_t k, const Values& values, double least_ratio, Inertia& inertia) {
+    Factor& factor = factors_[k];
+    double* a = factor.a.get();
+    clear_lower(factor);
+    for (const std::size_t child : factor.children) hand_over(factors_[child], a);
+    add(factor.hessian, values.hessian, a);
+    add(factor.diagonal, values.diagonal, a);
+    add(factor.jacobian, values.jacobian, a);
+    for (const auto& move : factor.flexibility) a[move.place] -= values.flexibility[move.source];
+    return block_kernels().factor(factor.block(panel_.get(), least_ratio), inertia);
   }
   static void add(const std::vector<Factor::Move>& moves, std::span<const double> numbers,
                   double* a) {
@@ -253,8 +318,8 @@ class Multifrontal final : public Backend {
   std::vector<FrontPlan> plans_;
   std::vector<Factor> factors_;
   std::vector<std::uint32_t> place_;  ///< of each id in the front at hand
-  Front front_{0};                    ///< for analyse()
-  bool known_ = false;
+  std::vector<std::uint32_t> gathered_;
+  Front front_{0};  ///< for search()
   AlignedDoubles panel_, rhs_;
 };
 

@@ -58,7 +58,9 @@ void check(const Options& options, const std::string& where) {
   Options finite = options;
   if (finite.time_limit == std::numeric_limits<double>::infinity())
     finite.time_limit = std::numeric_limits<double>::max();
-  solver_options().check(finite, where);
+  for (const auto& entry : solver_options().entries())
+    if (entry.info.kind != OptionKind::choice)  // an enum has no other values; a solve, no memory
+      (void)entry.info.checked(entry.get(finite), where);
 }
 
 }  // namespace slalom::nlp

@@ -63,7 +63,8 @@ class Backend {
   [[nodiscard]] virtual Inertia factorize(const Values& values) = 0;
   /// Overwrites `rhs` (a, then b) by the solution (dx, then dy).
   virtual void solve(std::span<double> rhs) = 0;
-  /// Asks for pivots chosen afresh at the next factorisation: the last solution was inaccurate.
+  /// Asks for pivots chosen afresh at the next factorisation, from its numbers alone: for a new
+  /// solve, or when the last solution was inaccurate.
   virtual void distrust() {}
 };
 

@@ -36,8 +36,12 @@ void Descent::update_barrier() {
 bool Descent::find_step() {
   vector_kernels().barrier(model.segments(), point.local.bounded(model, point.at), barrier.mu(),
                            point.local.sigma.data(), point.local.slope.data());
-  return newton.factorize(point.e, point.local, barrier.mu()) &&
-         newton.step(point.e, point.local, point.at, barrier.mu(), step);
+  const double mu = barrier.mu();
+  if (!newton.factorize(point.e, point.local, mu)) return false;
+  const bool finite = newton.step(point.e, point.local, point.at, mu, step);
+  if (finite && newton.accurate()) return true;
+  return newton.factorize_as_singular(point.e, point.local, mu) &&
+         newton.step(point.e, point.local, point.at, mu, step);
 }
 
 bool Descent::take_step() {

@@ -59,6 +59,21 @@ void Newton::weigh(const Local& local) {
 bool Newton::factorize(const Evaluation& e, const Local& local, double mu) {
   weigh(local);
   model_.condensed().sum(e.hessian, e.jacobian, weight_, hessian_);
+  delta_c_ = 0;
+  return find_regularisation(e, local, mu);
+}
+
+bool Newton::factorize_as_singular(const Evaluation& e, const Local& local, double mu) {
+  delta_c_ = row_regularisation(mu);
+  return find_regularisation(e, local, mu);
+}
+
+double Newton::row_regularisation(double mu) {
+  return kRowDelta * std::pow(mu, kRowPower);
+}
+
+/// Algorithm IC.
+bool Newton::find_regularisation(const Evaluation& e, const Local& local, double mu) {
   const auto attempt = [&] {
     for (std::size_t i = 0; i < sigma_x_.size(); ++i)
       sigma_x_[i] = local.sigma[i] + delta_w_ + (model_.elastic() ? model_.proximity(i) : 0);
@@ -66,10 +81,10 @@ bool Newton::factorize(const Evaluation& e, const Local& local, double mu) {
       flexibility_[k] = delta_c_ + give_[model_.equations()[k]];
     return backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_, true});
   };
-  delta_w_ = delta_c_ = 0;
+  delta_w_ = 0;
   auto inertia = attempt();
   if (inertia == wanted_) return true;
-  if (inertia.zero > 0) delta_c_ = kRowDelta * std::pow(mu, kRowPower);
+  if (inertia.zero > 0) delta_c_ = row_regularisation(mu);
   delta_w_ = last_delta_w_ == 0 ? kFirstDelta : std::max(kLeastDelta, last_delta_w_ * kShrink);
   while (delta_w_ < kMostDelta) {
     inertia = attempt();
@@ -77,7 +92,7 @@ bool Newton::factorize(const Evaluation& e, const Local& local, double mu) {
       last_delta_w_ = delta_w_;
       return true;
     }
-    if (inertia.zero > 0) delta_c_ = kRowDelta * std::pow(mu, kRowPower);
+    if (inertia.zero > 0) delta_c_ = row_regularisation(mu);
     delta_w_ *= last_delta_w_ == 0 ? kFirstGrowth : kGrowth;
   }
   return false;
@@ -134,7 +149,8 @@ bool Newton::step_for(const Evaluation& e, const Local& local, const Iterate& at
     backend_->solve(solution_);
     add_correction(e, local, out);
   }
-  if (!(left <= kBadResidual * std::max(size, 1e-3))) backend_->distrust();
+  accurate_ = left <= kBadResidual * std::max(size, 1e-3);
+  if (!accurate_) backend_->distrust();
   out.reach = kernels.dual_step(model_.segments(), local.bounded(model_, at), mu, out.w.data(),
                                 out.zl.data(), out.zu.data());
   return std::isfinite(left + out.reach.primal + out.reach.dual);

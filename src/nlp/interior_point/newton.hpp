@@ -32,11 +32,20 @@ struct Local {
 class Newton {
  public:
   explicit Newton(Model& model);
-  void restart() { last_delta_w_ = 0; }
+  /// For a new solve, which is to depend on nothing from before.
+  void restart() {
+    last_delta_w_ = 0;
+    backend_->distrust();
+  }
 
   /// Factorises at an iterate, with the least regularisation that gives the right inertia
   /// (Algorithm IC). False when none up to the limit does.
   [[nodiscard]] bool factorize(const Evaluation& e, const Local& local, double mu);
+  /// The same with the rows regularised from the start: when the last step was not accurate, for
+  /// then rows depend on each other though no pivot vanished (section 3.1).
+  [[nodiscard]] bool factorize_as_singular(const Evaluation& e, const Local& local, double mu);
+  /// Whether refinement brought the last step's residual down.
+  bool accurate() const { return accurate_; }
   /// The full step at the factorised iterate. False when it is not finite.
   [[nodiscard]] bool step(const Evaluation& e, const Local& local, const Iterate& at, double mu,
                           Step& out);
@@ -53,6 +62,8 @@ class Newton {
   const kkt::Backend& backend() const { return *backend_; }
 
  private:
+  static double row_regularisation(double mu);
+  [[nodiscard]] bool find_regularisation(const Evaluation& e, const Local& local, double mu);
   void weigh(const Local& local);
   void shift(const Local& local, const Iterate& at, std::span<const double> residuals);
   void recover(const Evaluation& e, const Local& local, const Iterate& at,
@@ -65,6 +76,7 @@ class Newton {
   std::unique_ptr<kkt::Backend> backend_;
   kkt::Inertia wanted_;
   double delta_w_ = 0, delta_c_ = 0, last_delta_w_ = 0;
+  bool accurate_ = true;
   std::vector<double> sigma_x_;      ///< diagonal added to W
   std::vector<double> weight_;       ///< by row: what condenses an inequality; 0 of an equation
   std::vector<double> give_;         ///< by row: what elastic parts give way for a multiplier of 1
