@@ -3,7 +3,8 @@
 namespace slalom::nlp::ipm {
 namespace {
 
-constexpr int kShortenedSteps = 10, kLeaps = 3;
+constexpr int kShortenedSteps = 10, kLeaps = 3, kSoftSteps = 10;
+constexpr double kSoftProgress = 0.9999;
 
 }  // namespace
 
@@ -13,7 +14,7 @@ Watchdog::Watchdog(const Model& model) {
 }
 
 void Watchdog::restart() {
-  shortened_ = leaps_ = 0;
+  shortened_ = leaps_ = softened_ = 0;
 }
 
 Watchdog::Outcome Watchdog::advance(Descent& descent) {
@@ -30,9 +31,34 @@ Watchdog::Outcome Watchdog::advance(Descent& descent) {
 }
 
 Watchdog::Outcome Watchdog::search(Descent& descent) {
-  if (!descent.take_step()) return Outcome::stuck;
+  if (!descent.take_step()) return soften(descent) ? Outcome::moved : Outcome::stuck;
+  softened_ = 0;
   shortened_ = descent.last.trials > 1 ? shortened_ + 1 : 0;
   return Outcome::moved;
+}
+
+/// The longest step of both kinds of variables, if the primal-dual error falls.
+bool Watchdog::soften(Descent& descent) {
+  if (softened_ >= kSoftSteps) return false;
+  const double mu = descent.barrier.mu();
+  const auto error = [&] {
+    const Survey& s = descent.survey;
+    return s.dual + s.primal + s.complementarity(mu);
+  };
+  const double before = error();
+  const LineSearch::Result searched = descent.last;
+  point_ = descent.point;
+  if (descent.leap() && descent.complete()) {
+    descent.take_survey();
+    if (error() <= kSoftProgress * before) {
+      ++softened_;
+      return true;
+    }
+  }
+  descent.point = point_;
+  descent.last = searched;
+  descent.take_survey();
+  return false;
 }
 
 Watchdog::Outcome Watchdog::leap(Descent& descent) {

@@ -6,7 +6,9 @@ namespace slalom::nlp::ipm {
 
 /// The watchdog (Waechter & Biegler 2006, section 3.2; Chamberlain et al., Math. Program. Study 16,
 /// 1982): after many shortened steps the full step is taken unsearched, a few times; if that leads
-/// to a point acceptable from where it began, it pays, else the search goes on from there.
+/// to a point acceptable from where it began, it pays, else the search goes on from there. And the
+/// soft restoration (their section 3.3's first resort as Ipopt has it): where no step is
+/// acceptable, the longest is taken if it brings the primal-dual equations' error down.
 class Watchdog {
  public:
   explicit Watchdog(const Model& model);
@@ -18,11 +20,13 @@ class Watchdog {
 
  private:
   Outcome search(Descent& descent);
+  bool soften(Descent& descent);
   Outcome leap(Descent& descent);
   Outcome go_back(Descent& descent);
 
   int shortened_ = 0;  ///< steps in a row
   int leaps_ = 0;      ///< of the attempt under way; 0: none
+  int softened_ = 0;   ///< soft steps since the filter last accepted one
   double mu_ = 0, slope_ = 0, alpha_ = 0;
   Merit merit_;
   Point point_;  ///< where it began, and the step from there
