@@ -98,5 +98,38 @@ struct Vec {
 
 #endif
 
+/// How a vector is read and written: whole, or its first lanes only. only() leaves 0, only_or() a
+/// given number in the lanes that are none.
+template <class V>
+struct Whole {
+  using T = typename V::type;
+  T operator()(const double* p) const { return V::load(p); }
+  void operator()(double* p, T v) const { V::store(p, v); }
+  T only(T v) const { return v; }
+  T only_or(T v, double) const { return v; }
+};
+template <class V>
+struct Part {
+  using T = typename V::type;
+  std::size_t n;
+  T operator()(const double* p) const { return V::load_part(p, n); }
+  void operator()(double* p, T v) const { V::store_part(p, n, v); }
+  T only(T v) const { return only_or(v, 0.0); }
+  T only_or(T v, double other) const {
+    double lanes[V::size];
+    V::store(lanes, v);
+    for (std::size_t i = n; i < V::size; ++i) lanes[i] = other;
+    return V::load(lanes);
+  }
+};
+
+/// Calls f(offset, load, store) for each vector of n numbers; the last one in part.
+template <class V, class F>
+inline void for_vectors(std::size_t n, F f) {
+  std::size_t i = 0;
+  for (; i + V::size <= n; i += V::size) f(i, Whole<V>{}, Whole<V>{});
+  if (i < n) f(i, Part<V>{n - i}, Part<V>{n - i});
+}
+
 }  // namespace
 }  // namespace slalom::simd

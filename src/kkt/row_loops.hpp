@@ -66,29 +66,16 @@ class RowLoops {
  private:
   using T = typename V::type;
 
-  /// Calls f(offset, load, store) for each vector of n lanes; the last one in part.
-  template <class F>
-  static void for_vectors(std::size_t n, F f) {
-    std::size_t i = 0;
-    for (; i + V::size <= n; i += V::size)
-      f(
-          i, [](const double* p) { return V::load(p); }, [](double* p, T v) { V::store(p, v); });
-    if (i < n)
-      f(
-          i, [rest = n - i](const double* p) { return V::load_part(p, rest); },
-          [rest = n - i](double* p, T v) { V::store_part(p, rest, v); });
-  }
-
   /// out[i] += a[i] x[i stride]
   static void axpy(std::size_t n, const double* a, const double* x, std::int32_t stride,
                    double* out) {
     if (stride == 0) {
       const T value = V::all(*x);
-      for_vectors(n, [&](std::size_t i, auto load, auto store) {
+      simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
         store(out + i, V::fma(load(a + i), value, load(out + i)));
       });
     } else if (stride == 1) {
-      for_vectors(n, [&](std::size_t i, auto load, auto store) {
+      simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
         store(out + i, V::fma(load(a + i), load(x + i), load(out + i)));
       });
     } else {
@@ -102,11 +89,11 @@ class RowLoops {
                          double* out) {
     if (stride == 0) {
       T sum{};
-      for_vectors(
+      simd::for_vectors<V>(
           n, [&](std::size_t i, auto load, auto) { sum = V::fma(load(a + i), load(y + i), sum); });
       *out += V::sum(sum);
     } else if (stride == 1) {
-      for_vectors(n, [&](std::size_t i, auto load, auto store) {
+      simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
         store(out + i, V::fma(load(a + i), load(y + i), load(out + i)));
       });
     } else {
@@ -131,14 +118,14 @@ class RowLoops {
 
   static double dot3(std::size_t n, const double* w, const double* a, const double* b) {
     T sum{};
-    for_vectors(n, [&](std::size_t i, auto load, auto) {
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto) {
       sum = V::fma(load(w + i) * load(a + i), load(b + i), sum);
     });
     return V::sum(sum);
   }
 
   static void add3(std::size_t n, const double* w, const double* a, const double* b, double* out) {
-    for_vectors(n, [&](std::size_t i, auto load, auto store) {
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
       store(out + i, V::fma(load(w + i) * load(a + i), load(b + i), load(out + i)));
     });
   }

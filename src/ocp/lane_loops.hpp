@@ -46,25 +46,12 @@ class LaneLoops {
  private:
   using T = typename V::type;
 
-  /// Calls f(offset, load, store) for each vector of n lanes; the last one in part.
-  template <class F>
-  static void for_vectors(std::size_t n, F f) {
-    std::size_t i = 0;
-    for (; i + V::size <= n; i += V::size)
-      f(
-          i, [](const double* p) { return V::load(p); }, [](double* p, T v) { V::store(p, v); });
-    if (i < n)
-      f(
-          i, [rest = n - i](const double* p) { return V::load_part(p, rest); },
-          [rest = n - i](double* p, T v) { V::store_part(p, rest, v); });
-  }
-
   static void set(const LaneRuns::Run& run, const double* c, const double* from, double* to) {
     if (run.ones)
-      for_vectors(run.count,
-                  [&](std::size_t i, auto load, auto store) { store(to + i, load(from + i)); });
+      simd::for_vectors<V>(
+          run.count, [&](std::size_t i, auto load, auto store) { store(to + i, load(from + i)); });
     else
-      for_vectors(run.count, [&](std::size_t i, auto load, auto store) {
+      simd::for_vectors<V>(run.count, [&](std::size_t i, auto load, auto store) {
         store(to + i, load(c + i) * load(from + i));
       });
   }
@@ -75,24 +62,25 @@ class LaneLoops {
     for (std::size_t i = 0; clear && i < n; ++i) to[static_cast<std::ptrdiff_t>(i) * to_step] = 0;
     if (to_step == 1 && from_step == 1) {
       if (run.ones)
-        for_vectors(n, [&](std::size_t i, auto load, auto store) {
+        simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
           store(to + i, load(to + i) + load(from + i));
         });
       else
-        for_vectors(n, [&](std::size_t i, auto load, auto store) {
+        simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
           store(to + i, V::fma(load(c + i), load(from + i), load(to + i)));
         });
     } else if (to_step == 1 && from_step == 0) {
       const T value = V::all(*from);
-      for_vectors(n, [&](std::size_t i, auto load, auto store) {
+      simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
         store(to + i, V::fma(load(c + i), value, load(to + i)));
       });
     } else if (to_step == 0 && from_step == 1) {
       T sum{};
       if (run.ones)
-        for_vectors(n, [&](std::size_t i, auto load, auto) { sum = sum + load(from + i); });
+        simd::for_vectors<V>(n,
+                             [&](std::size_t i, auto load, auto) { sum = sum + load(from + i); });
       else
-        for_vectors(n, [&](std::size_t i, auto load, auto) {
+        simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto) {
           sum = V::fma(load(c + i), load(from + i), sum);
         });
       *to += V::sum(sum);

@@ -2,17 +2,6 @@
 
 namespace slalom::nlp::ipm {
 
-const VectorKernels kVectorAvx2 = {VecVectorLoops::reciprocals,
-                                   VecVectorLoops::barrier,
-                                   VecVectorLoops::complementarity,
-                                   VecVectorLoops::dual_step,
-                                   VecVectorLoops::log_slacks,
-                                   VecVectorLoops::move_duals,
-                                   VecVectorLoops::combine,
-                                   VecVectorLoops::multiply_add,
-                                   VecVectorLoops::dot,
-                                   VecVectorLoops::sum_magnitudes,
-                                   VecVectorLoops::largest_magnitude,
-                                   VecVectorLoops::most_outside};
+const VectorKernels kVectorAvx2 = kVecKernels;
 
 }  // namespace slalom::nlp::ipm

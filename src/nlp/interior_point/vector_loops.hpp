@@ -133,31 +133,32 @@ class VectorLoops {
 
   static void combine(std::size_t n, const double* a, double alpha, const double* b, double* to) {
     const T factor = V::all(alpha);
-    for_vectors(n, [&](std::size_t i, auto load, auto store) {
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
       store(to + i, V::fma(factor, load(b + i), load(a + i)));
     });
   }
   static void multiply_add(std::size_t n, const double* a, const double* b, const double* c,
                            double* to) {
-    for_vectors(n, [&](std::size_t i, auto load, auto store) {
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
       store(to + i, V::fma(load(a + i), load(b + i), load(c + i)));
     });
   }
   static double dot(std::size_t n, const double* a, const double* b) {
     T sum{};
-    for_vectors(
+    simd::for_vectors<V>(
         n, [&](std::size_t i, auto load, auto) { sum = V::fma(load(a + i), load(b + i), sum); });
     return V::sum(sum);
   }
   static double sum_magnitudes(std::size_t n, const double* a) {
     T sum{};
-    for_vectors(n, [&](std::size_t i, auto load, auto) { sum = sum + V::abs(load(a + i)); });
+    simd::for_vectors<V>(n,
+                         [&](std::size_t i, auto load, auto) { sum = sum + V::abs(load(a + i)); });
     return V::sum(sum);
   }
   /// NaN where any number is.
   static double largest_magnitude(std::size_t n, const double* a) {
     T most{}, finite{};
-    for_vectors(n, [&](std::size_t i, auto load, auto) {
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto) {
       const T value = load(a + i);
       most = V::max(most, V::abs(value));
       finite = V::fma(T{}, value, finite);
@@ -168,7 +169,7 @@ class VectorLoops {
   static double most_outside(std::size_t n, const double* a, const double* lower,
                              const double* upper, const double* scale, const double* unit) {
     T most{};
-    for_vectors(n, [&](std::size_t i, auto load, auto) {
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto) {
       const T value = load(a + i), factor = load(scale + i);
       const T outside = V::max(factor * load(lower + i) - value, value - factor * load(upper + i));
       most = V::max(outside * load(unit + i), most);  // NaN, of an absent lane, is let go
@@ -178,34 +179,6 @@ class VectorLoops {
 
  private:
   using T = typename V::type;
-
-  // How a vector is read and written: whole, or its first lanes only. only() leaves 0, only_or() a
-  // given number in the lanes that are none.
-  struct Whole {
-    T operator()(const double* p) const { return V::load(p); }
-    void operator()(double* p, T v) const { V::store(p, v); }
-    T only(T v) const { return v; }
-    T only_or(T v, double) const { return v; }
-  };
-  struct Part {
-    std::size_t n;
-    T operator()(const double* p) const { return V::load_part(p, n); }
-    void operator()(double* p, T v) const { V::store_part(p, n, v); }
-    T only(T v) const { return only_or(v, 0.0); }
-    T only_or(T v, double other) const {
-      double lanes[V::size];
-      V::store(lanes, v);
-      for (std::size_t i = n; i < V::size; ++i) lanes[i] = other;
-      return V::load(lanes);
-    }
-  };
-
-  template <class F>
-  static void for_vectors(std::size_t n, F f) {
-    std::size_t i = 0;
-    for (; i + V::size <= n; i += V::size) f(i, Whole{}, Whole{});
-    if (i < n) f(i, Part{n - i}, Part{n - i});
-  }
 
   struct Yes {
     constexpr operator bool() const { return true; }
@@ -219,7 +192,7 @@ class VectorLoops {
     for (std::size_t k = 0; k < segments.count; ++k) {
       const Segment& s = segments.first[k];
       const auto each = [&](auto lower, auto upper) {
-        for_vectors(s.end - s.begin, [&](std::size_t i, auto load, auto store) {
+        simd::for_vectors<V>(s.end - s.begin, [&](std::size_t i, auto load, auto store) {
           f(lower, upper, s.begin + i, load, store);
         });
       };
@@ -233,7 +206,12 @@ class VectorLoops {
   }
 };
 
-using VecVectorLoops = VectorLoops<simd::Vec>;
+using VecLoops = VectorLoops<simd::Vec>;
+constexpr VectorKernels kVecKernels = {
+    VecLoops::reciprocals,    VecLoops::barrier,           VecLoops::complementarity,
+    VecLoops::dual_step,      VecLoops::log_slacks,        VecLoops::move_duals,
+    VecLoops::combine,        VecLoops::multiply_add,      VecLoops::dot,
+    VecLoops::sum_magnitudes, VecLoops::largest_magnitude, VecLoops::most_outside};
 
 }  // namespace
 }  // namespace slalom::nlp::ipm
