@@ -6,32 +6,14 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "slalom/base/error.hpp"
 #include "sparsity.hpp"
+#include "symbols.hpp"
 
 namespace slalom::ocp {
 namespace {
-
-/// What a symbol of the problem stands for.
-struct Meaning {
-  enum class Kind {
-    state,
-    control,
-    initial,
-    final,
-    slack,
-    t0,
-    tf,
-    static_parameter,
-    tau,
-    time,
-    parameter,
-  } kind;
-  std::size_t index = 0;
-};
 
 /// One of a function's outputs: a row or a cost term, with the lanes' coefficients decided later.
 struct Output {
@@ -42,11 +24,10 @@ struct Output {
 class Builder {
  public:
   Builder(const Problem& problem, const Mesh& mesh, const Scheme& scheme)
-      : problem_(problem), mesh_(mesh), scheme_(scheme) {
-    learn_symbols();
+      : problem_(problem), mesh_(mesh), scheme_(scheme), symbols_(problem) {
     check_dynamics();
     sort_terms();
-    out_.layout = make_layout(problem, mesh, scheme, find_lifts());
+    out_.layout = make_layout(problem, mesh, scheme, symbols_.find_lifts());
     out_.structure.variable_scale = variable_scales(problem, out_.layout);
   }
 
@@ -61,31 +42,6 @@ class Builder {
   }
 
  private:
-  // --- symbols -----------------------------------------------------------------------------
-  void learn_symbols() {
-    const auto learn = [&](const Expr& symbol, Meaning meaning) {
-      meaning_.emplace(symbol.node(), meaning);
-    };
-    using Kind = Meaning::Kind;
-    for (std::size_t i = 0; i < problem_.states().size(); ++i) {
-      learn(problem_.states()[i].symbol, {Kind::state, i});
-      learn(problem_.states()[i].initial_symbol, {Kind::initial, i});
-      learn(problem_.states()[i].final_symbol, {Kind::final, i});
-    }
-    for (std::size_t i = 0; i < problem_.controls().size(); ++i)
-      learn(problem_.controls()[i].symbol, {Kind::control, i});
-    for (std::size_t i = 0; i < problem_.slacks().size(); ++i)
-      learn(problem_.slacks()[i].symbol, {Kind::slack, i});
-    for (std::size_t i = 0; i < problem_.static_parameters().size(); ++i)
-      learn(problem_.static_parameters()[i].symbol, {Kind::static_parameter, i});
-    for (std::size_t i = 0; i < problem_.parameters().size(); ++i)
-      learn(problem_.parameters()[i].symbol, {Kind::parameter, i});
-    learn(problem_.initial_time(), {Kind::t0, 0});
-    learn(problem_.final_time(), {Kind::tf, 0});
-    learn(problem_.tau(), {Kind::tau, 0});
-    learn(problem_.time(), {Kind::time, 0});
-  }
-
   void check_dynamics() const {
     if (problem_.states().empty())
       throw InvalidValue(problem_.name(), "no states", "at least one state");
@@ -98,66 +54,6 @@ class Builder {
   void sort_terms() {
     for (const auto& cost : problem_.costs())
       if (cost.enabled) out_.terms.push_back(cost.name);
-  }
-
-  /// Calls `see(kind, index, symbol)` for each known symbol of `value`.
-  template <class F>
-  void for_symbols(const Expr& value, F see) const {
-    for (const auto& symbol : expr::symbols_of({value})) {
-      const auto it = meaning_.find(symbol.node());
-      if (it != meaning_.end()) see(it->second, symbol);
-    }
-  }
-
-  /// The end at which a boundary function is evaluated: the final one if it uses anything there.
-  End end_of(const Expr& value, const std::string& name) const {
-    End end = End::initial;
-    for_symbols(value, [&](Meaning meaning, const Expr& symbol) {
-      using Kind = Meaning::Kind;
-      switch (meaning.kind) {
-        case Kind::final:
-          end = End::final;
-          break;
-        case Kind::slack:
-          if (problem_.slacks()[meaning.index].end == End::final) end = End::final;
-          break;
-        case Kind::state:
-        case Kind::control:
-        case Kind::tau:
-        case Kind::time:
-          throw InvalidValue(problem_.name() + ": " + name, "'" + symbol.name() + "'",
-                             "end values only: initial(x), final(x), t0, tf, parameters");
-        default:
-          break;
-      }
-    });
-    return end;
-  }
-
-  Lifts find_lifts() const {
-    Lifts lifts{std::vector<char>(problem_.states().size(), 0),
-                std::vector<char>(problem_.states().size(), 0)};
-    const auto note = [&](const Expr& value, bool at_initial, bool at_final) {
-      for_symbols(value, [&](Meaning meaning, const Expr&) {
-        if (meaning.kind == Meaning::Kind::initial && !at_initial) lifts.initial[meaning.index] = 1;
-        if (meaning.kind == Meaning::Kind::final && !at_final) lifts.final[meaning.index] = 1;
-      });
-    };
-    const auto note_boundary = [&](const Expr& value, const std::string& name) {
-      const End end = end_of(value, name);
-      note(value, end == End::initial, end == End::final);
-    };
-    for (const auto& state : problem_.states()) note(state.rate, false, false);
-    for (const auto& cost : problem_.costs()) {
-      if (!cost.enabled) continue;
-      cost.lagrange ? note(cost.value, false, false) : note_boundary(cost.value, cost.name);
-    }
-    for (const auto& row : problem_.constraints()) {
-      if (absent(row, row.kind)) continue;
-      row.kind == Problem::Kind::boundary ? note_boundary(row.value, row.name)
-                                          : note(row.value, false, false);
-    }
-    return lifts;
   }
 
   // --- rows --------------------------------------------------------------------------------
@@ -274,9 +170,9 @@ class Builder {
     return std::nullopt;
   }
 
+  /// Throws for a symbol this problem did not make, naming the function that uses it.
   Meaning meaning_of(const Expr& symbol, const std::vector<Output>& outputs) const {
-    const auto it = meaning_.find(symbol.node());
-    if (it != meaning_.end()) return it->second;
+    if (const Meaning* known = symbols_.find(symbol)) return *known;
     std::string user = problem_.name();
     for (const auto& output : outputs)
       for (const auto& used : expr::symbols_of({output.value}))
@@ -327,12 +223,6 @@ class Builder {
 
   static bool is_fixed(const Problem::Variable& time) {
     return time.bounds.lower == time.bounds.upper;
-  }
-
-  static bool absent(const Problem::Constraint& row, Problem::Kind kind) {
-    return !row.enabled || row.kind != kind ||
-           (std::isinf(row.bounds.lower) && std::isinf(row.bounds.upper)) ||
-           (kind == Problem::Kind::family && row.member_values.empty());
   }
 
   std::vector<std::size_t> points(Points which) const {
@@ -450,13 +340,13 @@ class Builder {
       std::vector<Output> outputs;
       std::vector<const Problem::Constraint*> rows;
       for (const auto& row : problem_.constraints())
-        if (!absent(row, Problem::Kind::boundary) && end_of(row.value, row.name) == end) {
+        if (!absent(row, Problem::Kind::boundary) && symbols_.end_of(row.value, row.name) == end) {
           rows.push_back(&row);
           outputs.push_back({row.name, row.value});
         }
       std::vector<std::size_t> terms;
       for (const auto& cost : problem_.costs())
-        if (cost.enabled && !cost.lagrange && end_of(cost.value, cost.name) == end) {
+        if (cost.enabled && !cost.lagrange && symbols_.end_of(cost.value, cost.name) == end) {
           terms.push_back(term_index(cost.name));
           outputs.push_back({cost.name, cost.value});
         }
@@ -498,36 +388,12 @@ class Builder {
   const Problem& problem_;
   const Mesh& mesh_;
   const Scheme& scheme_;
-  std::unordered_map<const expr::Node*, Meaning> meaning_;
+  const Symbols symbols_;
   std::vector<RowInfo> rows_;
   std::vector<RowTerm> linear_;
   std::vector<std::vector<Use>> uses_;
   Transcribed out_;
 };
-
-/// Fills one column of a batch's data, one number a lane.
-void fill_column(const Problem& problem, const Layout& layout, std::size_t family,
-                 DataSource source, const Batch& batch, double* to) {
-  using Kind = DataSource::Kind;
-  const auto same = [&](double number) { std::fill_n(to, batch.lanes, number); };
-  switch (source.kind) {
-    case Kind::tau:
-      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
-        to[lane] = layout.tau[batch.lane_point[lane]];
-      break;
-    case Kind::t0:
-      return same(problem.t0().bounds.lower);
-    case Kind::tf:
-      return same(problem.tf().bounds.lower);
-    case Kind::parameter:
-      return same(problem.parameters()[source.index].value);
-    case Kind::member: {
-      const auto& members = problem.constraints()[family].member_values;
-      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
-        to[lane] = members[batch.lane_member[lane]][source.index];
-    }
-  }
-}
 
 }  // namespace
 
@@ -539,17 +405,6 @@ std::string RowName::in(const Problem& problem) const {
   if (family == kNone) return text;
   const auto& constraint = problem.constraints()[family];
   return fmt::format("{}[{}]{}", constraint.name, constraint.members[member], text);
-}
-
-void fill_data(const Problem& problem, Transcribed& transcribed) {
-  for (std::size_t b = 0; b < transcribed.batches.size(); ++b) {
-    Batch& batch = transcribed.batches[b];
-    const BatchData& data = transcribed.batch_data[b];
-    for (std::size_t i = 0; i < data.sources.size(); ++i)
-      fill_column(problem, transcribed.layout, data.family, data.sources[i], batch,
-                  batch.data().data() + i * batch.lanes);
-    batch.evaluator->data_changed();
-  }
 }
 
 }  // namespace slalom::ocp

@@ -1,0 +1,45 @@
+#include <algorithm>
+
+#include "builder.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+/// Fills one column of a batch's data, one number a lane.
+void fill_column(const Problem& problem, const Layout& layout, std::size_t family,
+                 DataSource source, const Batch& batch, double* to) {
+  using Kind = DataSource::Kind;
+  const auto same = [&](double number) { std::fill_n(to, batch.lanes, number); };
+  switch (source.kind) {
+    case Kind::tau:
+      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
+        to[lane] = layout.tau[batch.lane_point[lane]];
+      break;
+    case Kind::t0:
+      return same(problem.t0().bounds.lower);
+    case Kind::tf:
+      return same(problem.tf().bounds.lower);
+    case Kind::parameter:
+      return same(problem.parameters()[source.index].value);
+    case Kind::member: {
+      const auto& members = problem.constraints()[family].member_values;
+      for (std::size_t lane = 0; lane < batch.lanes; ++lane)
+        to[lane] = members[batch.lane_member[lane]][source.index];
+    }
+  }
+}
+
+}  // namespace
+
+void fill_data(const Problem& problem, Transcribed& transcribed) {
+  for (std::size_t b = 0; b < transcribed.batches.size(); ++b) {
+    Batch& batch = transcribed.batches[b];
+    const BatchData& data = transcribed.batch_data[b];
+    for (std::size_t i = 0; i < data.sources.size(); ++i)
+      fill_column(problem, transcribed.layout, data.family, data.sources[i], batch,
+                  batch.data().data() + i * batch.lanes);
+    batch.evaluator->data_changed();
+  }
+}
+
+}  // namespace slalom::ocp
