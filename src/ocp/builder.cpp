@@ -221,10 +221,6 @@ class Builder {
     uses_[batch].push_back({output, lane, row, term, coefficient});
   }
 
-  static bool is_fixed(const Problem::Variable& time) {
-    return time.bounds.lower == time.bounds.upper;
-  }
-
   std::vector<std::size_t> points(Points which) const {
     std::vector<std::size_t> list(out_.layout.points());
     std::iota(list.begin(), list.end(), std::size_t{0});

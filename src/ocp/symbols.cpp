@@ -99,4 +99,8 @@ bool absent(const Problem::Constraint& row, Problem::Kind kind) {
          (kind == Problem::Kind::family && row.member_values.empty());
 }
 
+bool is_fixed(const Problem::Variable& time) {
+  return time.bounds.lower == time.bounds.upper;
+}
+
 }  // namespace slalom::ocp

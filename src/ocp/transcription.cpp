@@ -9,6 +9,7 @@
 
 #include "builder.hpp"
 #include "slalom/base/error.hpp"
+#include "symbols.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -52,8 +53,7 @@ void check_same(const Problem& before, const Problem& now) {
                            "the constraints and cost terms that were transcribed; another choice "
                            "needs a new transcription");
   };
-  const auto fixed = [](const Problem::Variable& v) { return v.bounds.lower == v.bounds.upper; };
-  if (fixed(before.t0()) != fixed(now.t0()) || fixed(before.tf()) != fixed(now.tf()))
+  if (is_fixed(before.t0()) != is_fixed(now.t0()) || is_fixed(before.tf()) != is_fixed(now.tf()))
     throw InvalidValue(before.name(), "t0 or tf fixed or freed",
                        "the same as when it was transcribed; else a new transcription");
   check_switch(before.constraints(), now.constraints());
