@@ -59,10 +59,10 @@ std::vector<std::string> backends() {
 }
 
 std::unique_ptr<Solver> make_solver(const std::string& backend) {
-#ifdef SLALOM_WITH_IPOPT
-  if (backend.empty() || backend == "ipopt") return make_ipopt();
-#endif
   if (backend.empty() || backend == "interior_point") return make_interior_point();
+#ifdef SLALOM_WITH_IPOPT
+  if (backend == "ipopt") return make_ipopt();
+#endif
   std::string have;
   for (const auto& name : backends()) have += (have.empty() ? "" : ", ") + name;
   throw InvalidValue("solver", "'" + backend + "'", "one of " + have);

@@ -67,10 +67,9 @@ class Planner::Impl {
         vehicle_(vehicle),
         goal_(goal),
         region_(region),
-        obstacles_(std::move(obstacles)),
-        solver_(
-            nlp::make_solver(settings.solver == SolverChoice::ipopt ? "ipopt" : "interior_point")) {
+        obstacles_(std::move(obstacles)) {
     check(settings_, "planner " + settings_.name);
+    solver_ = nlp::make_solver(to_string(settings_.solver));
   }
 
   Plan plan(const Request& request) {

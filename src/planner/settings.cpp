@@ -1,8 +1,14 @@
 #include "slalom/planner/settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "slalom/base/error.hpp"
+#include "slalom/nlp/solver.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -11,6 +17,11 @@ using Table = OptionTable<Settings>;
 using Range = OptionRange;
 constexpr const char* kTable = "paper, table of simulation parameters; formulation section 3";
 constexpr const char* kSection = "formulation section 3";
+
+const std::vector<std::string>& solver_names() {
+  static const std::vector<std::string> names = {"interior_point", "ipopt"};
+  return names;
+}
 
 void add_what_tells_planners_apart(Table& table) {
   using S = Settings;
@@ -111,9 +122,9 @@ void add_tolerances_and_solver(Table& table) {
       .real("XF_tol", &S::XF_tol, Range::positive(), "m",
             "Largest slack on the final position while the goal is in range (paper Eqn. 17, 18).",
             kTable)
-      .choice("solver", &S::solver, {"ipopt", "interior_point"},
-              "The method that solves the NLP: Ipopt, or the interior-point method on the "
-              "stage-structured factorisation.")
+      .choice("solver", &S::solver, solver_names(),
+              "The method that solves the NLP: the interior-point method on the stage-structured "
+              "factorisation, or Ipopt in a build that has it.")
       .real("floor", &S::floor, Range::non_negative(), "cost",
             "Barrier floor mu: how far a plan stays off the limits. 0 solves to tol. The paper's "
             "solver stopped at about 1; every drive of the paper comes out within .78 to 1.05.",
@@ -124,6 +135,10 @@ void add_tolerances_and_solver(Table& table) {
 }
 
 }  // namespace
+
+const char* to_string(SolverChoice solver) {
+  return solver_names().at(static_cast<std::size_t>(solver)).c_str();
+}
 
 const OptionTable<Settings>& setting_options() {
   static const auto table = [] {
@@ -145,6 +160,11 @@ void check(const Settings& settings, const std::string& where) {
   if (settings.tf_min >= settings.tf_max)
     throw InvalidValue(where, fmt::format("tf_min = {}", settings.tf_min),
                        fmt::format("a number below tf_max = {}", settings.tf_max));
+  const auto solvers = nlp::backends();
+  const std::string solver = to_string(settings.solver);
+  if (std::find(solvers.begin(), solvers.end(), solver) == solvers.end())
+    throw InvalidValue(where, "solver = " + solver,
+                       fmt::format("a solver of this build: {}", fmt::join(solvers, ", ")));
 }
 
 }  // namespace slalom::planner

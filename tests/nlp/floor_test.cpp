@@ -92,6 +92,7 @@ TEST(Floor, ScaledRowHasTheSameCentralPoint) {
     problem.finish({1 / scale}, {scale});
     Options options;
     options.floor = 0.5;
+    options.floor_tol = 1e-3;  // 1 % of mu is 0.002 in x
     const auto answer = make_solver()->solve(problem, problem.cold_start(), options);
     ASSERT_EQ(answer.status, Status::solved);
     // 1 + x = mu / (x - 1)

@@ -262,6 +262,7 @@ TEST(Planner, AnImpossiblePlanIsNotSolvedAndSaysWhy) {
 
 TEST(Planner, AFailedPlanIsNoStartForTheNext) {
   for (const auto solver : solvers()) {
+    SCOPED_TRACE(to_string(solver));
     Scene scene = ring();
     scene.settings.solver = solver;
     Request away = scene.first, later = scene.first;

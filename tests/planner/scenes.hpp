@@ -17,7 +17,8 @@ using vehicle::State;
 inline std::vector<SolverChoice> solvers() {
   std::vector<SolverChoice> list;
   for (const auto& name : nlp::backends())
-    list.push_back(name == "ipopt" ? SolverChoice::ipopt : SolverChoice::interior_point);
+    for (const auto solver : {SolverChoice::interior_point, SolverChoice::ipopt})
+      if (name == to_string(solver)) list.push_back(solver);
   return list;
 }
 

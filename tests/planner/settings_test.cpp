@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <set>
 
 #include "slalom/base/error.hpp"
+#include "slalom/nlp/solver.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -120,6 +122,25 @@ TEST(Settings, ContradictionsAreRefusedWithPlaceAndRule) {
               s.L_range = std::numeric_limits<double>::infinity();
             }).find("L_range = inf"),
             std::string::npos);
+}
+
+TEST(Settings, ASolverThatThisBuildLacksIsRefusedWithThoseThereAre) {
+  Settings settings;
+  EXPECT_EQ(settings.solver, SolverChoice::interior_point);
+  EXPECT_NO_THROW(check(settings, "my.yaml"));
+  settings.solver = SolverChoice::ipopt;
+  const auto have = nlp::backends();
+  if (std::find(have.begin(), have.end(), "ipopt") != have.end()) {
+    EXPECT_NO_THROW(check(settings, "my.yaml"));
+    GTEST_SKIP() << "this build has all solvers";
+  }
+  try {
+    check(settings, "my.yaml");
+    FAIL() << "accepted";
+  } catch (const InvalidValue& e) {
+    EXPECT_STREQ(e.what(),
+                 "my.yaml: found solver = ipopt, expected a solver of this build: interior_point");
+  }
 }
 
 }  // namespace

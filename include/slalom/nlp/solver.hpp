@@ -113,7 +113,8 @@ void check_sizes(const Start& start, const Structure& structure, bool with_duals
 
 /// Names of the back ends this build has.
 std::vector<std::string> backends();
-/// Throws InvalidValue for a back end this build lacks, naming those it has.
+/// The default, interior_point, where no name is given. Throws InvalidValue for a back end this
+/// build lacks, naming those it has.
 std::unique_ptr<Solver> make_solver(const std::string& backend = "");
 
 }  // namespace slalom::nlp

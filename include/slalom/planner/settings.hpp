@@ -8,8 +8,10 @@
 namespace slalom::planner {
 
 enum class SchemeChoice { trapezoidal, hermite_simpson };
-/// The method that solves the NLP; names as nlp::backends() has them.
-enum class SolverChoice { ipopt, interior_point };
+/// The method that solves the NLP.
+enum class SolverChoice { interior_point, ipopt };
+/// The name by which nlp::backends() and files know it.
+const char* to_string(SolverChoice solver);
 /// Form of the wheel-load cost: the paper's tanh pair, or with 2 added (zero when safe).
 enum class WheelLoadCost { paper, shifted };
 
@@ -48,7 +50,7 @@ struct Settings {
   double XF_tol = 5;  ///< [m]
 
   // Solver.
-  SolverChoice solver = SolverChoice::ipopt;
+  SolverChoice solver = SolverChoice::interior_point;
   double floor = 0.9;  ///< barrier floor mu [cost units]; 0: solve to `tol`
   double tol = 1e-6;   ///< optimality tolerance
   int max_iterations = 500;
@@ -58,7 +60,8 @@ struct Settings {
 const OptionTable<Settings>& setting_options();
 
 /// Throws InvalidValue, naming `where`, when a value is outside its registered range or not finite,
-/// or when values contradict each other: L_range <= kappa, tf_min >= tf_max.
+/// or when values contradict each other: L_range <= kappa, tf_min >= tf_max; and for a solver this
+/// build has not.
 void check(const Settings& settings, const std::string& where);
 
 }  // namespace slalom::planner
