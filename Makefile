@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce results robustness format clean build
+.PHONY: help run test bench reproduce results robustness realtime format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -45,6 +45,11 @@ robustness: ## outcomes over floors, starts and horizons into docs/robustness.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/robustness.py --program build/slalom --out docs/robustness.md
+
+realtime: ## planning times beside the execution horizon into docs/realtime.md
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/realtime.py --program build/slalom
 
 format: ## format the C++ sources
 	tools/format.sh

@@ -150,8 +150,8 @@ def page(drives):
     lines = [
         "# Results", "",
         "The ten drives of the paper's figures, all by the same default settings (barrier floor 0.9,",
-        "tex 0.5 s, Ipopt). Written by `make results` (`tools/results.py`); the numbers are those of",
-        "that run, and `slalom reproduce` makes them again.", "", "## Drives", "",
+        "tex 0.5 s, interior point). Written by `make results` (`tools/results.py`); the numbers are",
+        "those of that run, and `slalom reproduce` makes them again.", "", "## Drives", "",
         *drives_table(drives, paper), "",
         "The paper reports ends of execution horizons, so its times carry up to 0.5 s; a drive of ours",
         "ends at the check after an execution horizon too, and the moment at which it entered the",

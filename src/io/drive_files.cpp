@@ -34,7 +34,10 @@ Json warm_up_json(const sim::Cycle& cycle) {
 /// Median and greatest time of the solves on the clock; the warm-up stands by itself.
 void add_solve_times(Json& summary, const sim::Drive& drive) {
   const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
+  const auto unsolved = sim::unsolved(drive);
   summary["cycles"] = wall.size();
+  summary["cycles_unsolved"] = unsolved.cycles;
+  summary["cycles_best_iterate"] = unsolved.best_iterates;
   summary["solve_time_median_s"] = number(sim::median(wall));
   summary["solve_time_max_s"] = number(sim::greatest(wall));
   summary["cpu_time_median_s"] = number(sim::median(cpu));

@@ -92,17 +92,18 @@ std::string cycles_csv(const sim::Drive& drive) {
   for (const auto& term : terms) text += "," + cell("cost_" + term);
   text +=
       ",worst_constraint,worst_violation,stationarity,complementarity,phi,tf,goal_in_range,used,"
-      "backend\n";
+      "backend,best_iterate,planning_cpu_s\n";
   for (const auto& cycle : drive.cycles) {
     if (cycle.index == 0) continue;
     const auto& report = cycle.plan.report;
     text += fmt::format("{},{},{},{},{},{},{},{}", cycle.index, cycle.t0, cycle.tex, report.wall_s,
                         report.iterations, cell(report.status), report.cpu_s, report.cost);
     for (const auto& term : terms) text += fmt::format(",{}", cost_term(report, term));
-    text += fmt::format(",{},{},{},{},{},{},{},{},{}\n", cell(report.worst_constraint),
-                        report.worst_violation, report.stationarity, report.complementarity,
-                        report.phi, cycle.plan.tf, cycle.plan.goal_in_range ? 1 : 0,
-                        cycle.used ? 1 : 0, cell(report.backend));
+    text +=
+        fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", cell(report.worst_constraint),
+                    report.worst_violation, report.stationarity, report.complementarity, report.phi,
+                    cycle.plan.tf, cycle.plan.goal_in_range ? 1 : 0, cycle.used ? 1 : 0,
+                    cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s);
   }
   return text;
 }

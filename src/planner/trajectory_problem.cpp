@@ -36,7 +36,6 @@ TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters&
     : settings_(settings),
       vehicle_(vehicle),
       goal_(goal),
-      obstacles_(obstacles),
       goal_in_range_(goal_in_range),
       problem_("trajectory") {
   const Model model = make_model(vehicle);
@@ -45,7 +44,7 @@ TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters&
   add_cost(model);
   add_initial_state();
   add_vehicle_limits(model);
-  add_obstacles();
+  add_obstacles(obstacles);
   add_lidar_region();
   add_goal();
 }
@@ -66,6 +65,7 @@ void TrajectoryProblem::add_variables(const Region& region) {
   U_[SR] = problem_.control("sr", {-vehicle_.sr_max(), vehicle_.sr_max()});
   U_[JX] = problem_.control("jx", {-vehicle_.jx_max, vehicle_.jx_max});
   t_start_ = problem_.parameter("t_start", 0);
+  t_planning_ = problem_.parameter("t_planning", 0);
   problem_.initial_time(Bounds::equal(0), 0);
   problem_.final_time({settings_.tf_min, settings_.tf_max}, settings_.tf_max / 2);
   if (goal_in_range_)
@@ -143,22 +143,24 @@ void TrajectoryProblem::add_vehicle_limits(const Model& model) {
 
 /// Time-varying elliptical obstacle constraints with the growing safety margin sm (the paper's
 /// Eqn. for obstacle avoidance), at every node after the first.
-void TrajectoryProblem::add_obstacles() {
+void TrajectoryProblem::add_obstacles(const std::vector<Obstacle>& obstacles) {
   const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
-  std::vector<Expr> numbers{xo, yo, a, b};
-  Expr x = xo, y = yo;
-  if (settings_.moving_avoidance) {
-    const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
-    const Expr t = t_start_ + problem_.time();  // absolute time of the node
-    x = xo + vx * t;
-    y = yo + vy * t;
-    numbers.insert(numbers.end(), {vx, vy});
-  }
+  const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
+  // Moving avoidance: where they are at the node's absolute time; else at the moment of planning.
+  const Expr t = settings_.moving_avoidance ? t_start_ + problem_.time() : t_planning_;
+  const Expr x = xo + vx * t, y = yo + vy * t;
   const Expr sm = settings_.sm_start + (settings_.sm_end - settings_.sm_start) * problem_.tau();
   const Expr outside = square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
-  obstacle_rows_ = problem_.path_family("obstacle", numbers, outside - 1, Bounds::at_least(0),
-                                        Points::after_first);
+  const auto rows = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
+                                         Bounds::at_least(0), Points::after_first);
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> numbers;
+  for (const auto& o : obstacles) {
+    names.push_back(o.name);
+    numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
+  }
+  problem_.set_members(rows, std::move(names), std::move(numbers));
 }
 
 /// The trajectory stays in the region the LiDAR sees (the paper's LiDAR region constraint).
@@ -190,16 +192,7 @@ void TrajectoryProblem::add_goal() {
 void TrajectoryProblem::update(const Request& request) {
   for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], request.X0p[i]);
   problem_.set_parameter(t_start_, request.t0 + request.tex);
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> numbers;
-  for (const auto& o : obstacles_) {
-    names.push_back(o.name);
-    if (settings_.moving_avoidance)
-      numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
-    else
-      numbers.push_back({o.x_at(request.t0), o.y_at(request.t0), o.a, o.b});
-  }
-  problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
+  problem_.set_parameter(t_planning_, request.t0);
 }
 
 }  // namespace slalom::planner

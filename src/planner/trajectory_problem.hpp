@@ -22,7 +22,7 @@ class TrajectoryProblem {
                     const Region& region, const std::vector<Obstacle>& obstacles,
                     bool goal_in_range);
 
-  /// Sets what changes from cycle to cycle: X0p, the absolute time of node 0, and the obstacles.
+  /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
   void update(const Request& request);
 
   const ocp::Problem& problem() const { return problem_; }
@@ -35,14 +35,13 @@ class TrajectoryProblem {
   void add_cost(const vehicle::Model& model);
   void add_initial_state();
   void add_vehicle_limits(const vehicle::Model& model);
-  void add_obstacles();
+  void add_obstacles(const std::vector<Obstacle>& obstacles);
   void add_lidar_region();
   void add_goal();
 
   const Settings settings_;
   const vehicle::Parameters vehicle_;
   const Goal goal_;
-  const std::vector<Obstacle> obstacles_;
   const bool goal_in_range_;
 
   ocp::Problem problem_;
@@ -51,8 +50,7 @@ class TrajectoryProblem {
   std::array<Expr, vehicle::kStates> X0p_;  ///< predicted state (run-time parameters)
   std::array<Expr, vehicle::kStates> x0s_;  ///< slacks on the initial state
   std::array<Expr, 2> xfs_;                 ///< slacks on the final position
-  Expr t_start_;                            ///< absolute time of node 0
-  ocp::ConstraintId obstacle_rows_{};
+  Expr t_planning_, t_start_;               ///< absolute times of planning and of node 0
 };
 
 }  // namespace slalom::planner

@@ -60,7 +60,7 @@ class ClosedLoop {
     if (!ended_ && t1 <= loop_.timeout + kSameTime) check_goal();
     if (!ended_ && t1 >= loop_.timeout - kSameTime)
       end(Outcome::timeout, fmt::format("not at the goal after {:.6g} s", loop_.timeout));
-    if (!ended_ && solved(cycle.plan)) {
+    if (!ended_ && to_be_driven(cycle.plan)) {
       signal_ = ControlSignal(cycle.plan);
       drive_.plant.back().control = signal_.at(t_);
       cycle.used = true;
@@ -87,7 +87,11 @@ class ClosedLoop {
     request.X0p = cycle.X0p;
     request.t0 = t0;
     request.tex = loop_.tex;
-    request.time_limit = loop_.solve_time_limit;
+    request.time_limit = loop_.deadline == Deadline::tex
+                             ? std::min(loop_.tex, loop_.solve_time_limit)
+                             : loop_.solve_time_limit;
+    if (loop_.on_failure == OnFailure::best_iterate)
+      request.best_iterate_tol = loop_.best_iterate_tol;
     request.interrupted = hooks_.interrupted;
     const Timer timer;
     cycle.plan = plan_(request);
@@ -95,20 +99,19 @@ class ClosedLoop {
     return cycle;
   }
 
-  static bool solved(const planner::Plan& plan) {
-    return plan.report.solved && ControlSignal::usable(plan);
+  static bool to_be_driven(const planner::Plan& plan) {
+    return (plan.report.solved || plan.report.best_iterate) && ControlSignal::usable(plan);
   }
 
   /// Ends the drive when planning took too long or failed.
   void judge(const Cycle& cycle) {
-    const bool is_solved = solved(cycle.plan);
     // A solve cut off by its time limit may stop a little short of it.
-    const double limit = loop_.solve_time_limit * (is_solved ? 1 : 0.99);
+    const double limit = loop_.solve_time_limit * (cycle.plan.report.solved ? 1 : 0.99);
     if (solve_time_ > limit)
       return end(Outcome::solve_time,
                  fmt::format("the solve of cycle {} took {:.3g} s, over {:.6g} s", cycle.index,
                              solve_time_, loop_.solve_time_limit));
-    if (is_solved || loop_.on_failure == OnFailure::last_plan) return;
+    if (to_be_driven(cycle.plan) || loop_.on_failure != OnFailure::stop) return;
     end(Outcome::not_optimal,
         fmt::format("the NLP of cycle {} was not solved: {}", cycle.index,
                     cycle.plan.report.solved ? "the plan has no usable controls"

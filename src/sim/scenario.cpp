@@ -115,9 +115,17 @@ const OptionTable<LoopSettings>& loop_options() {
         .real("solve_time_limit", &L::solve_time_limit, Range::positive(), "s",
               "Wall-clock time of one solve beyond which the drive fails as solve_time.",
               "paper, section II; formulation section 4")
-        .choice("on_failure", &L::on_failure, {"stop", "last_plan"},
+        .choice("deadline", &L::deadline, {"off", "tex"},
+                "tex: planning ends within the execution horizon, in thread time, solved or not; "
+                "off: within solve_time_limit, as in the paper.")
+        .choice("on_failure", &L::on_failure, {"stop", "last_plan", "best_iterate"},
                 "When the NLP is not solved: stop ends the drive as not_optimal, as in the paper; "
-                "last_plan drives on with the last plan, its last control held past its end.")
+                "last_plan drives on with the last plan, its last control held past its end; "
+                "best_iterate takes the best iterate the solver met if it is within "
+                "best_iterate_tol, else drives on with the last plan.")
+        .real("best_iterate_tol", &L::best_iterate_tol, Range::non_negative(), "unit of the row",
+              "Largest violation of a constraint with which best_iterate drives a plan that is not "
+              "solved: metres of a defect of position, newtons of a wheel load.")
         .boolean("warm_up", &L::warm_up,
                  "Solve the first OCP once before the clock starts, as the paper warm-starts its "
                  "optimisations.",

@@ -12,6 +12,16 @@ std::vector<double> solve_times(const Drive& drive, bool cpu) {
   return times;
 }
 
+Unsolved unsolved(const Drive& drive) {
+  Unsolved count;
+  for (const auto& cycle : drive.cycles) {
+    if (cycle.index == 0 || cycle.plan.report.solved) continue;
+    ++count.cycles;
+    count.best_iterates += cycle.used ? 1 : 0;
+  }
+  return count;
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return std::nan("");
   std::sort(values.begin(), values.end());

@@ -279,6 +279,58 @@ TEST(Planner, AFailedPlanIsNoStartForTheNext) {
   }
 }
 
+/// The solver met a point that meets all rows before it was cut off; a plan within the tolerance is
+/// one to be driven, and the next solve starts from it.
+TEST(Planner, ABestIterateWithinTheToleranceIsAStartForTheNext) {
+  for (const auto solver : solvers()) {
+    SCOPED_TRACE(to_string(solver));
+    Scene scene = E_A(), cut = scene;
+    scene.settings.solver = cut.settings.solver = solver;
+    const int needed = scene.planner().plan(scene.first).report.iterations;
+    cut.settings.max_iterations = needed - 1;
+    const Plan refused = cut.planner().plan(cut.first);
+    ASSERT_EQ(refused.report.status, "iteration_limit");
+    EXPECT_FALSE(refused.report.best_iterate) << "none is asked for";
+
+    const double violation = refused.report.worst_violation;
+    ASSERT_LT(violation, 0.1);
+    for (const bool good_enough : {true, false}) {
+      cut.first.best_iterate_tol = good_enough ? violation : violation / 2 - 1e-12;
+      auto planner = cut.planner(), fresh = cut.planner();
+      const Plan plan = planner.plan(cut.first);
+      EXPECT_EQ(plan.report.status, "iteration_limit");
+      EXPECT_FALSE(plan.report.solved);
+      EXPECT_EQ(plan.report.best_iterate, good_enough);
+      const Plan next = planner.plan(cut.first), from_nothing = fresh.plan(cut.first);
+      EXPECT_EQ(next.report.solved, good_enough) << "a start within the few iterations left";
+      EXPECT_EQ(from_nothing.report.solved, false);
+    }
+  }
+}
+
+/// Half of what a solve takes is not enough for one, but for one in several cycles.
+TEST(Planner, ASolveCutShortGoesOnInTheNextCycle) {
+  for (const auto solver : solvers()) {
+    SCOPED_TRACE(to_string(solver));
+    Scene scene = E_C();
+    scene.settings.solver = solver;
+    scene.first.time_limit = scene.planner().plan(scene.first).report.planning_cpu_s / 2;
+    auto planner = scene.planner();
+    bool solved = false;
+    for (int cycle = 0; cycle < 50 && !solved; ++cycle)
+      solved = planner.plan(scene.first).report.solved;
+    EXPECT_TRUE(solved);
+  }
+}
+
+TEST(Planner, AnImpossiblePlanIsNotDriven) {
+  Scene scene = ring();
+  scene.first.best_iterate_tol = 1e-3;
+  const Plan plan = scene.planner().plan(scene.first);
+  EXPECT_FALSE(plan.report.solved);
+  EXPECT_FALSE(plan.report.best_iterate);
+}
+
 TEST(Planner, TimeLimitEndsASolve) {
   for (const auto solver : solvers()) {
     Scene scene = E_C();
@@ -287,6 +339,7 @@ TEST(Planner, TimeLimitEndsASolve) {
     const Plan plan = scene.planner().plan(scene.first);
     EXPECT_FALSE(plan.report.solved);
     EXPECT_EQ(plan.report.status, "time_limit");
+    EXPECT_GE(plan.report.planning_cpu_s, plan.report.cpu_s);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "sim/fakes.hpp"
 #include "sim/reintegrate.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/sim/solve_times.hpp"
 
 namespace slalom::sim {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 using testing::open_field;
 using testing::plan_of;
 using testing::straight_on;
-using testing::unsolved;
 using vehicle::Control;
 
 /// What a fake planner was asked.
@@ -89,7 +89,7 @@ TEST(ClosedLoop, FailedWarmUpDoesNotEndTheDrive) {
   s.loop.warm_up = true;
   int calls = 0;
   const Drive d =
-      drive(s, [&](const auto& r) { return calls++ == 0 ? unsolved(r) : straight_on(r); });
+      drive(s, [&](const auto& r) { return calls++ == 0 ? testing::unsolved(r) : straight_on(r); });
   EXPECT_EQ(d.outcome, Outcome::timeout);
 }
 
@@ -157,7 +157,7 @@ TEST(ClosedLoop, UnsolvedStopsWhenThePlanIsDue) {
   auto s = open_field();
   int calls = 0;
   const Drive d =
-      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : unsolved(r); });
+      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : testing::unsolved(r); });
   EXPECT_EQ(d.outcome, Outcome::not_optimal);
   EXPECT_EQ(d.time, 2);
   EXPECT_EQ(d.plant.back().t, 2);
@@ -173,8 +173,9 @@ TEST(ClosedLoop, CrashBeforeThePlanIsDueBeatsTheFailureToPlan) {
   int calls = 0;
   const auto fails_at = [&](int call) {
     calls = 0;
-    return drive(
-        s, [&calls, call](const auto& r) { return ++calls < call ? straight_on(r) : unsolved(r); });
+    return drive(s, [&calls, call](const auto& r) {
+      return ++calls < call ? straight_on(r) : testing::unsolved(r);
+    });
   };
   const Drive crashed = fails_at(3);  // planned from 1 s, due at 1.5 s
   EXPECT_EQ(crashed.outcome, Outcome::crash) << crashed.message;
@@ -190,7 +191,7 @@ TEST(ClosedLoop, FailureToPlanBeatsTheGoal) {
   s.goal = {0, 34, 1.5, 1};
   int calls = 0;
   const Drive d =
-      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : unsolved(r); });
+      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : testing::unsolved(r); });
   EXPECT_EQ(d.time, 2);
   EXPECT_EQ(d.outcome, Outcome::not_optimal);
 }
@@ -211,7 +212,7 @@ TEST(ClosedLoop, LastPlanGoesOnAndHoldsItsLastControl) {
   s.loop.timeout = 3;
   int calls = 0;
   const Drive d = drive(s, [&](const planner::Request& r) {
-    if (++calls > 1) return unsolved(r);
+    if (++calls > 1) return testing::unsolved(r);
     return plan_of(
         r,
         [](double t) {
@@ -234,7 +235,64 @@ TEST(ClosedLoop, LastPlanBeforeAnyPlanIsStraightOn) {
   auto s = open_field();
   s.loop.on_failure = OnFailure::last_plan;
   s.goal = {0, 34, 1.5, 1};
-  EXPECT_EQ(drive(s, unsolved).outcome, Outcome::goal);
+  EXPECT_EQ(drive(s, testing::unsolved).outcome, Outcome::goal);
+}
+
+TEST(ClosedLoop, BestIterateIsAskedForAndDrivenOnlyWhereItIsGoodEnough) {
+  auto s = open_field();
+  s.loop.on_failure = OnFailure::best_iterate;
+  s.loop.best_iterate_tol = .01;
+  s.loop.timeout = 2.5;
+  // Violations of the cycles: the planner judges them by the tolerance it is given.
+  const std::vector<double> violation = {0, .009, .02, .01, 0};
+  Requests requests;
+  const auto plan = requests.answering([&](const planner::Request& r) {
+    const std::size_t cycle = requests.all.size();
+    auto p = plan_of(r, [&](double) { return Control{0, .1 * static_cast<double>(cycle)}; });
+    p.report.solved = violation[cycle - 1] == 0;
+    p.report.best_iterate = !p.report.solved && violation[cycle - 1] <= r.best_iterate_tol;
+    if (!p.report.solved) p.report.status = "time_limit";
+    return p;
+  });
+  const Drive d = drive(s, plan);
+  EXPECT_EQ(d.outcome, Outcome::timeout);
+  ASSERT_EQ(d.cycles.size(), 5u);
+  for (const auto& request : requests.all) EXPECT_EQ(request.best_iterate_tol, .01);
+  const bool driven[] = {true, true, false, true, false};  // the drive ended before the last one
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(d.cycles[i].used, driven[i]) << i;
+  EXPECT_EQ(d.cycles[1].plan.report.status, "time_limit") << "driven, and yet not called solved";
+  for (const auto& p : d.plant) {
+    const double plan_of_horizon[] = {0, 1, 2, 2, 4, 4};  // the third goes on with the second's
+    EXPECT_NEAR(p.control[vehicle::JX], .1 * plan_of_horizon[static_cast<int>(p.t / .5)], 1e-12);
+  }
+  EXPECT_EQ(unsolved(d).cycles, 3);
+  EXPECT_EQ(unsolved(d).best_iterates, 2);
+
+  for (const auto other : {OnFailure::stop, OnFailure::last_plan}) {
+    s.loop.on_failure = other;
+    requests.all.clear();
+    (void)drive(s, plan);
+    for (const auto& request : requests.all) EXPECT_LT(request.best_iterate_tol, 0);
+  }
+}
+
+TEST(ClosedLoop, DeadlineGivesThePlannerTheHorizonsTime) {
+  auto s = open_field();
+  s.loop.timeout = s.loop.tex = .3;
+  s.loop.solve_time_limit = 7;
+  for (const auto& [deadline, limit] :
+       {std::pair{Deadline::off, 7.0}, std::pair{Deadline::tex, .3}}) {
+    s.loop.deadline = deadline;
+    Requests requests;
+    (void)drive(s, requests.answering(straight_on));
+    ASSERT_EQ(requests.all.size(), 1u);
+    EXPECT_EQ(requests.all[0].time_limit, limit);
+  }
+  s.loop.deadline = Deadline::tex;
+  s.loop.solve_time_limit = .2;
+  Requests requests;
+  (void)drive(s, requests.answering(straight_on));
+  EXPECT_EQ(requests.all[0].time_limit, .2) << "the tighter one";
 }
 
 TEST(ClosedLoop, SolveTimeOverTheLimitEndsTheDriveEvenIfSolved) {
@@ -255,7 +313,7 @@ TEST(ClosedLoop, SolveCutOffByItsTimeLimitIsSolveTime) {
   s.loop.solve_time_limit = .05;
   const Drive d = drive(s, [](const planner::Request& r) {
     std::this_thread::sleep_for(std::chrono::duration<double>(r.time_limit));
-    return unsolved(r);
+    return testing::unsolved(r);
   });
   EXPECT_EQ(d.outcome, Outcome::solve_time);
   EXPECT_EQ(d.time, .5);
@@ -282,7 +340,7 @@ TEST(ClosedLoop, InterruptedBetweenCyclesWhilePlanningAndWhileDriving) {
         if (r.t0 < 1) return straight_on(r);
         pressed = true;
         EXPECT_TRUE(r.interrupted && r.interrupted());
-        return unsolved(r);
+        return testing::unsolved(r);
       },
       hooks);
   EXPECT_EQ(d.outcome, Outcome::interrupted);
@@ -315,7 +373,7 @@ TEST(ClosedLoop, LostPlantIsAnOutcomeNotAnException) {
   s.loop.timeout = 60;
   int calls = 0;
   const Drive d = drive(s, [&](const planner::Request& r) {
-    if (++calls > 1) return unsolved(r);
+    if (++calls > 1) return testing::unsolved(r);
     return plan_of(r, [](double) { return Control{.5, 1e200}; });
   });
   EXPECT_EQ(d.outcome, Outcome::not_optimal) << d.message;

@@ -10,11 +10,13 @@ namespace slalom::planner {
 
 /// Residuals and cost of one solve, in the user's units.
 struct SolveReport {
-  bool solved = false;  ///< the solver says so, and so do the residuals below
-  std::string status;   ///< of the solver; "not_confirmed" where the residuals deny it
-  std::string backend;  ///< which solver answered
+  bool solved = false;        ///< the solver says so, and so do the residuals below
+  std::string status;         ///< of the solver; "not_confirmed" where the residuals deny it
+  bool best_iterate = false;  ///< not solved, and within Request::best_iterate_tol: to be driven
+  std::string backend;        ///< which solver answered
   int iterations = 0;
   double cpu_s = 0, wall_s = 0;  ///< thread time and wall clock of the solve
+  double planning_cpu_s = 0;     ///< thread time of the cycle: update, guess, solve and check
   double cost = 0;
   std::vector<std::pair<std::string, double>> cost_terms;  ///< name, weighted value; sum = cost
   double phi = 0;                ///< barrier function f - mu sum log s at the floor

@@ -18,21 +18,24 @@ struct Request {
   vehicle::State X0p{};                                         ///< predicted state at t0 + tex
   double t0 = 0;                                                ///< absolute time of planning [s]
   double tex = 0.5;                                             ///< execution horizon [s]
-  double time_limit = std::numeric_limits<double>::infinity();  ///< wall clock [s]
+  double time_limit = std::numeric_limits<double>::infinity();  ///< thread time of planning [s]
+  /// A plan that is not solved, but violates no row or bound by more than this [its unit], is one
+  /// to be driven, and the next solve starts from it. Negative: none is.
+  double best_iterate_tol = -1;
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
 
-/// Plans one trajectory a cycle by solving the OCP of section 3, warm-started from the last solved
-/// plan. Not thread-safe; use one planner a thread.
+/// Plans one trajectory a cycle by solving the OCP of section 3, warm-started from the last plan
+/// that was solved, or was to be driven without, or that the time limit cut short. Not thread-safe; use one planner a thread.
 class Planner {
  public:
   Planner(const Settings& settings, const vehicle::Parameters& vehicle, const Goal& goal,
-          const Region& region, std::vector<Obstacle> obstacles);
+          const Region& region, const std::vector<Obstacle>& obstacles);
   ~Planner();
   Planner(Planner&&) noexcept;
   Planner& operator=(Planner&&) noexcept;
 
-  /// Solves; a plan whose report says it is not solved is returned too, with its last iterate.
+  /// Solves; a plan whose report says it is not solved is returned too, with the best iterate.
   Plan plan(const Request& request);
   /// Forgets the last plan, so that the next one starts from the straight-on guess.
   void reset();

@@ -13,19 +13,24 @@
 namespace slalom::sim {
 
 /// What the vehicle does in a cycle whose NLP is not solved.
-enum class OnFailure { stop, last_plan };
+enum class OnFailure { stop, last_plan, best_iterate };
+
+/// What planning may take of this thread's time: no limit of its own, or the execution horizon.
+enum class Deadline { off, tex };
 
 /// Settings of the closed loop; section 4 of docs/formulation.md.
 struct LoopSettings {
   double tex = 0.5;               ///< execution horizon [s]
   double timeout = 60;            ///< longest drive [s]
   double solve_time_limit = 300;  ///< of one solve, wall clock [s]
+  Deadline deadline = Deadline::off;
   OnFailure on_failure = OnFailure::stop;
-  bool warm_up = true;            ///< solve the first OCP once before the clock starts
-  double sm_crash = 2;            ///< margin by which obstacles grow in the crash check [m]
-  double Fz_failure = 100;        ///< least wheel load in the plant [N]
-  double plant_tolerance = 1e-9;  ///< relative and absolute, of the adaptive integrator
-  double sample_step = 0.02;      ///< longest step between recorded plant samples [s]
+  double best_iterate_tol = 1e-3;  ///< largest violation of a best iterate to be driven [its unit]
+  bool warm_up = true;             ///< solve the first OCP once before the clock starts
+  double sm_crash = 2;             ///< margin by which obstacles grow in the crash check [m]
+  double Fz_failure = 100;         ///< least wheel load in the plant [N]
+  double plant_tolerance = 1e-9;   ///< relative and absolute, of the adaptive integrator
+  double sample_step = 0.02;       ///< longest step between recorded plant samples [s]
 };
 
 const OptionTable<LoopSettings>& loop_options();

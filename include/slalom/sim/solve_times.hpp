@@ -9,6 +9,13 @@ namespace slalom::sim {
 /// Wall-clock or CPU times of the cycles on the clock, the warm-up left out [s].
 std::vector<double> solve_times(const Drive& drive, bool cpu = false);
 
+/// Of the cycles on the clock, how many were not solved, and in how many of these the best iterate
+/// was driven.
+struct Unsolved {
+  int cycles = 0, best_iterates = 0;
+};
+Unsolved unsolved(const Drive& drive);
+
 /// The mean of the middle two for an even number; NaN for none.
 double median(std::vector<double> values);
 /// NaN for no values.

@@ -1,0 +1,86 @@
+#include "guess.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slalom::planner {
+
+using namespace vehicle;
+
+const ocp::Trajectory& Guess::operator()(const Request& request, bool in_range,
+                                         const LastPlan* last) {
+  last != nullptr ? shift(request, *last) : straight_on(request);
+  guess_.slacks.clear();
+  place_initial_slacks(request, last);
+  if (in_range) place_final_slacks();
+  return guess_;
+}
+
+void Guess::straight_on(const Request& request) {
+  const State& X0p = request.X0p;
+  const double distance = std::hypot(X0p[X] - goal_.x, X0p[Y] - goal_.y);
+  const double tf = std::clamp(std::min(settings_.L_range, distance) / std::max(X0p[UX], 5.0),
+                               1.01 * settings_.tf_min, 0.99 * settings_.tf_max);
+  std::vector<double> end(kStates, 0.0);
+  end[X] = X0p[X] + tf * X0p[UX] * std::cos(X0p[PSI]);
+  end[Y] = X0p[Y] + tf * X0p[UX] * std::sin(X0p[PSI]);
+  end[PSI] = X0p[PSI];
+  end[UX] = X0p[UX];
+  guess_ = {0, tf, {0, 1}, {{X0p.begin(), X0p.end()}, end}, {{0, 0}, {0, 0}}, {}, {}};
+}
+
+/// The last plan from the new start on, its last point held, its end time kept.
+void Guess::shift(const Request& request, const LastPlan& last) {
+  const ocp::Trajectory& plan = last.trajectory;
+  const double shift = request.t0 + request.tex - last.t_start;
+  guess_.tf =
+      std::clamp(std::max(plan.tf - shift, 0.2), 1.01 * settings_.tf_min, 0.99 * settings_.tf_max);
+  const std::size_t samples = 1 + static_cast<std::size_t>(settings_.N) * 2;
+  guess_.tau.resize(samples);
+  guess_.states.resize(samples);
+  guess_.controls.resize(samples);
+  std::size_t after = 1;  // the plan's first point beyond the sample, but for the last
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double tau = static_cast<double>(k) / static_cast<double>(samples - 1);
+    const double t = shift + tau * guess_.tf;
+    while (after + 1 < plan.tau.size() && plan.time(after) <= t) ++after;
+    const double t0 = plan.time(after - 1), t1 = plan.time(after);
+    const double share = std::clamp((t - t0) / (t1 - t0), 0.0, 1.0);
+    const auto mix = [share](const auto& a, const auto& b, std::vector<double>& row) {
+      row.resize(a.size());
+      for (std::size_t i = 0; i < a.size(); ++i) row[i] = a[i] + share * (b[i] - a[i]);
+    };
+    guess_.tau[k] = tau;
+    mix(plan.states[after - 1], plan.states[after], guess_.states[k]);
+    mix(plan.controls[after - 1], plan.controls[after], guess_.controls[k]);
+  }
+}
+
+/// X(0) and its slacks inside their rows. After a plan X(0) keeps its offset from X0p and the
+/// slacks their values, so that these rows start where the barrier left them.
+void Guess::place_initial_slacks(const Request& request, const LastPlan* last) {
+  for (std::size_t i = 0; i < kStates; ++i) {
+    const double offset = last != nullptr ? last->trajectory.states.front()[i] - last->X0p[i] : 0;
+    guess_.states.front()[i] = request.X0p[i] + offset;
+    guess_.slacks.push_back(last != nullptr
+                                ? last->trajectory.slacks[i]
+                                : inside(settings_.X0_tol[i], settings_.w_ic * settings_.w_s0[i]));
+  }
+}
+
+void Guess::place_final_slacks() {
+  const auto& end = guess_.states.back();
+  for (const double gap : {std::fabs(end[X] - goal_.x), std::fabs(end[Y] - goal_.y)})
+    guess_.slacks.push_back(gap < settings_.XF_tol
+                                ? gap + inside(settings_.XF_tol - gap, settings_.w_xf)
+                                : settings_.XF_tol * 0.99);
+}
+
+/// Where the barrier alone would hold a slack of this weight: 2 mu / w off its two rows, and at
+/// most half of its room.
+double Guess::inside(double room, double weight) const {
+  const double mu = settings_.floor > 0 ? settings_.floor : 0.1;
+  return std::min(weight > 0 ? 2 * mu / weight : room, room / 2);
+}
+
+}  // namespace slalom::planner

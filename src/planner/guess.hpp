@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "slalom/ocp/trajectory.hpp"
+#include "slalom/planner/goal.hpp"
+#include "slalom/planner/planner.hpp"
+#include "slalom/planner/settings.hpp"
+
+namespace slalom::planner {
+
+/// A plan from which the next solve may start.
+struct LastPlan {
+  double t_start = 0;          ///< absolute time of its first node [s]
+  vehicle::State X0p{};        ///< the predicted state it was made for
+  ocp::Trajectory trajectory;  ///< with its slacks
+  bool in_range = false;       ///< of the goal
+};
+
+/// Where a solve starts (section 3, "Guess"): straight on from X0p at its heading and speed without
+/// a last plan, else that plan from the new start on, resampled; slacks inside their rows.
+class Guess {
+ public:
+  Guess(const Settings& settings, const Goal& goal) : settings_(settings), goal_(goal) {}
+
+  /// `last` may be null. The result lives until the next call.
+  const ocp::Trajectory& operator()(const Request& request, bool in_range, const LastPlan* last);
+
+ private:
+  void straight_on(const Request& request);
+  void shift(const Request& request, const LastPlan& last);
+  void place_initial_slacks(const Request& request, const LastPlan* last);
+  void place_final_slacks();
+  double inside(double room, double weight) const;
+
+  const Settings settings_;
+  const Goal goal_;
+  ocp::Trajectory guess_;
+};
+
+}  // namespace slalom::planner
