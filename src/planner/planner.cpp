@@ -39,6 +39,11 @@ nlp::Options solver_options(const Settings& settings, const Request& request) {
   return options;
 }
 
+/// Ended from outside, on its way to an answer.
+bool cut_short(nlp::Status status) {
+  return status == nlp::Status::time_limit || status == nlp::Status::interrupted;
+}
+
 /// One of the OCP's two forms, transcribed once and solved many times.
 struct Form {
   TrajectoryProblem problem;
@@ -78,7 +83,7 @@ class Planner::Impl {
     nlp::Options options = solver_options(settings_, request);
     start_.x = transcription.point(guess_(request, in_range, last_ ? &*last_ : nullptr));
     options.warm_start = last_ && last_->in_range == in_range;
-    options.time_limit = request.time_limit - timer.cpu() - longest_reading_s_;
+    options.time_limit = std::max(0.0, request.time_limit - timer.cpu() - longest_reading_s_);
     solver_->solve(transcription, start_, options, answer_);
     const double solved_at = timer.cpu();
     Plan plan = read(request, in_range, options);
@@ -104,8 +109,8 @@ class Planner::Impl {
     }
   }
 
-  /// The answer as a plan, judged. The next solve starts from one to be driven, and goes on from one
-  /// that the deadline cut short.
+  /// The answer as a plan, judged. The next solve starts from one to be driven, and goes on from
+  /// one that was cut short.
   Plan read(const Request& request, bool in_range, const nlp::Options& options) {
     ocp::Transcription& transcription = form(in_range).transcription;
     Plan plan;
@@ -124,8 +129,7 @@ class Planner::Impl {
       std::copy_n(trajectory.controls[k].begin(), kControls, plan.controls[k].begin());
     }
     plan.report = report(request, transcription, options);
-    if (plan.report.solved || plan.report.best_iterate ||
-        answer_.status == nlp::Status::time_limit) {
+    if (plan.report.solved || plan.report.best_iterate || cut_short(answer_.status)) {
       last_ = LastPlan{plan.t_start, request.X0p, std::move(trajectory), in_range};
       std::swap(start_.y, answer_.point.y);
       std::swap(start_.zl, answer_.point.zl);

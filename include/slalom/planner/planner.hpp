@@ -26,7 +26,8 @@ struct Request {
 };
 
 /// Plans one trajectory a cycle by solving the OCP of section 3, warm-started from the last plan
-/// that was solved, or was to be driven without, or that the time limit cut short. Not thread-safe; use one planner a thread.
+/// that was solved, or was to be driven without, or that was cut short. Not thread-safe;
+/// use one planner a thread.
 class Planner {
  public:
   Planner(const Settings& settings, const vehicle::Parameters& vehicle, const Goal& goal,
