@@ -51,8 +51,7 @@ TEST(InteriorPoint, AgreesWithIpoptAtAFloor) {
   const auto residuals = check(problem, ours.point, options);
   EXPECT_TRUE(residuals.solved(options));
   const auto names = backends();
-  if (std::find(names.begin(), names.end(), "ipopt") == names.end())
-    GTEST_SKIP() << "needs Ipopt";
+  if (std::find(names.begin(), names.end(), "ipopt") == names.end()) GTEST_SKIP() << "needs Ipopt";
   const Answer theirs = make_solver("ipopt")->solve(problem, problem.cold_start(), options);
   EXPECT_NEAR(residuals.phi, check(problem, theirs.point, options).phi, 1e-4);
 }
