@@ -14,6 +14,13 @@ constexpr double kEta = 1e-8, kGammaAlpha = 0.05, kKappaSoc = 0.99, kTau = 0.99;
 constexpr double kRounding = 1e-15;
 constexpr int kMaxCorrections = 4;
 
+/// How far the rows' multipliers go along with a primal step. W&B move them by alpha; but where
+/// alpha is small they would stay far from the bounds' multipliers, which go on by a step of their
+/// own, and so would the Hessian of the Lagrangian, and the next step be no better.
+double row_alpha(double alpha, double alpha_dual) {
+  return alpha < 0.1 ? std::max(alpha, alpha_dual) : alpha;
+}
+
 double longest(double reach, double mu) {
   const double tau = boundary_fraction(mu);
   return reach > tau ? tau / reach : 1;
@@ -76,7 +83,8 @@ bool LineSearch::try_step(const Point& from, const Step& step, double alpha, dou
                           bool derivatives, Merit& merit) {
   const auto& kernels = vector_kernels();
   kernels.combine(model_.primal(), from.at.w.data(), alpha, step.w.data(), trial_.at.w.data());
-  kernels.combine(model_.rows(), from.at.y.data(), alpha, step.y.data(), trial_.at.y.data());
+  kernels.combine(model_.rows(), from.at.y.data(), row_alpha(alpha, longest(step.reach.dual, mu)),
+                  step.y.data(), trial_.at.y.data());
   trial_.logs = kernels.log_slacks(model_.segments(), trial_.local.bounded(model_, trial_.at));
   trial_.measured = false;
   if (!std::isfinite(trial_.logs)) return false;
