@@ -85,16 +85,16 @@ OptionValue OptionInfo::checked(const OptionValue& value, const std::string& whe
       if (!std::holds_alternative<std::string>(value)) wrong_kind(*this, value, where, "text");
       return value;
     case OptionKind::choice: {
+      // Options are checked in every solve, which must not allocate: no text for good ones.
+      const auto* word = std::get_if<std::string>(&value);
+      if (word != nullptr && std::find(choices.begin(), choices.end(), *word) != choices.end())
+        return value;
       const auto expected = fmt::format("one of {}", fmt::join(choices, ", "));
-      if (!std::holds_alternative<std::string>(value)) wrong_kind(*this, value, where, expected);
-      const auto& word = std::get<std::string>(value);
-      if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
-        const auto nearest = nearest_name(word, choices);
-        throw InvalidValue(
-            where, fmt::format("{} = '{}'", name, word),
-            nearest.empty() ? expected : fmt::format("{} (did you mean '{}'?)", expected, nearest));
-      }
-      return value;
+      if (word == nullptr) wrong_kind(*this, value, where, expected);
+      const auto nearest = nearest_name(*word, choices);
+      throw InvalidValue(
+          where, fmt::format("{} = '{}'", name, *word),
+          nearest.empty() ? expected : fmt::format("{} (did you mean '{}'?)", expected, nearest));
     }
     case OptionKind::vector: {
       const auto expected =
