@@ -89,12 +89,14 @@ void Descent::centre_multipliers(double mu) {
 }
 
 void Descent::estimate_multipliers() {
-  if (model.equations().empty()) return;
-  if (!newton.fit_multipliers(point.e, point.at, step)) return;
+  Iterate& at = point.at;
+  const std::size_t n = model.variables();
+  for (std::size_t r = 0; r < model.rows(); ++r)
+    at.y[r] = model.equation(r) ? 0 : at.zu[n + r] - at.zl[n + r];
+  if (model.equations().empty() || !newton.fit_multipliers(point.e, at, step)) return;
   double largest = 0;
   for (const auto r : model.equations()) largest = std::max(largest, std::fabs(step.y[r]));
-  if (!(largest <= kMostMultiplier)) return;
-  for (std::size_t r = 0; r < model.rows(); ++r) point.at.y[r] = step.y[r];
+  if (largest <= kMostMultiplier) std::copy(step.y.begin(), step.y.end(), at.y.begin());
 }
 
 }  // namespace slalom::nlp::ipm

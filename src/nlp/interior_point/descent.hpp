@@ -41,7 +41,8 @@ class Descent {
 
   /// mu / slack for every multiplier of a bound that is far from it.
   void centre_multipliers(double mu);
-  /// Multipliers of the equations that fit the gradient best (Waechter & Biegler 2006, sec. 3.6).
+  /// Multipliers of the rows that fit the gradient best (Waechter & Biegler 2006, section 3.6);
+  /// where that gives large ones, 0 for equations and those of the bounds for inequalities.
   void estimate_multipliers();
 
  private:
