@@ -33,7 +33,7 @@ class Interrupt(ProgramTest):
             with self.subTest(number.name):
                 out = self.folder / number.name
                 process = start(*LONG, "--out", out)
-                time.sleep(1.5)
+                time.sleep(0.5)
                 self.assertIsNone(process.poll(), "the drive ended by itself")
                 result = interrupt(process, number)
                 self.assertLess(result.seconds, 2)
@@ -69,7 +69,7 @@ class Interrupt(ProgramTest):
     def test_reproduce_stops_where_it_is(self):
         out = self.folder / "out"
         process = start("reproduce", "--tex", "0.02", "--out", out)
-        time.sleep(1.5)
+        time.sleep(0.5)
         self.assertIsNone(process.poll(), "all drives ended by themselves")
         result = interrupt(process)
         self.assertLess(result.seconds, 2)

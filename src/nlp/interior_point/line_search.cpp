@@ -18,7 +18,7 @@ constexpr int kMaxCorrections = 4;
 /// alpha is small they would stay far from the bounds' multipliers, which go on by a step of their
 /// own, and so would the Hessian of the Lagrangian, and the next step be no better.
 double row_alpha(double alpha, double alpha_dual) {
-  return alpha < 0.1 ? std::max(alpha, alpha_dual) : alpha;
+  return alpha < 0.03 ? std::max(alpha, alpha_dual) : alpha;
 }
 
 double longest(double reach, double mu) {
