@@ -1,0 +1,180 @@
+// Solves recorded cycles and times them; JSON on standard output, run.py makes the tables.
+//
+//   bench_solve --cycles FILE --environment E_C --backend NAME --floor MU --tol TOL --start warm|cold
+//               [--first I] [--count N] [--kernels baseline|avx2]
+//   bench_solve --growth --environment E_C --cycles FILE --backend NAME --floor MU
+//               [--N 15,30,...] [--obstacles 0,38,...]
+//
+// A cycle's time is what the planner spends: update of the problem, shift, solve and check, once.
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cycle_file.hpp"
+#include "slalom/base/error.hpp"
+#include "slalom/base/timer.hpp"
+#include "slalom/base/kernels.hpp"
+#include "slalom/nlp/check.hpp"
+
+namespace {
+
+using namespace slalom;
+using bench::Cycle;
+using nlohmann::json;
+
+struct Arguments {
+  std::string environment = "E_C", cycles, backend, start = "warm", kernels;
+  double floor = 0, tol = 1e-6;
+  std::size_t first = 0, count = static_cast<std::size_t>(-1);
+  bool growth = false;
+  std::vector<int> N;
+  std::vector<std::size_t> obstacles;
+};
+
+nlp::Options options_of(const Arguments& a) {
+  nlp::Options options;
+  options.floor = a.floor;
+  options.tol = a.tol;
+  return options;
+}
+
+/// One cycle as the planner does it, timed from request to checked answer.
+json timed_solve(bench::PlannerCycle& planner, nlp::Solver& solver, const Cycle& cycle,
+                 const bench::Last* last, nlp::Options options, nlp::Answer& answer) {
+  bench::Form& form = planner.form(cycle.in_range);
+  const Timer timer;
+  form.update(cycle.request);
+  const auto start = planner.start(form, cycle.in_range, cycle.request, last);
+  options.warm_start = !start.y.empty();
+  const double ready_s = timer.wall();
+  answer = solver.solve(form.transcription, start, options);
+  const double solved_s = timer.wall();
+  const auto residuals = nlp::check(form.transcription, answer.point, options);
+  const double wall_s = timer.wall(), cpu_s = timer.cpu();
+
+  json result = bench::describe(residuals, form.transcription.trajectory(answer.point.x));
+  result["wall_s"] = wall_s;
+  result["cpu_s"] = cpu_s;
+  result["solver_s"] = solved_s - ready_s;
+  result["claimed"] = answer.status == nlp::Status::solved;
+  result["status"] = nlp::to_string(answer.status);
+  result["backend"] = answer.backend;
+  result["iterations"] = answer.iterations;
+  return result;
+}
+
+/// Seconds from reading the scenario until a problem can be solved.
+json set_up(const Arguments& a, bool in_range) {
+  const Timer timer;
+  bench::PlannerCycle planner(bench::load(a.environment, 0.5));
+  const auto& shape = planner.form(in_range).transcription.structure();
+  const auto solver = nlp::make_solver(a.backend);
+  return {{"setup_s", timer.wall()},
+          {"variables", shape.variables},
+          {"rows", shape.rows},
+          {"jacobian_entries", shape.jacobian_col.size()},
+          {"hessian_entries", shape.hessian_row.size()}};
+}
+
+json solve_recorded(const Arguments& a) {
+  json result = set_up(a, false);
+  bench::PlannerCycle planner(bench::load(a.environment, 0.5));
+  const auto solver = nlp::make_solver(a.backend);
+  const auto cycles = bench::read_cycles(a.cycles, planner);
+  const bool warm = a.start == "warm";
+  json solves = json::array();
+  nlp::Answer answer;
+  for (std::size_t i = a.first; i < std::min(cycles.size(), a.first + a.count); ++i) {
+    const bench::Last* last = warm && cycles[i].last ? &*cycles[i].last : nullptr;
+    solves.push_back(timed_solve(planner, *solver, cycles[i], last, options_of(a), answer));
+    solves.back()["cycle"] = i;
+  }
+  result["cycles"] = std::move(solves);
+  return result;
+}
+
+/// The first cycles of the first recorded drive on another mesh or with other obstacles, each
+/// from the last one's own plan.
+json solve_chain(const Arguments& a, const std::vector<Cycle>& cycles, std::optional<int> N,
+                 std::optional<std::size_t> obstacles) {
+  constexpr std::size_t kChain = 12;
+  const Timer timer;
+  bench::PlannerCycle planner(bench::load(a.environment, 0.5, N, obstacles));
+  const auto solver = nlp::make_solver(a.backend);
+  (void)planner.form(false);
+  json result = {{"N", planner.scenario().planner.N},
+                 {"obstacles", planner.scenario().obstacles.size()},
+                 {"setup_s", timer.wall()}};
+  json solves = json::array();
+  std::optional<bench::Last> last;
+  for (std::size_t i = 0; i < cycles.size() && cycles[i].drive == 0 && i < kChain; ++i) {
+    if (cycles[i].in_range) break;
+    nlp::Answer answer;
+    solves.push_back(
+        timed_solve(planner, *solver, cycles[i], last ? &*last : nullptr, options_of(a), answer));
+    if (answer.status != nlp::Status::solved) continue;
+    auto plan = planner.form(false).transcription.trajectory(answer.point.x);
+    answer.point.x.clear();
+    const auto& request = cycles[i].request;
+    last = bench::Last{false, request.t0 + request.tex, request.X0p, std::move(plan),
+                       std::move(answer.point)};
+  }
+  result["cycles"] = std::move(solves);
+  return result;
+}
+
+json growth(const Arguments& a) {
+  bench::PlannerCycle recorded(bench::load(a.environment, 0.5));
+  const auto cycles = bench::read_cycles(a.cycles, recorded);
+  json result = json::array();
+  for (const int N : a.N) result.push_back(solve_chain(a, cycles, N, {}));
+  for (const std::size_t obstacles : a.obstacles)
+    result.push_back(solve_chain(a, cycles, {}, obstacles));
+  return {{"growth", result}};
+}
+
+Arguments parse(int argc, char** argv) {
+  Arguments a;
+  CLI::App app("Solves recorded cycles and times them.");
+  app.add_option("--environment", a.environment, "E_B, E_C, ...");
+  app.add_option("--cycles", a.cycles, "of bench_record")->required();
+  app.add_option("--backend", a.backend, "ipopt or interior_point")->required();
+  app.add_option("--start", a.start, "warm or cold")->check(CLI::IsMember({"warm", "cold"}));
+  app.add_option("--kernels", a.kernels, "baseline or avx2; the best by default");
+  app.add_option("--floor", a.floor, "barrier floor; 0 for none");
+  app.add_option("--tol", a.tol, "optimality tolerance without a floor");
+  app.add_option("--first", a.first, "cycle to begin with");
+  app.add_option("--count", a.count, "cycles to solve");
+  app.add_flag("--growth", a.growth, "other meshes and numbers of obstacles");
+  app.add_option("--N", a.N, "numbers of intervals")->delimiter(',');
+  app.add_option("--obstacles", a.obstacles, "numbers of obstacles")->delimiter(',');
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error));
+  }
+  return a;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const Arguments a = parse(argc, argv);
+  if (!a.kernels.empty())
+    select_kernels(a.kernels == "avx2" ? KernelSet::avx2 : KernelSet::baseline);
+  json result = a.growth ? growth(a) : solve_recorded(a);
+  result["kernels"] = to_string(a.kernels.empty()       ? best_kernels()
+                                      : a.kernels == "avx2" ? KernelSet::avx2
+                                                              : KernelSet::baseline);
+  std::cout << result.dump() << "\n";
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "bench_solve: " << error.what() << "\n";
+  return 1;
+}
