@@ -2,7 +2,8 @@
 
 Direct trapezoidal collocation of sections 1 to 3 of docs/formulation.md, shared with nothing of the
 library: a peer to time against and a second opinion on the answer. Obstacles, predicted state and
-time are run-time parameters, as a planner needs them. time_casadi.py is its command line.
+time are run-time parameters, as a planner needs them. peer_ipopt.py solves recorded cycles with it,
+time_casadi.py times its functions.
 """
 
 import math
@@ -13,6 +14,7 @@ import numpy as np
 INF = math.inf
 NX, NU, NZ = 8, 2, 10
 X, Y, V, R, PSI, SA, UX, AX = range(NX)
+STATES, CONTROLS = ["x", "y", "v", "r", "psi", "sa", "ux", "ax"], ["sr", "jx"]
 X0_TOL = [0.5, 0.5, 0.5, 0.005, 0.5, 0.025, 0.5, 0.5]
 W_S0 = [1, 1, 10, 10, 10, 2, 0.1, 0.1]
 W_G, W_HAF, W_FZ, W_SA, W_SR, W_JX, W_IC, W_XF = 10, 1, 0.5, 0.1, 1, 0.01, 100, 100
@@ -246,15 +248,6 @@ class Ocp:
         z[0, :NX] = X0p
         return self.with_slacks(z, tf, X0p, floor)
 
-    def shifted(self, plan, shift, X0p, floor):
-        """The last plan (nodes, tf) from `shift` on, its last point held, its end time kept."""
-        z_old, tf_old = plan
-        tf = min(max(tf_old - shift, 0.2), 0.99 * TF_MAX)
-        old = np.linspace(0, tf_old, len(z_old))
-        new = np.linspace(shift, shift + tf, self.N + 1)
-        z = np.column_stack([np.interp(new, old, z_old[:, i]) for i in range(NZ)])
-        return self.with_slacks(z, tf, X0p, floor)
-
     def with_slacks(self, z, tf, X0p, floor):
         """X(0) within half its tolerance of X0p, slacks 2 mu / weight inside their rows."""
         inside = lambda room, weight: min(2 * floor / weight, room / 2)
@@ -270,55 +263,27 @@ class Ocp:
                 ends.append(gap + inside(XF_TOL - gap, W_XF) if near else 0.99 * XF_TOL)
         return np.concatenate([slacks, z.ravel(), ends, [tf]])
 
+    def variable_names(self):
+        """In the words of the library, for the mapping of starts and answers."""
+        names = [f"x0s_{s}" for s in STATES]
+        for k in range(self.N + 1):
+            names += [f"{s} at node {k}" for s in STATES + CONTROLS]
+        return names + (["xfs_x", "xfs_y"] if self.in_range else []) + ["tf"]
+
+    def row_names(self, obstacle_names):
+        names = [f"initial {s} from {side}" for side in ("below", "above") for s in STATES]
+        for k in range(self.N + 1):
+            names += [f"ax above ax_min at node {k}", f"ax below ax_max at node {k}"]
+            names += [f"wheel load Fz_{w} at node {k}" for w in ("rl", "rr", "fl", "fr")]
+            if k > 0:
+                names += [f"obstacle[{o}] at node {k}" for o in obstacle_names]
+                names.append(f"LiDAR region at node {k}")
+            if k < self.N:
+                names += [f"defect 0 of {s} in interval {k}" for s in STATES]
+        if self.in_range:
+            return names + [f"goal {s} from {side}" for side in ("below", "above") for s in "xy"]
+        return names + ["LiDAR edge, inner", "LiDAR edge, outer"]
+
     def plan(self, x):
         x = np.asarray(x).ravel()
         return x[8 : 8 + self.nxu].reshape(self.N + 1, NZ), x[-1]
-
-    def phi(self, answer, floor):
-        """f - floor * sum of log slack over all rows and bounds, unscaled."""
-        x, g = np.array(answer["x"]).ravel(), np.array(answer["g"]).ravel()
-        s = np.concatenate([g[~self.is_equation], (x - self.lbx)[np.isfinite(self.lbx)],
-                            (self.ubx - x)[np.isfinite(self.ubx)]])  # fmt: skip
-        return float(answer["f"]) - floor * float(np.sum(np.log(s)))
-
-
-def ipopt_options(floor, warm):
-    """As section 3 gives them for a floor; warm-start pushes small, so that the start is kept."""
-    options = {
-        "print_level": 0, "sb": "yes", "max_iter": 500, "linear_solver": "mumps",
-        "bound_relax_factor": 0, "nlp_scaling_method": "none", "kappa_d": 0,
-        "mu_target": floor, "mu_init": floor, "tol": 1e-6, "acceptable_tol": 1e-6,
-        "dual_inf_tol": 1e-3, "constr_viol_tol": 1e-6, "compl_inf_tol": 0.01 * floor,
-    }  # fmt: skip
-    if warm:
-        options["warm_start_init_point"] = "yes"
-        for push in ("bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac",
-                     "mult_bound_push"):  # fmt: skip
-            options["warm_start_" + push] = 1e-6
-    return {"ipopt." + key: value for key, value in options.items()}
-
-
-class Solver:
-    """Cold and warm solves of one form through CasADi's interface to its Ipopt."""
-
-    def __init__(self, ocp, floor, compiled=None):
-        self.ocp, self.floor = ocp, floor
-        plain = {"print_time": False, "record_time": True, "calc_lam_p": False}
-        source = compiled or ocp.nlp
-        self.solvers = [ca.nlpsol("s", "ipopt", source, plain | ipopt_options(floor, warm))
-                        for warm in (False, True)]  # fmt: skip
-
-    def solve(self, x, p, duals=None):
-        ocp, solver = self.ocp, self.solvers[duals is not None]
-        start = {} if duals is None else {"lam_x0": duals[0], "lam_g0": duals[1]}
-        answer = solver(x0=x, p=p, lbx=ocp.lbx, ubx=ocp.ubx, lbg=ocp.lbg, ubg=ocp.ubg, **start)
-        stats = solver.stats()
-        return {
-            "solved": bool(stats["success"]), "status": stats["return_status"],
-            "iterations": int(stats["iter_count"]), "wall_s": stats["t_wall_total"],
-            "functions_s": sum(v for k, v in stats.items() if k.startswith("t_wall_nlp_")),
-            "hessian_calls": int(stats.get("n_call_nlp_hess_l", 0)),
-            "f": float(answer["f"]), "phi": ocp.phi(answer, self.floor),
-            "x": np.array(answer["x"]).ravel(),
-            "duals": (np.array(answer["lam_x"]).ravel(), np.array(answer["lam_g"]).ravel()),
-        }  # fmt: skip

@@ -1,0 +1,109 @@
+"""Recorded cycles, the levels they are solved to, and answers on their way to bench_judge."""
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+
+INF = float("inf")
+
+
+@dataclass(frozen=True)
+class Level:
+    """What a contestant is asked for, and what its answer must meet, in unscaled units."""
+
+    floor: float  # barrier floor; 0: none
+    tol: float  # asked for without a floor
+    violation: float  # largest row, bound or defect [its unit]
+    stationarity: float  # largest component of the Lagrangian's gradient [cost units]
+    complementarity: float  # |s z / mu - 1| at the floor; |s z| without [cost units]
+
+    def confirms(self, entry):
+        """Whether the checker's residuals make `entry` an answer (NaN never does)."""
+        return all(entry[k] is not None and entry[k] <= getattr(self, k)
+                   for k in ("violation", "stationarity", "complementarity"))  # fmt: skip
+
+
+# The floor as docs/formulation.md defines "solved"; without one the tolerance for rows, ten times
+# it for complementarity, and a gradient that is small beside multipliers of some hundreds.
+LEVELS = {
+    "floor": Level(0.9, 1e-6, 1e-6, 1e-3, 1e-2),
+    "1e-2": Level(0, 1e-2, 1e-2, 1.0, 1e-1),
+    "1e-6": Level(0, 1e-6, 1e-6, 1e-3, 1e-5),
+}
+
+
+@dataclass
+class Cycle:
+    index: int
+    meta: dict  # t0, tex, in_range, solved, drive, perturbed, has_last, ... (cycle_file.cpp)
+    X0p: np.ndarray
+    y: np.ndarray  # multipliers of the last plan, as they were; empty without one
+    zl: np.ndarray
+    zu: np.ndarray
+    warm_x: np.ndarray
+    cold_x: np.ndarray
+
+    @property
+    def form(self):
+        return "in_range" if self.meta["in_range"] else "out_of_range"
+
+    @property
+    def has_duals(self):
+        return bool(self.meta["has_last"]) and self.meta["in_range"] == self.meta["last_in_range"]
+
+
+class CycleFile:
+    """A file of bench_record: names of variables and rows by form, and the cycles."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            header = json.loads(file.readline())
+            data = np.frombuffer(file.read())
+        self.environment, self.forms = header["environment"], header["forms"]
+        self.cycles, at = [], 0
+        for index in range(header["cycles"]):
+            arrays = {}
+            for field in header["fields"]:
+                size = int(data[at])
+                arrays[field] = data[at + 1 : at + 1 + size]
+                at += 1 + size
+            meta = dict(zip(header["meta"], arrays["meta"]))
+            keep = {k: arrays[k] for k in ("X0p", "y", "zl", "zu", "warm_x", "cold_x")}
+            self.cycles.append(Cycle(index, meta, **keep))
+
+
+class Names:
+    """Our order of names beside a peer's; what the peer lacks (lifted copies) is NaN on our side."""
+
+    def __init__(self, ours, theirs):
+        place = {name: i for i, name in enumerate(ours)}
+        self.size = len(ours)
+        self.ours = np.array([place[name] for name in theirs])
+
+    def to_peer(self, values):
+        return values[self.ours]
+
+    def to_ours(self, values):
+        result = np.full(self.size, np.nan)
+        result[self.ours] = values
+        return result
+
+
+def split_multipliers(x, lower, upper, lam, floor):
+    """zl, zu of bounds of which a peer gives lam = zu - zl alone. At a floor both sides of a
+    variable have one: they share the deviation from the central point mu / slack alike."""
+    zl, zu = np.maximum(-lam, 0), np.maximum(lam, 0)
+    both = np.isfinite(lower) & np.isfinite(upper)
+    if floor > 0:
+        low, up = floor / (x - lower)[both], floor / (upper - x)[both]
+        off = (lam[both] - (up - low)) / (up + low)
+        zl[both], zu[both] = low * (1 - off), up * (1 + off)
+    return zl, zu
+
+
+def write_answer(file, cycle, *arrays):
+    """Appends one answer in the form bench_judge reads."""
+    for values in (np.array([float(cycle)]), *arrays):
+        np.array([float(len(values))]).tofile(file)
+        np.ascontiguousarray(values, dtype=float).tofile(file)
