@@ -102,8 +102,9 @@ def library(args, form):
 
 def prepare(args):
     """DIR/ENVIRONMENT_FORM.so: the functions Ipopt calls."""
+    args.dir = os.path.abspath(args.dir)
     os.makedirs(args.dir, exist_ok=True)
-    os.chdir(args.dir)
+    os.chdir(args.dir)  # CasADi writes where it stands
     for form, in_range in FORMS.items():
         solver = Solver(Ocp(args.environment, "P_D", in_range), LEVELS["floor"])
         solver.solvers[0].generate_dependencies(f"{args.environment}_{form}.c")
