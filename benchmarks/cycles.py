@@ -1,6 +1,8 @@
 """Recorded cycles, the levels they are solved to, and answers on their way to bench_judge."""
 
+import argparse
 import json
+import os
 from dataclasses import dataclass
 
 import numpy as np
@@ -107,3 +109,28 @@ def write_answer(file, cycle, *arrays):
     for values in (np.array([float(cycle)]), *arrays):
         np.array([float(len(values))]).tofile(file)
         np.ascontiguousarray(values, dtype=float).tofile(file)
+
+
+FORMS = {"out_of_range": False, "in_range": True}  # goal in range
+
+
+def peer_arguments(doc, commands, levels=tuple(LEVELS)):
+    """The command line that all peers have."""
+    parser = argparse.ArgumentParser(description=doc.split("\n")[0])
+    parser.add_argument("command", choices=commands)
+    parser.add_argument("--environment", default="E_C")
+    parser.add_argument("--dir", default=".", type=os.path.abspath, help="of generated C")
+    parser.add_argument("--mode", choices=["vm", "c"], default="c")
+    parser.add_argument("--cycles", type=os.path.abspath, help="file of bench_record")
+    parser.add_argument("--level", choices=levels, default=levels[-1])
+    parser.add_argument("--start", choices=["warm", "cold"], default="warm")
+    parser.add_argument("--first", type=int, default=0, help="cycle to begin with")
+    parser.add_argument("--count", type=int, default=1 << 30, help="cycles to solve")
+    parser.add_argument("--options", default="{}", type=json.loads, help="more of the solver's, JSON")
+    parser.add_argument("--out", type=os.path.abspath, help="file for the results, JSON")
+    return parser
+
+
+def write_results(args, setup_s, solves):
+    with open(args.out, "w") as file:
+        json.dump({"setup_s": setup_s, "cycles": solves}, file)

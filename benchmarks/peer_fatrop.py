@@ -2,23 +2,19 @@
 
     python peer_fatrop.py prepare --environment E_C --dir DIR
     python peer_fatrop.py run --environment E_C --dir DIR --mode vm|c --cycles FILE --level 1e-6
-           --start warm [--first I --count N]                   JSON on standard output
+           --start warm --out FILE [--first I --count N]                   JSON into FILE
 """
 
-import argparse
-import json
 import os
-import sys
 import time
 
 import casadi as ca
 import numpy as np
 
 from compiled import compile_c
-from cycles import LEVELS, CycleFile
+from cycles import FORMS, LEVELS, CycleFile, peer_arguments, write_results
 from shooting import FlatNlp, Judge
 
-FORMS = {"out_of_range": False, "in_range": True}
 
 
 def make_solver(flat, level, more, source=None):
@@ -51,7 +47,7 @@ def run(args):
         flat = FlatNlp(args.environment, in_range)
         began = time.perf_counter()
         source = library(args, form) + ".so" if args.mode == "c" else None
-        solver = make_solver(flat, level, json.loads(args.options), source)
+        solver = make_solver(flat, level, args.options, source)
         setup.append(time.perf_counter() - began)
         forms[form] = flat, solver, Judge(flat)
     solves = []
@@ -68,21 +64,11 @@ def run(args):
             "claimed": bool(stats["success"]), "status": str(stats["unified_return_status"]),
             "iterations": int(stats.get("iter_count", inner.get("iterations_count", -1))),
             "wall_s": stats["t_wall_total"], "cpu_s": stats["t_proc_total"]})  # fmt: skip
-    json.dump({"setup_s": setup[0], "cycles": solves}, sys.stdout)
+    write_results(args, setup[0], solves)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("command", choices=["prepare", "run"])
-    parser.add_argument("--environment", default="E_C")
-    parser.add_argument("--mode", choices=["vm", "c"], default="vm")
-    parser.add_argument("--dir", default=".", type=os.path.abspath)
-    parser.add_argument("--cycles")
-    parser.add_argument("--level", choices=["1e-2", "1e-6"], default="1e-6")
-    parser.add_argument("--start", choices=["warm", "cold"], default="warm")
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--count", type=int, default=1 << 30)
-    parser.add_argument("--options", default="{}", help="more of fatrop's, as JSON")
+    parser = peer_arguments(__doc__, ["prepare", "run"], ("1e-2", "1e-6"))
     args = parser.parse_args()
     {"prepare": prepare, "run": run}[args.command](args)
 

@@ -3,11 +3,9 @@
     python peer_ipopt.py check                 the page's first OCPs (docs/formulation.md, section 6)
     python peer_ipopt.py prepare --environment E_C --dir DIR     generate and compile both forms
     python peer_ipopt.py run --environment E_C --dir DIR --mode vm|c --cycles FILE --level floor
-           --start warm --answers FILE [--first I --count N]     JSON on standard output
+           --start warm --out FILE --answers FILE [--first I --count N]     JSON into FILE
 """
 
-import argparse
-import json
 import os
 import sys
 import time
@@ -16,10 +14,11 @@ import casadi as ca
 import numpy as np
 
 from compiled import compile_c
-from cycles import LEVELS, CycleFile, Level, Names, split_multipliers, write_answer
+from cycles import (
+    FORMS, LEVELS, CycleFile, Level, Names, peer_arguments, split_multipliers, write_answer,
+    write_results)  # fmt: skip
 from planner_casadi import Ocp, X, Y
 
-FORMS = {"out_of_range": False, "in_range": True}
 
 
 def ipopt_options(level, warm):
@@ -97,12 +96,11 @@ def check(_):
 
 
 def library(args, form):
-    return os.path.join(os.path.abspath(args.dir), f"{args.environment}_{form}")
+    return os.path.join(args.dir, f"{args.environment}_{form}")
 
 
 def prepare(args):
     """DIR/ENVIRONMENT_FORM.so: the functions Ipopt calls."""
-    args.dir = os.path.abspath(args.dir)
     os.makedirs(args.dir, exist_ok=True)
     os.chdir(args.dir)  # CasADi writes where it stands
     for form, in_range in FORMS.items():
@@ -122,7 +120,7 @@ def run(args):
         names = file.forms[form]
         obstacles = [n[9 : n.index("]")] for n in names["rows"] if n.startswith("obstacle[")
                      and n.endswith("at node 1")]  # fmt: skip
-        forms[form] = (Solver(ocp, level, source, json.loads(args.options)),
+        forms[form] = (Solver(ocp, level, source, args.options),
                        Names(names["variables"], ocp.variable_names()),
                        Names(names["rows"], ocp.row_names(obstacles)))  # fmt: skip
         setup.append(built_s * (source is None) + forms[form][0].setup_s)
@@ -130,7 +128,7 @@ def run(args):
     with open(args.answers, "wb") as answers:
         for cycle in file.cycles[args.first : args.first + args.count]:
             solves.append(solve_cycle(cycle, level, args.start, *forms[cycle.form], answers))
-    json.dump({"setup_s": setup[0], "cycles": solves}, sys.stdout)
+    write_results(args, setup[0], solves)
 
 
 def solve_cycle(cycle, level, start, solver, variables, rows, answers):
@@ -148,18 +146,8 @@ def solve_cycle(cycle, level, start, solver, variables, rows, answers):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("command", choices=["check", "prepare", "run"])
-    parser.add_argument("--environment", default="E_C")
-    parser.add_argument("--mode", choices=["vm", "c"], default="vm")
-    parser.add_argument("--dir", default=".")
-    parser.add_argument("--cycles")
-    parser.add_argument("--level", choices=LEVELS, default="floor")
-    parser.add_argument("--start", choices=["warm", "cold"], default="warm")
-    parser.add_argument("--answers", default=os.devnull)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--count", type=int, default=1 << 30)
-    parser.add_argument("--options", default="{}", help="more of Ipopt's, as JSON")
+    parser = peer_arguments(__doc__, ["check", "prepare", "run"])
+    parser.add_argument("--answers", default=os.devnull, help="file for bench_judge")
     args = parser.parse_args()
     {"check": check, "prepare": prepare, "run": run}[args.command](args)
 

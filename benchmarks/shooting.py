@@ -66,7 +66,7 @@ class Model:
         """All >= 0, at nodes k >= 1."""
         _, loads, ax_min, ax_max = vehicle(ca.vertcat(x[:NX], 0, 0))
         margin, t = 2.5 + 1.5 * tau, p[8] + tau * x[TF]
-        obstacle = ca.reshape(p[9:], 6, len(self.obstacles))
+        obstacle = ca.reshape(p[9 : self.np], 6, len(self.obstacles))
         xo, yo = obstacle[0, :] + obstacle[4, :] * t, obstacle[1, :] + obstacle[5, :] * t
         outside = (((x[X] - xo) / (obstacle[2, :] + margin)) ** 2
                    + ((x[Y] - yo) / (obstacle[3, :] + margin)) ** 2 - 1)  # fmt: skip
