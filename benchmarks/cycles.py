@@ -1,4 +1,4 @@
-"""Recorded cycles, the levels they are solved to, and answers on their way to bench_judge."""
+"""Recorded cycles, the command line of peers, and answers on their way to bench_judge."""
 
 import argparse
 import json
@@ -7,32 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-INF = float("inf")
-
-
-@dataclass(frozen=True)
-class Level:
-    """What a contestant is asked for, and what its answer must meet, in unscaled units."""
-
-    floor: float  # barrier floor; 0: none
-    tol: float  # asked for without a floor
-    violation: float  # largest row, bound or defect [its unit]
-    stationarity: float  # largest component of the Lagrangian's gradient [cost units]
-    complementarity: float  # |s z / mu - 1| at the floor; |s z| without [cost units]
-
-    def confirms(self, entry):
-        """Whether the checker's residuals make `entry` an answer (NaN never does)."""
-        return all(entry[k] is not None and entry[k] <= getattr(self, k)
-                   for k in ("violation", "stationarity", "complementarity"))  # fmt: skip
-
-
-# The floor as docs/formulation.md defines "solved"; without one the tolerance for rows, ten times
-# it for complementarity, and a gradient that is small beside multipliers of some hundreds.
-LEVELS = {
-    "floor": Level(0.9, 1e-6, 1e-6, 1e-3, 1e-2),
-    "1e-2": Level(0, 1e-2, 1e-2, 1.0, 1e-1),
-    "1e-6": Level(0, 1e-6, 1e-6, 1e-3, 1e-5),
-}
+from levels import LEVELS
 
 
 @dataclass

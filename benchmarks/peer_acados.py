@@ -15,10 +15,12 @@ import time
 
 import numpy as np
 
-from cycles import FORMS, LEVELS, CycleFile, peer_arguments, write_results
+from cycles import FORMS, CycleFile, peer_arguments, write_results
+from levels import LEVELS
 from shooting import NS, NU, NX, TF, U_MAX, W_XF, XF_TOL, FlatNlp, Judge, Model
 
-BIG = 1e6  # stands for no bound: HPIPM has both sides of every row
+BIG = 1e4  # stands for no bound: HPIPM has both sides of every row
+SOFT = 1e3  # weight of a violated row: more than its multiplier, so that the answer keeps to it
 
 
 def formulate(model, in_range, name, options):
@@ -42,16 +44,21 @@ def formulate(model, in_range, name, options):
         gap = x[:2] - ca.DM(model.env["goal"])
         m.con_h_expr_e = ca.vertcat(m.con_h_expr, gap, gap)
         lower, upper = [-XF_TOL] * 2 + [0] * 2, [XF_TOL] * 2 + [0] * 2
-        ocp.constraints.idxsh_e = np.array([count + 2, count + 3])
-        ocp.cost.zl_e = ocp.cost.zu_e = np.full(2, float(W_XF))
-        ocp.cost.Zl_e = ocp.cost.Zu_e = np.zeros(2)
+        soft_e = [*range(count), count + 2, count + 3]
     else:
         m.cost_expr_ext_cost_e += model.goal_cost(x, p)
         m.con_h_expr_e = ca.vertcat(m.con_h_expr, 1e-3 * model.edge(x, p))
         lower, upper = [0], [BIG]
+        soft_e = list(range(count + 1))
     c = ocp.constraints
     c.lh, c.uh = np.zeros(count), np.full(count, BIG)
     c.lh_e, c.uh_e = np.append(c.lh, lower), np.append(c.uh, upper)
+    c.idxsh, c.idxsh_e = np.arange(count), np.array(soft_e)
+    cost = ocp.cost
+    cost.zl = cost.zu = np.full(count, SOFT)
+    cost.Zl = cost.Zu = np.zeros(count)
+    cost.zl_e = cost.zu_e = np.append(np.full(len(soft_e) - 2, SOFT), [W_XF, W_XF] if in_range else [SOFT, SOFT])
+    cost.Zl_e = cost.Zu_e = np.zeros(len(soft_e))
     bounded = np.isfinite(model.x_max)
     c.idxbx = c.idxbx_e = np.flatnonzero(bounded)
     c.lbx = c.lbx_e = model.x_min[bounded]

@@ -12,9 +12,9 @@ import casadi as ca
 import numpy as np
 
 from compiled import compile_c
-from cycles import FORMS, LEVELS, CycleFile, peer_arguments, write_results
+from cycles import FORMS, CycleFile, peer_arguments, write_results
+from levels import LEVELS
 from shooting import FlatNlp, Judge
-
 
 
 def make_solver(flat, level, more, source=None):

@@ -15,10 +15,9 @@ import numpy as np
 
 from compiled import compile_c
 from cycles import (
-    FORMS, LEVELS, CycleFile, Level, Names, peer_arguments, split_multipliers, write_answer,
-    write_results)  # fmt: skip
+    FORMS, CycleFile, Names, peer_arguments, split_multipliers, write_answer, write_results)  # fmt: skip
+from levels import LEVELS, Level
 from planner_casadi import Ocp, X, Y
-
 
 
 def ipopt_options(level, warm):

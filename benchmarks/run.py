@@ -1,341 +1,224 @@
 #!/usr/bin/env python3
-"""Times the library beside CasADi on the planner's OCP in E_C and writes docs/benchmarks.md.
+"""Times the planner's solver beside its peers on recorded cycles; writes docs/benchmarks.md.
 
-Sets up everything it needs: CasADi in benchmarks/.venv, our program in build/bench, CasADi's C in
-build/bench/casadi. Then runs the contestants in turn, several rounds, on one core; pools the rounds
-and writes the tables (standard output, docs/benchmarks.md) and every sample
-(build/bench/benchmarks.json). Use a quiet machine.
+Steps, all of them by default, each of which may be run by itself:
+  setup      build our programs, install the peers, generate and compile their C
+  record     begin a run: drive, and write its cycles
+  measure    each contestant on each environment, level and start, chunk by chunk, in turn
+  growth     other meshes and numbers of obstacles
+  functions  one evaluation of the functions beside CasADi's
+  report     tables of the run, on standard output and in docs/benchmarks.md
+
+A run is a folder build/bench/runs/ID with its cycles and one JSON file a contestant and chunk:
+`measure` leaves alone what is there, so a stopped run goes on where it was (--minutes stops it in
+time), and `--again` measures anew what --contestants names. Use a quiet machine.
 """
 
 import argparse
 import json
 import os
-import platform
-import re
-import statistics
 import subprocess
 import sys
+import time
 from pathlib import Path
 
-from tables import PARTS, POINTS, QUANTITIES, markdown
+import machine
+from contestants import (
+    BUILD, CONTESTANTS, DEFAULT, ENVIRONMENTS, GENERATED, HERE, PEERS, ROOT, WHEEL, Job, program,
+    python, run_command)  # fmt: skip
+from levels import LEVELS
+from summary import summarise
+from tables import markdown
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent
-VENV = HERE / ".venv"
-BUILD = Path(os.environ.get("SLALOM_BENCH_BUILD", ROOT / "build" / "bench"))
-CASADI = BUILD / "casadi"
-CYCLES = HERE / "cycles_E_C.json"
-PEER = HERE / "time_casadi.py"
-COMPILER = "gcc -O3 -march=native"
-# What Ipopt calls for each quantity; CasADi's grad_f gives f too, its jac_g gives g.
-CALLS = {
-    "all_first": ["nlp_grad_f", "nlp_jac_g"],
-    "all_second": ["nlp_grad_f", "nlp_jac_g", "nlp_hess_l"],
-    "hessian": ["nlp_hess_l"],
-}
+STEPS = ("setup", "record", "measure", "growth", "functions", "report")
+RUNS = BUILD / "runs"
+STARTS = ("warm", "cold")
+CHUNK = 250
+GROWTH = ["--N", "15,30,60,120,240,480", "--obstacles", "0,38,100,300,1000"]
 
 
 def say(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def output_of(*command, default="unknown", **more):
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=True, **more)
-        return done.stdout.strip()
-    except (OSError, subprocess.CalledProcessError):
-        return default
-
-
 # --- set-up -----------------------------------------------------------------------------------
 
 
-def python():
-    return str(VENV / "bin" / "python")
-
-
-def set_up_venv():
+def install_peers():
     wanted = (HERE / "requirements.txt").read_text()
-    stamp = VENV / "installed.txt"
+    stamp = PEERS / "installed.txt"
     if stamp.exists() and stamp.read_text() == wanted:
         return
-    say("installing CasADi into benchmarks/.venv")
-    subprocess.run([sys.executable, "-m", "venv", str(VENV)], check=True)
-    subprocess.run([python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check",
-                    "-r", str(HERE / "requirements.txt")], check=True)  # fmt: skip
+    say(f"installing the peers into {PEERS}")
+    subprocess.run([sys.executable, "-m", "venv", str(PEERS)], check=True)
+    pip = [python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    lines = [line for line in wanted.splitlines() if line and not line.startswith("#")]
+    # The acados wheel carries a slim CasADi for another Python: unpacked beside, not installed.
+    beside = [line for line in lines if "acados" in line]
+    subprocess.run([*pip, *(line for line in lines if line not in beside)], check=True)
+    subprocess.run([*pip, "--no-deps", "--upgrade", "--target", str(WHEEL), *beside], check=True)
     stamp.write_text(wanted)
 
 
-def build_ours(jobs):
-    say("building bench_planner in build/bench")
+def build_ours():
+    say(f"building our programs in {BUILD}")
     quiet = {"check": True, "stdout": subprocess.DEVNULL}
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), "-DCMAKE_BUILD_TYPE=Release",
                     "-DSLALOM_BENCHMARKS=ON", "-DSLALOM_TESTS=OFF"], **quiet)  # fmt: skip
-    subprocess.run(["cmake", "--build", str(BUILD), "--parallel", str(jobs), "--target",
-                    "bench_planner", "bench_generated"], **quiet)  # fmt: skip
+    targets = ["bench_" + name for name in ("record", "solve", "judge", "functions", "generated")]
+    subprocess.run(["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count()), "--target",
+                    *targets], **quiet)  # fmt: skip
 
 
-def build_peer():
-    """Checks CasADi's problem, generates its C and compiles what changed."""
-    say("checking CasADi's problem and compiling its C (minutes, the first time)")
-    CASADI.mkdir(parents=True, exist_ok=True)
-    subprocess.run([python(), str(PEER), "check"], check=True, stdout=sys.stderr)
-    subprocess.run([python(), str(PEER), "prepare", "--dir", str(CASADI), "--compiler", COMPILER],
-                   check=True)  # fmt: skip
+def setup(args):
+    build_ours()
+    install_peers()
+    say("checking CasADi's problem, generating and compiling the peers' C (many minutes, once)")
+    subprocess.run([python(), str(HERE / "peer_ipopt.py"), "check"], check=True, stdout=sys.stderr)
+    for name in args.contestants:
+        for command in CONTESTANTS[name].prepare:
+            for environment in ENVIRONMENTS:
+                say(f"preparing {name}, {environment}")
+                run_command([part.replace("{}", environment) for part in command], limit=3600)
 
 
-def program(name):
-    found = [p for p in BUILD.rglob(name) if p.is_file()]
-    if not found:
-        sys.exit(f"{name} is not in build/bench after the build")
-    return str(found[0])
+# --- a run ------------------------------------------------------------------------------------
 
 
-# --- rounds -----------------------------------------------------------------------------------
+def load(path):
+    return json.loads(path.read_text())
 
 
-def run_json(command, limit=600):
-    """The command's JSON, or {"error": what it said}."""
+def current_run(args):
+    name = args.run or ((RUNS / "latest").read_text() if (RUNS / "latest").exists() else "")
+    if not name or not (RUNS / name / "about.json").exists():
+        sys.exit("no run to go on with: run.py record begins one")
+    return RUNS / name
+
+
+def record(args):
+    name = time.strftime("%Y%m%d-%H%M%S")
+    folder = RUNS / name
+    (folder / "results").mkdir(parents=True)
+    cycles, perturbed = (48, 12) if args.quick else (1000, 250)
+    for environment in ENVIRONMENTS:
+        say(f"recording {cycles} + {perturbed} cycles in {environment}")
+        run_command([program("bench_record"), "--environment", environment, "--cycles", str(cycles),
+                     "--perturbed", str(perturbed), "--seed", str(args.seed), "--out",
+                     str(folder / f"{environment}.cycles")])  # fmt: skip
+    about = {"run": name, "quick": args.quick, "seed": args.seed, "recorded": cycles,
+             "perturbed": perturbed, "machine": machine.describe()}  # fmt: skip
+    (folder / "about.json").write_text(json.dumps(about, indent=1))
+    (RUNS / "latest").write_text(name)
+
+
+def write_result(folder, name, key, call):
+    """Runs `call` and keeps what it gave, with the run's name and our version."""
+    began = time.time()
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=limit)
-    except subprocess.TimeoutExpired:
-        return {"error": f"no answer within {limit} s"}
-    if done.returncode != 0:
-        return {"error": (done.stderr.strip().splitlines() or ["failed"])[-1]}
-    return json.loads(done.stdout)
+        result = call()
+    except (RuntimeError, OSError, ValueError) as error:
+        result = {"error": str(error)}
+        say(f"  {name}: {error}")
+    result |= key | {"run": folder.name, "version": machine.slalom_version(),
+                     "took_s": time.time() - began, "load": os.getloadavg()[0]}  # fmt: skip
+    (folder / "results" / f"{name}.json").write_text(json.dumps(result))
 
 
-def contestants(args):
-    """Name -> commands of one round, their outputs merged."""
-    repeats = ["--repeats", str(args.repeats)]
-    ours = [program("bench_planner"), "--cycles", str(CYCLES)]
-    result = {}
-    for i, backend in enumerate(args.backends):
-        functions = repeats if i == 0 else ["--repeats", "0"]
-        result[f"slalom, {backend}"] = [[*ours, "--backend", backend, *functions]]
-    peer = [python(), str(PEER), "run", "--dir", str(CASADI), *repeats]
-    generated = program("bench_generated")
-    calls = [[generated, str(CASADI / "all_sx.so"), str(CASADI / f"point_{at}.txt"),
-              str(args.repeats), *QUANTITIES] for at in POINTS]  # fmt: skip
-    separate = [[generated, str(CASADI / "nlp_sx.so"), str(CASADI / f"point_{at}.txt"),
-                 str(args.repeats), *CALLS["all_second"]] for at in POINTS]  # fmt: skip
-    result["CasADi C"] = [[*peer, "--mode", "c"], *calls, *separate]
-    result["CasADi VM"] = [[*peer, "--mode", "vm"]]
-    return result
+def jobs(about):
+    total = about["recorded"] + about["perturbed"]
+    for environment in ENVIRONMENTS:
+        for start in STARTS:
+            for level in LEVELS:
+                for first in range(0, total, CHUNK):
+                    yield Job(environment, level, start, first, min(CHUNK, total - first))
 
 
-def merge(name, outputs):
-    if name != "CasADi C" or any("error" in o for o in outputs):
-        return next((o for o in outputs if "error" in o), outputs[0])
-    solves, n = outputs[0], len(POINTS)
-    solves["functions_us"] = {
-        at: outputs[1 + i] | outputs[1 + n + i] for i, at in enumerate(POINTS)}  # fmt: skip
-    return solves
+def measure(args):
+    folder = current_run(args)
+    deadline = time.time() + 60 * args.minutes
+    wanted = [(c, job) for job in jobs(load(folder / "about.json")) for c in args.contestants
+              if job.level in CONTESTANTS[c].levels]  # fmt: skip
+    todo = [(c, job) for c, job in wanted if args.again
+            or not (folder / "results" / f"{c}_{job.name}.json").exists()]  # fmt: skip
+    for i, (name, job) in enumerate(todo):
+        if time.time() > deadline:
+            say(f"stopped with {len(todo) - i} of {len(wanted)} left; run.py measure goes on")
+            sys.exit(3)
+        say(f"{i + 1} of {len(todo)}: {name}, {job.name}")
+        cycles = folder / f"{job.environment}.cycles"
+        key = {"contestant": name, "environment": job.environment, "level": job.level,
+               "start": job.start, "first": job.first}  # fmt: skip
+        write_result(folder, f"{name}_{job.name}", key,
+                     lambda: CONTESTANTS[name].run(job, cycles))  # fmt: skip
 
 
-def run_rounds(args):
-    commands = contestants(args)
-    rounds = {name: [] for name in commands}
-    names = list(commands)
-    for r in range(args.rounds):
-        order = names[r % len(names) :] + names[: r % len(names)]
-        for name in order:
-            say(f"round {r + 1} of {args.rounds}: {name}")
-            rounds[name].append(merge(name, [run_json(c) for c in commands[name]]))
-    return rounds
+def growth(args):
+    folder = current_run(args)
+    for environment in ENVIRONMENTS:
+        say(f"growth in {environment}")
+        command = [program("bench_solve"), "--growth", "--environment", environment, "--cycles",
+                   str(folder / f"{environment}.cycles"), "--backend", "interior_point",
+                   "--floor", str(LEVELS["floor"].floor), *GROWTH]  # fmt: skip
+        write_result(folder, f"growth_{environment}", {"environment": environment},
+                     lambda: json.loads(run_command(command)))  # fmt: skip
 
 
-# --- summary ----------------------------------------------------------------------------------
+def functions(args):
+    """One evaluation of all functions in E_C: ours, and CasADi's C and VM."""
+    folder = current_run(args)
+    cycles, more = ["--cycles", str(folder / "E_C.cycles")], ["--repeats", str(args.repeats)]
+    peer = [python(), str(HERE / "time_casadi.py")]
+    say("functions")
+    write_result(folder, "functions_slalom", {}, lambda: json.loads(
+        run_command([program("bench_functions"), *cycles, *more])))  # fmt: skip
+    write_result(folder, "functions_casadi", {}, lambda: json.loads(
+        run_command([*peer, *cycles, *more, "--dir", str(GENERATED), "--generated",
+                     program("bench_generated")])))  # fmt: skip
 
 
-def quantile(values, q):
-    values = sorted(values)
-    at = q * (len(values) - 1)
-    low = int(at)
-    high = min(low + 1, len(values) - 1)
-    return values[low] + (at - low) * (values[high] - values[low])
-
-
-def spread(values):
-    return {"median": statistics.median(values), "p95": quantile(values, 0.95), "n": len(values)}
-
-
-def pooled(rounds, path):
-    """All rounds' samples at a path of keys, one list."""
-    values = []
-    for result in rounds:
-        for key in path:
-            result = result[key]
-        values += result
-    return values
-
-
-def function_times(rounds, backends):
-    """[point][quantity][contestant] -> spread in microseconds."""
-    ours, c, vm = (rounds[n] for n in (f"slalom, {backends[0]}", "CasADi C", "CasADi VM"))
-    kernels = [k for k in ("avx2", "baseline") if k in ours[0]["functions_us"]["guess"]]
-    table = {}
-    for at in POINTS:
-        table[at] = {}
-        for quantity in QUANTITIES:
-            row = {f"slalom {k}": spread(pooled(ours, ["functions_us", at, k, quantity]))
-                   for k in kernels}  # fmt: skip
-            row["CasADi C, one function"] = spread(pooled(c, ["functions_us", at, quantity]))
-            parts = [pooled(c, ["functions_us", at, name]) for name in CALLS[quantity]]
-            row["CasADi C, as Ipopt calls"] = spread([sum(times) for times in zip(*parts)])
-            row["CasADi VM"] = spread(pooled(vm, ["functions_us", at, quantity]))
-            table[at][quantity] = row
-    return table
-
-
-def solve_times(rounds):
-    """[contestant] -> cold, first re-solve and all re-solves: milliseconds, iterations, shares."""
-    table = {}
-    for name, results in rounds.items():
-        results = [r for r in results if "error" not in r]
-        if not results:
-            table[name] = {"error": rounds[name][0]["error"]}
-            continue
-        entry = {}
-        for part, pick in PARTS.items():
-            solves = [s for r in results for s in r["solves"][pick]]
-            entry[part] = {
-                "ms": spread([1e3 * s["wall_s"] for s in solves]),
-                "functions_ms": spread([1e3 * s["functions_s"] for s in solves]),
-                "iterations": spread([s["iterations"] for s in solves]),
-                "ms_per_iteration": spread([1e3 * s["wall_s"] / max(s["iterations"], 1)
-                                            for s in solves]),  # fmt: skip
-                "solved": sum(s["solved"] for s in solves),
-                "of": len(solves),
-            }
-        table[name] = entry
-    return table
-
-
-def compare_answers(rounds):
-    """Each contestant's answers of the first round against CasADi C's, cycle by cycle."""
-    reference = rounds["CasADi C"][0]["solves"]
-    table = {}
-    for name, results in rounds.items():
-        if name == "CasADi C" or "error" in results[0]:
-            continue
-        solves = results[0]["solves"]
-        pairs = [(a, b) for a, b in zip(solves, reference) if a["solved"] and b["solved"]]
-        table[name] = {
-            "cycles": len(pairs),
-            "phi": max((abs(a["phi"] - b["phi"]) for a, b in pairs), default=float("nan")),
-            "phi_relative": max((abs(a["phi"] - b["phi"]) / max(1, abs(b["phi"]))
-                                 for a, b in pairs), default=float("nan")),  # fmt: skip
-            "path_m": max((abs(p[i] - q[i]) for a, b in pairs
-                           for p, q in zip(a["nodes"], b["nodes"]) for i in (0, 1)),
-                          default=float("nan")),  # fmt: skip
-            "tf_s": max((abs(a["tf"] - b["tf"]) for a, b in pairs), default=float("nan")),
-            "start": max((start_difference(a["start"], b["start"])
-                          for a, b in zip(solves, reference)), default=float("nan")),  # fmt: skip
-            "confirmed": sum(a.get("confirmed", False) for a in solves),
-            "of": len(solves),
-        }
-    return table
-
-
-def start_difference(ours, theirs):
-    if isinstance(ours, dict):
-        flat = [*ours["slacks"], *(v for node in ours["nodes"] for v in node), ours["tf"]]
-    else:
-        flat = ours
-    return max(abs(a - b) for a, b in zip(flat, theirs))
-
-
-# --- the machine ------------------------------------------------------------------------------
-
-
-def cpu_model():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.processor() or "unknown"
-
-
-def wheel_version(library):
-    """Version in the name of a library the CasADi wheel carries."""
-    for path in VENV.glob(f"lib/python*/site-packages/casadi/{library}.so.*.*"):
-        return path.name.split(".so.")[1]
-    return "unknown"
-
-
-def debian_version(package):
-    found = output_of("dpkg-query", "-W", "-f", "${Version}", package)
-    return re.sub(r"^\d+:", "", found)
-
-
-def versions():
-    numpy = output_of(python(), "-c", "import numpy; print(numpy.__version__)")
-    casadi = output_of(python(), "-c", "import casadi; print(casadi.__version__)")
-    return {
-        "CPU": f"{cpu_model()}, {os.cpu_count()} cores",
-        "system": output_of("sh", "-c", ". /etc/os-release && echo $PRETTY_NAME")
-        + f", Linux {platform.release().split('-')[0]}",
-        "load before the run": f"{os.getloadavg()[0]:.2f}",
-        "slalom": output_of("git", "-C", str(ROOT), "describe", "--always", "--dirty"),
-        "compiler": output_of("g++", "--version").splitlines()[0],
-        "SLEEF": output_of("pkg-config", "--modversion", "sleef"),
-        "our Ipopt": f"{output_of('pkg-config', '--modversion', 'ipopt')} (Debian), MUMPS "
-        f"{debian_version('libmumps-seq-dev')}, BLAS {os.path.basename(blas())}",
-        "CasADi": f"{casadi} (wheel), numpy {numpy}; C by `{COMPILER}`",
-        "CasADi's Ipopt": f"{wheel_version('libipopt')}, MUMPS interface "
-        f"{wheel_version('libcoinmumps')}, OpenBLAS, one thread",
-    }
-
-
-def blas():
-    return os.path.realpath(output_of("sh", "-c", "ldconfig -p | sed -n 's/.*libblas.so.3 .*=> //p'"
-                                      " | head -n 1"))  # fmt: skip
-
-
-# --- main -------------------------------------------------------------------------------------
-
-
-def summarise(rounds, args, about):
-    first = rounds[f"slalom, {args.backends[0]}"]
-    for name, results in rounds.items():
-        for result in results:
-            if "error" in result and (name.startswith("CasADi") or results is first):
-                sys.exit(f"{name}: {result['error']}")
-    shape = {k: first[0][k] for k in ("variables", "rows", "jacobian_entries", "hessian_entries")}
-    return {
-        "rounds": args.rounds, "problem": shape, "versions": about,
-        "setup_s": spread([r["setup_s"] for r in first]),
-        "generated_mb": (CASADI / "nlp_sx.c").stat().st_size / 1e6,
-        "functions_us": function_times(rounds, args.backends),
-        "solves": solve_times(rounds), "answers": compare_answers(rounds),
-    }  # fmt: skip
+def report(args):
+    folder = current_run(args)
+    results = {p.stem: load(p) for p in sorted((folder / "results").glob("*.json"))}
+    foreign = [name for name, r in results.items() if r["run"] != folder.name]
+    if foreign:
+        sys.exit(f"results of another run in {folder}: {', '.join(foreign)}")
+    summary = summarise(load(folder / "about.json"), results)
+    (folder / "summary.json").write_text(json.dumps(summary, indent=1))
+    text = markdown(summary)
+    print(text)
+    if args.docs:
+        (ROOT / "docs" / "benchmarks.md").write_text(text)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--rounds", type=int, default=7)
-    parser.add_argument("--repeats", type=int, default=300, help="calls of a function a round")
-    parser.add_argument("--core", type=int, default=os.cpu_count() - 1, help="to run on")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
-    parser.add_argument("--backends", default="ipopt", help="ours, separated by commas")
-    parser.add_argument("--no-docs", action="store_true", help="leave docs/benchmarks.md alone")
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    parser.add_argument("steps", nargs="*", metavar="STEP", help=f"of {', '.join(STEPS)}; all")
+    parser.add_argument("--quick", action="store_true", help="some dozens of cycles; no docs")
+    parser.add_argument("--contestants", default=",".join(DEFAULT),
+                        help=f"of {', '.join(CONTESTANTS)}, separated by commas")  # fmt: skip
+    parser.add_argument("--run", help="go on with this run rather than the latest")
+    parser.add_argument("--again", action="store_true", help="measure anew what is there")
+    parser.add_argument("--minutes", type=float, default=1e9, help="of measure; exit 3 after it")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--repeats", type=int, default=300, help="calls of a function")
+    parser.add_argument("--core", type=int, default=os.cpu_count() - 1, help="to measure on")
+    parser.add_argument("--no-docs", dest="docs", action="store_false",
+                        help="leave docs/benchmarks.md alone")  # fmt: skip
     args = parser.parse_args()
-    args.backends = args.backends.split(",")
-
-    set_up_venv()
-    build_ours(args.jobs)
-    build_peer()
-    about = versions()
-    os.sched_setaffinity(0, {args.core})
+    args.steps = args.steps or list(STEPS)
+    args.contestants = args.contestants.split(",")
+    for given, known in ((args.steps, STEPS), (args.contestants, CONTESTANTS)):
+        for name in set(given) - set(known):
+            sys.exit(f"run.py: '{name}', expected one of {', '.join(known)}")
+    args.docs &= not args.quick
     os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    rounds = run_rounds(args)
-    summary = summarise(rounds, args, about)
-    text = markdown(summary)
-    (BUILD / "benchmarks.json").write_text(json.dumps({"summary": summary, "rounds": rounds}))
-    if not args.no_docs:
-        (ROOT / "docs").mkdir(exist_ok=True)
-        (ROOT / "docs" / "benchmarks.md").write_text(text)
-    print(text)
+    everywhere = os.sched_getaffinity(0)
+    for step in args.steps:
+        alone = step in ("measure", "growth", "functions")
+        os.sched_setaffinity(0, {args.core} if alone else everywhere)
+        globals()[step](args)
 
 
 if __name__ == "__main__":

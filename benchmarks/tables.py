@@ -1,31 +1,22 @@
-"""The tables of run.py's summary as Markdown."""
+"""The summary of a run as Markdown."""
+
+from contestants import CONTESTANTS
+from levels import LEVELS
 
 QUANTITIES = {
     "all_first": "values, gradient, Jacobian",
     "all_second": "the same and the Hessian",
     "hessian": "the Hessian alone",
 }
-POINTS = {"guess": "the straight-on guess", "plan": "a solved plan"}
-# Which of a round's solves each part of the table takes.
-PARTS = {
-    "first of a process": slice(0, 1),
-    "cold": slice(1, 2),
-    "first re-solve": slice(2, 3),
-    "all re-solves": slice(2, None),
-}
+PLACES = {"guess": "from straight on", "plan": "at a shifted plan"}
+AT = {"floor": "at the floor 0.9", "1e-2": "at 1e-2 without floor", "1e-6": "at 1e-6 without floor"}
+SHOWN = 12  # other local optima listed a table
 
 
 def number(value):
-    return f"{value:.3g}" if value < 100 else f"{value:.0f}"
-
-
-def cell(s):
-    return f"{number(s['median'])} / {number(s['p95'])}"
-
-
-def verdict(ours, peer):
-    ratio = peer / ours
-    return f"{number(ratio)}" + ("" if ratio >= 1 else " (CasADi faster)")
+    if value is None:
+        return "–"
+    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
 
 
 def table(header, rows):
@@ -33,95 +24,176 @@ def table(header, rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 
-def functions_markdown(times):
-    parts = []
-    for at, by_quantity in times.items():
-        names = list(next(iter(by_quantity.values())))
-        ours = names[0]
-        rows = []
-        for quantity, row in by_quantity.items():
-            best = min(row[n]["median"] for n in names if n.startswith("CasADi"))
-            rows.append([QUANTITIES[quantity], *(cell(row[n]) for n in names),
-                         verdict(row[ours]["median"], best)])  # fmt: skip
-        parts.append(f"At {POINTS[at]}, microseconds, median / p95:\n\n" +
-                     table(["one evaluation of", *names, "best CasADi / ours"], rows))  # fmt: skip
+def title(name):
+    return CONTESTANTS[name].title + ("" if CONTESTANTS[name].same_problem else " ¹")
+
+
+def ratio(peer, ours):
+    value = peer / ours
+    return number(value) + ("" if value >= 1 else " (**the peer wins**)")
+
+
+def times_markdown(group):
+    rows, ours = [], group["times"].get("slalom")
+    for name, t in group["times"].items():
+        iterations, each = t.get("iterations"), t.get("us_per_iteration")
+        row = [title(name), *(number(t["cpu_ms"][q]) for q in ("median", "p95", "p99", "max")),
+               number(t["wall_ms"]["median"]), number(t.get("max_solved_ms")),
+               f"{number(iterations['median'])} / {number(iterations['p95'])}" if iterations else "–",
+               number(each), f"{t['solved']}/{t['of']} ({100 * t['solved'] / t['of']:.1f} %)",
+               number(t["setup_ms"])]  # fmt: skip
+        same = name.startswith("slalom") or ours is None
+        row += ["", ""] if same else [ratio(t["cpu_ms"][q], ours["cpu_ms"][q])
+                                      for q in ("median", "p99")]  # fmt: skip
+        rows.append(row)
+    return table(["", "median [ms]", "p95", "p99", "max", "wall, median", "longest solved",
+                  "iterations, median / p95", "µs an iteration", "solved of feasible",
+                  "set-up [ms]", "× ours, median", "× ours, p99"], rows)  # fmt: skip
+
+
+def denied_markdown(group):
+    denied = [f"{title(name)} {t['denied']}" for name, t in group["times"].items() if t["denied"]]
+    return "\nClaimed solved, denied by the checker: " + ", ".join(denied) + "." if denied else ""
+
+
+def answers_markdown(group):
+    a = group["answers"]
+    if not a or not a["both"]:
+        return ""
+    merit = "φ" if group["level"] == "floor" else "f"
+    text = (f"\nOf {a['both']} cycles that we and CasADi C + Ipopt both solved, {a['same']} have the "
+            f"same answer ({merit} within {a['phi']:.1e} relative, paths within "
+            f"{1e3 * a['path_m']:.1g} mm), {len(a['others'])} another local optimum")  # fmt: skip
+    if not a["others"]:
+        return text + "."
+    ours = sum(o["ours"] < o["theirs"] for o in a["others"])
+    listed = "; ".join(f"cycle {o['cycle']}: {o['ours']:.4f} against {o['theirs']:.4f}, "
+                       f"{o['path_m']:.2f} m" for o in a["others"][:SHOWN])  # fmt: skip
+    more = f"; and {len(a['others']) - SHOWN} more" if len(a["others"]) > SHOWN else ""
+    return text + f" (ours the lower {merit} in {ours}). {merit} ours, theirs, paths: {listed}{more}."
+
+
+def environment_markdown(name, part):
+    f = part["feasible"]
+    parts = [f"## {name}", f"{f['True']} cycles are feasible, for some contestant solved them at "
+             f"some level ({f['False']} in the multiple-shooting form)."]  # fmt: skip
+    for group in part["groups"]:
+        parts.append(f"### {name}, {group['start']}, {AT[group['level']]}")
+        parts.append(times_markdown(group) + "\n" + denied_markdown(group) +
+                     "\n" + answers_markdown(group))  # fmt: skip
     return "\n\n".join(parts)
 
 
-def solves_markdown(times):
-    rows = []
-    peers = [n for n in times if n.startswith("CasADi") and "error" not in times[n]]
-    for part in PARTS:
-        best = min(times[n][part]["ms"]["median"] for n in peers)
-        for name, entry in times.items():
-            if "error" in entry:
-                continue
-            e = entry[part]
-            ratio = "" if name in peers else verdict(e["ms"]["median"], best)
-            rows.append([part, name, cell(e["ms"]), cell(e["iterations"]),
-                         number(e["ms_per_iteration"]["median"]),
-                         number(e["functions_ms"]["median"]), f"{e['solved']}/{e['of']}",
-                         ratio])  # fmt: skip
-    text = table(["solve", "by", "ms, median / p95", "iterations, median / p95", "ms an iteration",
-                  "of it functions, ms a solve", "solved", "best CasADi / ours"], rows)  # fmt: skip
-    failed = [f"- {n} did not run: {e['error']}" for n, e in times.items() if "error" in e]
-    return text + ("\n\n" + "\n".join(failed) if failed else "")
+def growth_markdown(growth):
+    parts = []
+    for name, rows in growth.items():
+        if not rows:
+            continue
+        base = next((r for r in rows if r.get("us_per_iteration")), None)
+        lines = [[str(r["N"]), str(r["obstacles"]), number(r["cpu_ms"]["median"]),
+                  number(r["cpu_ms"]["max"]), number(r["iterations"]),
+                  number(r["us_per_iteration"]),
+                  number(r["us_per_iteration"] / base["us_per_iteration"]),
+                  f"{r['solved']}/{r['of']}", number(1e3 * r["setup_s"])]
+                 if "cpu_ms" in r else
+                 [str(r["N"]), str(r["obstacles"]), *["–"] * 5, f"0/{r['of']}",
+                  number(1e3 * r["setup_s"])] for r in rows]  # fmt: skip
+        parts.append(f"{name}:\n\n" + table(
+            ["N", "obstacles", "median [ms]", "max", "iterations", "µs an iteration",
+             "× the first row's", "solved", "set-up [ms]"], lines) + marginal(rows))  # fmt: skip
+    return "\n\n".join(parts)
 
 
-def answers_markdown(answers):
-    rows = [[name, f"{a['cycles']}", f"{a['phi']:.1e} ({a['phi_relative']:.1e})",
-             f"{a['path_m']:.1e}", f"{a['tf_s']:.1e}", f"{a['start']:.1e}",
-             f"{a['confirmed']}/{a['of']}" if name.startswith("slalom") else ""]
-            for name, a in answers.items()]  # fmt: skip
-    return table(["largest difference from CasADi C", "cycles both solved", "φ (relative to φ)",
-                  "x, y at nodes [m]", "tf [s]", "starting points", "confirmed by our checker"],
-                 rows)  # fmt: skip
+def marginal(rows):
+    """Cost of an obstacle's row in an iteration, between two numbers of obstacles."""
+    found = {r["obstacles"]: r for r in rows if r.get("us_per_iteration") and r["N"] <= 15}
+    if 1000 not in found or 38 not in found:
+        return ""
+    extra = found[1000]["us_per_iteration"] - found[38]["us_per_iteration"]
+    return (f"\n\nFrom 38 to 1000 obstacles a row costs "
+            f"{1e3 * extra / (962 * found[38]['N']):.1f} ns an iteration.")  # fmt: skip
+
+
+def functions_markdown(functions):
+    parts = []
+    for place, by_quantity in functions.items():
+        names = list(next(iter(by_quantity.values())))
+        rows = []
+        for quantity, row in by_quantity.items():
+            ours = min(row[n]["median"] for n in names if n.startswith("slalom"))
+            best = min(row[n]["median"] for n in names if not n.startswith("slalom"))
+            rows.append([QUANTITIES[quantity], *(f"{number(row[n]['median'])} / "
+                                                 f"{number(row[n]['p95'])}" for n in names),
+                         ratio(best, ours)])  # fmt: skip
+        parts.append(f"{PLACES[place].capitalize()}, microseconds, median / p95:\n\n" +
+                     table(["one evaluation of", *names, "best CasADi / ours"], rows))  # fmt: skip
+    return "\n\n".join(parts) or "Not measured in this run."
+
+
+def levels_markdown():
+    return table(["level", "floor", "tolerance asked", "violation", "stationarity",
+                  "complementarity"],
+                 [[AT[k], number(v.floor), f"{v.tol:.0e}" if not v.floor else "–",
+                   f"{v.violation:.0e}", f"{v.stationarity:.0e}", f"{v.complementarity:.0e}"]
+                  for k, v in LEVELS.items()])  # fmt: skip
 
 
 def markdown(summary):
-    p = summary["problem"]
-    machine = table(["", ""], [[k, v] for k, v in summary["versions"].items()])
-    return f"""# Benchmarks
-Written by `make bench`; every sample is in `build/bench/benchmarks.json`. Our times include what a
-caller meets: gathering, scattering into the NLP's arrays and the search for numbers that are not
-finite. {summary['rounds']} rounds, contestants in turn, all on one core.
+    about = summary["about"]
+    machine = about["machine"] | {
+        "slalom": ", ".join(summary["versions"]), "our kernel set": summary["kernels"],
+        "highest load while measuring": f"{summary['load']:.2f}"}  # fmt: skip
+    warnings = [f"{title(n)} did not run everywhere: {e}" for n, e in summary["errors"].items()]
+    if len(summary["versions"]) > 1:
+        warnings.append("**Several versions of slalom were measured in this run.**")
+    environments = "\n\n".join(environment_markdown(n, p)
+                               for n, p in summary["environments"].items())  # fmt: skip
+    return PAGE.format(about=about, warnings="\n".join(f"- {w}" for w in warnings),
+                       limit=number(summary["limit_ms"]), levels=levels_markdown(),
+                       environments=environments, growth=growth_markdown(summary["growth"]),
+                       functions=functions_markdown(summary["functions"]),
+                       machine=table(["", ""], [[k, v] for k, v in machine.items()]))  # fmt: skip
 
-The problem is the planner P_D's in E_C (N = 15, 38 obstacles, goal out of range) at the barrier
-floor 0.9: ours has {p['variables']} variables, {p['rows']} rows, {p['jacobian_entries']} entries in
-the Jacobian and {p['hessian_entries']} in the Hessian's lower triangle. CasADi's is
-`benchmarks/planner_casadi.py`, written from the formulation alone, with obstacles and predicted
-state as parameters, as ours has them. From nothing to the first Hessian our problem takes
-{1e3 * summary['setup_s']['median']:.1f} ms.
 
-## One evaluation
-{functions_markdown(summary['functions_us'])}
+PAGE = """# Benchmarks
+Written by `make bench` from run {about[run]}: every figure comes from this one run on one core.
+How contestants are set up and what makes the comparison fair: `benchmarks/README.md`.
+{warnings}
 
-CasADi's C is called from C (`benchmarks/time_generated.c`), its virtual machine through its own
-buffers, without conversion of data (about 0.1 µs of Python a call). *One function* gives all
-results at once and shares their common subexpressions (CasADi's `cse`); *as Ipopt calls* is the sum
-of `nlp_grad_f`, `nlp_jac_g` and `nlp_hess_l`, which is what its Ipopt interface evaluates. The ratio
-is against the fastest CasADi column of the row; the peer's problem is one scalar graph, for the
-form that maps one function over the nodes was about ten times slower. CasADi compiles
-{summary['generated_mb']:.1f} MB of C for this one number of obstacles; ours compiles nothing. Called
-over and over, straight-line code stays in the caches; how much functions cost within a solve, where
-the linear solver has emptied them, is in the next table. At the guess all angles are zero, for which
-scalar mathematics may return early.
+The work, in each environment: {about[recorded]} planning cycles of planner P_D, recorded from
+closed-loop drives by Ipopt and by our solver at tex 0.5 and 0.1 s from seeded starts, failures kept,
+and {about[perturbed]} of them with a perturbed predicted state (seed {about[seed]}). Warm: from the
+last solved plan, shifted, with its slacks and its multipliers as they were. Cold: from straight on.
+Each cycle is solved once. Times are the thread's processor time: ours of the whole cycle (update of
+problem and obstacles, shift, solve, check), a peer's inside its solver alone. The tables are over
+the feasible cycles, and **what is not solved counts as {limit} ms**. An answer is solved when its
+solver says so and the independent checker, in unscaled units, finds it within
 
-## Solves
-{solves_markdown(summary['solves'])}
+{levels}
 
-Cold is the first cycle from the straight-on guess, the second time in its process; the first time
-pays for code and memory too. A re-solve starts from the shifted last plan with its multipliers, as
-far as the goal is out of range. The predicted states are those of a recorded drive (`benchmarks/cycles_E_C.json`),
-the same for all. Times are wall clock, inside the solver's call; each cycle is solved once a round. Both
-sides' Ipopt has the same options (those of the formulation's section 3) and MUMPS.
+(complementarity is |s z / μ - 1| at the floor, |s z| without). Ratios are by environment, never
+pooled; where a peer is faster, the table says so.
 
-**Our Ipopt back end links Debian's Ipopt 3.11.9, which is known to be several times slower than the
-3.14 of the CasADi wheel, and Debian's BLAS: it is a reference for answers, never the baseline of a
-ratio.** Ratios above are against CasADi's own solves.
+¹ fatrop and acados solve a multiple-shooting form: another problem, with x(0) fixed, controls constant
+in an interval and no floor. They get the same nodes to start from, but no multipliers, which belong to
+our problem. Their answers are judged against their own problem, with the multipliers that suit them best.
+CasADi's wheel carries BLASFEO's generic kernels: fatrop would gain from others.
 
-## Answers
-{answers_markdown(summary['answers'])}
+{environments}
+
+## Growth
+Warm at the floor, the first cycles of a drive, each from the last one's plan; obstacles beyond the
+environment's own stand beside the road and count like any other. More phases: not measured.
+
+{growth}
+
+## One evaluation of the functions
+In E_C. CasADi's C is called from C, its virtual machine through its own buffers. *One function* gives
+all results at once and shares their common subexpressions; *as Ipopt calls* is the sum of what its
+Ipopt interface evaluates. Ours includes gathering, scattering and the search for numbers that are not
+finite.
+
+{functions}
 
 ## Machine
 {machine}

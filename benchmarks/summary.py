@@ -1,0 +1,161 @@
+"""From a run's results to the numbers of the tables."""
+
+from collections import defaultdict
+
+from contestants import CONTESTANTS, ENVIRONMENTS
+from levels import LEVELS
+
+LIMIT_MS = 500.0  # the planner's default execution horizon: what an unsolved cycle counts as
+REFERENCE = "casadi-c"  # whose answers ours are compared with
+PHI, PATH_M = 1e-4, 0.01  # the same answer: relative difference of phi, largest of paths
+
+
+def quantile(values, q):
+    values = sorted(values)
+    at = q * (len(values) - 1)
+    low = int(at)
+    high = min(low + 1, len(values) - 1)
+    return values[low] + (at - low) * (values[high] - values[low])
+
+
+def solved(entry, level):
+    return bool(entry["claimed"] and LEVELS[level].confirms(entry))
+
+
+class Measured:
+    """The cycles of all results: [environment, level, start][contestant][cycle] -> entry."""
+
+    def __init__(self, results):
+        self.table, self.setup, self.errors = defaultdict(lambda: defaultdict(dict)), {}, {}
+        for result in results.values():
+            if "contestant" not in result:
+                continue
+            name, environment = result["contestant"], result["environment"]
+            if "error" in result:
+                self.errors[name] = result["error"]
+                continue
+            key = environment, result["level"], result["start"]
+            self.setup.setdefault((name, environment), result["setup_s"])
+            for entry in result["cycles"]:
+                entry["solved"] = solved(entry, result["level"])
+                self.table[key][name][entry["cycle"]] = entry
+
+    def feasible(self, environment, same_problem):
+        """Cycles that a contestant with this problem solved, at any level from any start."""
+        found = set()
+        for key, by_name in self.table.items():
+            for name, cycles in by_name.items():
+                if key[0] == environment and CONTESTANTS[name].same_problem == same_problem:
+                    found |= {c for c, entry in cycles.items() if entry["solved"]}
+        return found
+
+
+def times(cycles, feasible, setup_s):
+    """Of one contestant: milliseconds and iterations over the feasible cycles."""
+    entries = [e for c, e in cycles.items() if c in feasible]
+    good = [e for e in entries if e["solved"]]
+    if not entries:
+        return None
+    ms = [1e3 * e["cpu_s"] if e["solved"] else LIMIT_MS for e in entries]
+    wall = [1e3 * e["wall_s"] if e["solved"] else LIMIT_MS for e in entries]
+    row = {"cpu_ms": spread(ms), "wall_ms": spread(wall), "of": len(entries), "solved": len(good),
+           "denied": sum(e["claimed"] and not e["solved"] for e in entries), "all": len(cycles),
+           "setup_ms": 1e3 * setup_s}  # fmt: skip
+    if good:
+        row["iterations"] = spread([e["iterations"] for e in good])
+        row["us_per_iteration"] = quantile(
+            [1e6 * e["cpu_s"] / max(1, e["iterations"]) for e in good], 0.5)
+        row["max_solved_ms"] = max(1e3 * e["cpu_s"] for e in good)
+    return row
+
+
+def spread(values):
+    return {"median": quantile(values, 0.5), "p95": quantile(values, 0.95),
+            "p99": quantile(values, 0.99), "max": max(values)}  # fmt: skip
+
+
+def compare(ours, theirs, at_floor):
+    """Answers of both, cycle by cycle: the same, or other local optima."""
+    merit = "phi" if at_floor else "f"
+    result = {"both": 0, "same": 0, "phi": 0.0, "path_m": 0.0, "others": []}
+    for c, a in ours.items():
+        b = theirs.get(c)
+        if b is None or not (a["solved"] and b["solved"]):
+            continue
+        result["both"] += 1
+        phi = abs(a[merit] - b[merit]) / max(1, abs(b[merit]))
+        path = max(abs(p - q) for p, q in zip(a["path"], b["path"]))
+        if phi <= PHI and path <= PATH_M:
+            result["same"] += 1
+            result["phi"], result["path_m"] = max(result["phi"], phi), max(result["path_m"], path)
+        else:
+            result["others"].append({"cycle": c, "ours": a[merit], "theirs": b[merit],
+                                     "path_m": path})  # fmt: skip
+    return result
+
+
+def growth(results):
+    table = {}
+    for environment in ENVIRONMENTS:
+        result = results.get(f"growth_{environment}", {})
+        rows = []
+        for size in result.get("growth", []):
+            row = {k: size[k] for k in ("N", "obstacles", "setup_s")}
+            for e in size["cycles"]:
+                e["solved"] = solved(e, "floor")
+            good = [e for e in size["cycles"] if e["solved"]]
+            row |= {"of": len(size["cycles"]), "solved": len(good)}
+            if good:
+                row["cpu_ms"] = spread([1e3 * e["cpu_s"] for e in good])
+                row["iterations"] = quantile([e["iterations"] for e in good], 0.5)
+                row["us_per_iteration"] = quantile(
+                    [1e6 * e["cpu_s"] / max(1, e["iterations"]) for e in good], 0.5)
+            rows.append(row)
+        table[environment] = rows
+    return table
+
+
+def functions(results):
+    """[place][quantity][contestant] -> microseconds, all samples' median and 95th percentile."""
+    ours, theirs = results.get("functions_slalom", {}), results.get("functions_casadi", {})
+    if not ours or "error" in ours or "error" in theirs or not theirs:
+        return {}
+    table = {}
+    for place in ("guess", "plan"):
+        table[place] = {}
+        for quantity in ("all_first", "all_second", "hessian"):
+            row = {f"slalom {k}": v[quantity] for k, v in ours[place]["functions_us"].items()}
+            row |= {name: v[quantity] for name, v in theirs[place].items()}
+            table[place][quantity] = {
+                name: {"median": quantile(v, 0.5), "p95": quantile(v, 0.95)}
+                for name, v in row.items()}  # fmt: skip
+    return table
+
+
+def summarise(about, results):
+    measured = Measured(results)
+    summary = {"about": about, "errors": measured.errors, "limit_ms": LIMIT_MS,
+               "versions": sorted({r["version"] for r in results.values()}),
+               "load": max((r["load"] for r in results.values()), default=0),
+               "environments": {}, "growth": growth(results), "functions": functions(results)}  # fmt: skip
+    kernels = {r["kernels"] for r in results.values() if "kernels" in r}
+    summary["kernels"] = ", ".join(sorted(kernels))
+    for environment in ENVIRONMENTS:
+        feasible = {same: measured.feasible(environment, same) for same in (True, False)}
+        part = {"feasible": {str(k): len(v) for k, v in feasible.items()}, "groups": []}
+        for key, by_name in measured.table.items():
+            if key[0] != environment:
+                continue
+            group = {"level": key[1], "start": key[2], "times": {}, "answers": None}
+            for name in CONTESTANTS:
+                if name in by_name:
+                    row = times(by_name[name], feasible[CONTESTANTS[name].same_problem],
+                                measured.setup[name, environment])  # fmt: skip
+                    group["times"] |= {name: row} if row else {}
+            if "slalom" in by_name and REFERENCE in by_name:
+                group["answers"] = compare(by_name["slalom"], by_name[REFERENCE], key[1] == "floor")
+            part["groups"].append(group)
+        order = list(LEVELS)
+        part["groups"].sort(key=lambda g: (g["start"] == "cold", order.index(g["level"])))
+        summary["environments"][environment] = part
+    return summary
