@@ -57,13 +57,15 @@ def formulate(model, in_range, name, options):
     cost = ocp.cost
     cost.zl = cost.zu = np.full(count, SOFT)
     cost.Zl = cost.Zu = np.zeros(count)
-    cost.zl_e = cost.zu_e = np.append(np.full(len(soft_e) - 2, SOFT), [W_XF, W_XF] if in_range else [SOFT, SOFT])
+    cost.zl_e = cost.zu_e = np.full(len(soft_e), SOFT)
+    if in_range:  # |x(tf) - xg| at the weight of xfs
+        cost.zl_e[-2:] = cost.zu_e[-2:] = W_XF
     cost.Zl_e = cost.Zu_e = np.zeros(len(soft_e))
     bounded = np.isfinite(model.x_max)
     c.idxbx = c.idxbx_e = np.flatnonzero(bounded)
     c.lbx = c.lbx_e = model.x_min[bounded]
     c.ubx = c.ubx_e = model.x_max[bounded]
-    c.idxbx_0, c.idxbxe_0 = np.arange(NS), np.arange(NX)
+    c.idxbx_0 = np.arange(NS)  # x(0) as bounds: eliminating 8 of 9 with soft rows gives HPIPM NaN
     c.lbx_0 = np.append(model.env["start"], model.x_min[TF])
     c.ubx_0 = np.append(model.env["start"], model.x_max[TF])
     c.idxbu, c.lbu, c.ubu = np.arange(NU), -U_MAX, U_MAX

@@ -31,6 +31,8 @@ def ipopt_options(level, warm):
     if level.floor > 0:
         options |= {"nlp_scaling_method": "none", "kappa_d": 0, "mu_target": level.floor,
                     "mu_init": level.floor, "compl_inf_tol": level.complementarity * level.floor}  # fmt: skip
+    else:
+        options["mu_strategy"] = "adaptive"  # the fastest of the strategies and mu_init tried
     if warm:
         options["warm_start_init_point"] = "yes"
         for push in ("bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac",

@@ -152,7 +152,8 @@ def summarise(about, results):
                     row = times(by_name[name], feasible[CONTESTANTS[name].same_problem],
                                 measured.setup[name, environment])  # fmt: skip
                     group["times"] |= {name: row} if row else {}
-            if "slalom" in by_name and REFERENCE in by_name:
+            # At 1e-2 two answers to the same optimum may lie further apart than this judges.
+            if "slalom" in by_name and REFERENCE in by_name and key[1] != "1e-2":
                 group["answers"] = compare(by_name["slalom"], by_name[REFERENCE], key[1] == "floor")
             part["groups"].append(group)
         order = list(LEVELS)
