@@ -17,9 +17,9 @@ using vehicle::kStates;
 enum Field : std::size_t { META, X0P, LAST_X0P, LAST_PLAN, LAST_SLACKS, Y, ZL, ZU, WARM, COLD };
 const std::vector<std::string> kFields = {"meta", "X0p", "last_X0p", "last_plan", "last_slacks",
                                           "y",    "zl",  "zu",       "warm_x",    "cold_x"};
-const std::vector<std::string> kMeta = {"t0",    "tex",       "in_range", "solved",
-                                        "drive", "perturbed", "has_last", "last_in_range",
-                                        "last_t_start"};
+const std::vector<std::string> kMeta = {"t0",       "tex",           "in_range",
+                                        "solved",   "drive",         "perturbed",
+                                        "has_last", "last_in_range", "last_t_start"};
 using Record = std::vector<std::vector<double>>;  // by Field
 
 json names_of(const ocp::Transcription& transcription) {
@@ -83,13 +83,13 @@ Record record_of(const Cycle& cycle, PlannerCycle& planner) {
   record[COLD] = cycle.cold_x;
   if (!cycle.last) return record;
   const Last& last = *cycle.last;
-  record[META][7] = double(last.in_range);
-  record[META][8] = last.t_start;
-  record[LAST_X0P].assign(last.X0p.begin(), last.X0p.end());
-  record[LAST_PLAN] = flat(last.plan);
-  record[LAST_SLACKS] = last.plan.slacks;
+  record[META][7] = double(last.plan.in_range);
+  record[META][8] = last.plan.t_start;
+  record[LAST_X0P].assign(last.plan.X0p.begin(), last.plan.X0p.end());
+  record[LAST_PLAN] = flat(last.plan.trajectory);
+  record[LAST_SLACKS] = last.plan.trajectory.slacks;
   nlp::Start user = last.multipliers;
-  rescale(user, planner.form(last.in_range).transcription.structure(), true);
+  rescale(user, planner.form(last.plan.in_range).transcription.structure(), true);
   record[Y] = user.y;
   record[ZL] = user.zl;
   record[ZU] = user.zu;
@@ -110,13 +110,13 @@ Cycle cycle_of(const Record& record, PlannerCycle& planner) {
   cycle.cold_x = record[COLD];
   if (meta[6] == 0) return cycle;
   Last& last = cycle.last.emplace();
-  last.in_range = meta[7] != 0;
-  last.t_start = meta[8];
-  std::copy_n(record[LAST_X0P].begin(), kStates, last.X0p.begin());
-  last.plan = unflat(record[LAST_PLAN]);
-  last.plan.slacks = record[LAST_SLACKS];
+  last.plan.in_range = meta[7] != 0;
+  last.plan.t_start = meta[8];
+  std::copy_n(record[LAST_X0P].begin(), kStates, last.plan.X0p.begin());
+  last.plan.trajectory = unflat(record[LAST_PLAN]);
+  last.plan.trajectory.slacks = record[LAST_SLACKS];
   last.multipliers = {{}, record[Y], record[ZL], record[ZU]};
-  rescale(last.multipliers, planner.form(last.in_range).transcription.structure(), false);
+  rescale(last.multipliers, planner.form(last.plan.in_range).transcription.structure(), false);
   return cycle;
 }
 
@@ -144,10 +144,10 @@ json describe(const nlp::Residuals& residuals, const ocp::Trajectory& trajectory
 
 void place_starts(PlannerCycle& planner, Cycle& cycle) {
   cycle.in_range = planner.goal_in_range(cycle.request.X0p);
-  const Form& form = planner.form(cycle.in_range);
   const auto x = [&](const Last* last) {
-    return in_user_units(planner.start(form, cycle.in_range, cycle.request, last).x,
-                         form.transcription.structure());
+    nlp::Start start;
+    planner.start(cycle.request, last, start);
+    return in_user_units(start.x, planner.form(cycle.in_range).transcription.structure());
   };
   cycle.cold_x = x(nullptr);
   cycle.warm_x = x(cycle.last ? &*cycle.last : nullptr);

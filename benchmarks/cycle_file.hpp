@@ -17,9 +17,9 @@ struct Cycle {
   bool solved = false;  ///< when it was recorded
   int drive = 0;        ///< number of its drive; cycles of one stand together
   bool perturbed = false;
-  std::optional<Last> last;      ///< none: from straight on
-  std::vector<double> warm_x;    ///< the shifted start, user's units (cold_x without a last plan)
-  std::vector<double> cold_x;    ///< from straight on, user's units
+  std::optional<Last> last;    ///< none: from straight on
+  std::vector<double> warm_x;  ///< the shifted start, user's units (cold_x without a last plan)
+  std::vector<double> cold_x;  ///< from straight on, user's units
 };
 
 /// Sets the form and both starts from the request and the last plan.
@@ -27,7 +27,8 @@ void place_starts(PlannerCycle& planner, Cycle& cycle);
 
 /// Cycles of one environment in one file, for programs in C++ and Python (cycles.py): a line of
 /// JSON with the names of both forms' variables and rows, then for each cycle the arrays that
-/// `fields` in cycle_file.cpp lists, as doubles, each after its length. Multipliers in user's units.
+/// `fields` in cycle_file.cpp lists, as doubles, each after its length. Multipliers in user's
+/// units.
 void write_cycles(const std::string& path, PlannerCycle& planner, const std::string& environment,
                   const std::vector<Cycle>& cycles);
 /// Throws InvalidValue for a file that cannot be read or ends early.

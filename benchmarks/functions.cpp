@@ -166,8 +166,8 @@ json time_all(const Arguments& arguments) {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] /= scale[i];
     json result = {{"functions_us", time_functions(transcription, x, arguments.repeats)}};
     if (arguments.profile)
-      result["profile"] = profile(form.problem.problem(), planner.scenario().planner.N, x,
-                                  arguments.repeats);
+      result["profile"] =
+          profile(form.problem.problem(), planner.scenario().planner.N, x, arguments.repeats);
     return result;
   };
   return {{"guess", time_at(cycle.cold_x)}, {"plan", time_at(cycle.warm_x)}};

@@ -2,9 +2,9 @@
 //
 //   bench_judge --cycles FILE --environment E_C --answers FILE --floor MU
 //
-// Answers are doubles: for each the arrays cycle, x, y, zl, zu, each after its length, user's units,
-// in the order of our names (cycles.py). A peer without our lifted copies leaves NaN there: a copy
-// is its original, and the multiplier of its equation follows from the copy's stationarity.
+// Answers are doubles: for each the arrays cycle, x, y, zl, zu, each after its length, user's
+// units, in the order of our names (cycles.py). A peer without our lifted copies leaves NaN there:
+// a copy is its original, and the multiplier of its equation follows from the copy's stationarity.
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -68,31 +68,32 @@ void fill_copies(nlp::Problem& problem, nlp::Start& point) {
   for (std::size_t i = 0; i < shape.variables; ++i)
     if (std::isnan(point.x[i]) && problem.limits().xl[i] == problem.limits().xu[i])
       point.x[i] = problem.limits().xl[i];
-  nlp::Evaluation at;
-  std::vector<double> probe(point.x);
-  for (double& value : probe)
+  const std::vector<double> given = point.x;
+  for (double& value : point.x)
     if (std::isnan(value)) value = 0;
-  problem.evaluate(probe, 1, {}, {.values = true, .derivatives = true}, at);
-  std::vector<std::size_t> copy_rows;
-  for (std::size_t r = 0; r < shape.rows; ++r) {
-    if (!std::isnan(point.y[r])) continue;
-    copy_rows.push_back(r);
-    point.y[r] = 0;
-    // The copy is the row's one unknown: c (copy) + (the row at copy = 0) = limit.
-    for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e)
-      if (std::isnan(point.x[shape.jacobian_col[e]]))
-        probe[shape.jacobian_col[e]] = (problem.limits().gl[r] - at.rows[r]) / at.jacobian[e];
-  }
-  const std::vector<double> given = std::exchange(point.x, probe);
+  nlp::Evaluation at;
+  problem.evaluate(point.x, 1, {}, {.values = true, .derivatives = true}, at);
+  std::vector<char> is_copy_row(shape.rows, 0);
+  for (std::size_t r = 0; r < shape.rows; ++r)
+    if (std::isnan(point.y[r])) {
+      is_copy_row[r] = 1;
+      point.y[r] = 0;
+    }
+  const auto each_copy = [&](auto visit) {  // entry, its row, the copy: its row's one unknown
+    for (std::size_t e = 0; e < shape.jacobian_row.size(); ++e)
+      if (is_copy_row[shape.jacobian_row[e]] && std::isnan(given[shape.jacobian_col[e]]))
+        visit(e, shape.jacobian_row[e], shape.jacobian_col[e]);
+  };
+  each_copy([&](std::size_t e, std::size_t r, std::size_t i) {  // the row at copy = 0 is known
+    point.x[i] = (problem.limits().gl[r] - at.rows[r]) / at.jacobian[e];
+  });
   problem.evaluate(point.x, 1, {}, {.values = true, .derivatives = true}, at);
   std::vector<double> slope = at.gradient;
-  for (std::size_t r = 0; r < shape.rows; ++r)
-    for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e)
-      slope[shape.jacobian_col[e]] += point.y[r] * at.jacobian[e];
-  for (const std::size_t r : copy_rows)
-    for (auto e = shape.jacobian_row_begin[r]; e < shape.jacobian_row_begin[r + 1]; ++e)
-      if (std::isnan(given[shape.jacobian_col[e]]))
-        point.y[r] = -slope[shape.jacobian_col[e]] / at.jacobian[e];
+  for (std::size_t e = 0; e < shape.jacobian_row.size(); ++e)
+    slope[shape.jacobian_col[e]] += point.y[shape.jacobian_row[e]] * at.jacobian[e];
+  each_copy([&](std::size_t e, std::size_t r, std::size_t i) {
+    point.y[r] = -slope[i] / at.jacobian[e];
+  });
 }
 
 json judge(bench::PlannerCycle& planner, const std::vector<bench::Cycle>& cycles, Peer peer,

@@ -81,6 +81,7 @@ def set_options(o, model, options):
     o.tf = float(model.N)
     o.qp_solver, o.hessian_approx = "PARTIAL_CONDENSING_HPIPM", "EXACT"
     o.regularize_method, o.globalization = "MIRROR", "MERIT_BACKTRACKING"
+    o.hpipm_mode = "SPEED"  # of the modes the fastest, as reliable as BALANCE here
     o.qp_solver_iter_max, o.nlp_solver_max_iter, o.print_level = 100, 200, 0
     o.ext_fun_compile_flags = "-O3 -march=native"
     for key, value in options.items():

@@ -26,7 +26,8 @@ void Form::update(const planner::Request& request) {
   transcription.update(problem.problem());
 }
 
-PlannerCycle::PlannerCycle(sim::Scenario scenario) : scenario_(std::move(scenario)) {}
+PlannerCycle::PlannerCycle(sim::Scenario scenario)
+    : scenario_(std::move(scenario)), guess_(scenario_.planner, scenario_.goal) {}
 
 bool PlannerCycle::goal_in_range(const State& X0p) const {
   return std::hypot(X0p[X] - scenario_.goal.x, X0p[Y] - scenario_.goal.y) <
@@ -39,77 +40,13 @@ Form& PlannerCycle::form(bool in_range) {
   return *form;
 }
 
-nlp::Start PlannerCycle::start(const Form& form, bool in_range, const planner::Request& request,
-                               const Last* last) const {
-  ocp::Trajectory guess = last != nullptr ? shifted(request, *last) : straight_on(request);
-  place_slacks(request, in_range, last, guess);
-  nlp::Start start;
-  if (last != nullptr && last->in_range == in_range) start = last->multipliers;
-  start.x = form.transcription.point(guess);
-  return start;
-}
-
-ocp::Trajectory PlannerCycle::straight_on(const planner::Request& request) const {
-  const auto& s = scenario_.planner;
-  const State& X0p = request.X0p;
-  const double distance = std::hypot(X0p[X] - scenario_.goal.x, X0p[Y] - scenario_.goal.y);
-  const double tf = std::clamp(std::min(s.L_range, distance) / std::max(X0p[UX], 5.0),
-                               1.01 * s.tf_min, 0.99 * s.tf_max);
-  std::vector<double> end(kStates, 0.0);
-  end[X] = X0p[X] + tf * X0p[UX] * std::cos(X0p[PSI]);
-  end[Y] = X0p[Y] + tf * X0p[UX] * std::sin(X0p[PSI]);
-  end[PSI] = X0p[PSI];
-  end[UX] = X0p[UX];
-  return {0, tf, {0, 1}, {{X0p.begin(), X0p.end()}, end}, {{0, 0}, {0, 0}}, {}, {}};
-}
-
-/// The last plan from the new start on, its last point held, its end time kept.
-ocp::Trajectory PlannerCycle::shifted(const planner::Request& request, const Last& last) const {
-  const auto& s = scenario_.planner;
-  const ocp::Trajectory& plan = last.plan;
-  const double shift = request.t0 + request.tex - last.t_start;
-  ocp::Trajectory guess;
-  guess.tf = std::clamp(std::max(plan.tf - shift, 0.2), 1.01 * s.tf_min, 0.99 * s.tf_max);
-  for (const double tau : plan.tau) {
-    const double at = std::clamp((shift + tau * guess.tf) / plan.tf, 0.0, 1.0);
-    const auto above = std::upper_bound(plan.tau.begin(), plan.tau.end(), at) - plan.tau.begin();
-    const auto k = std::min(static_cast<std::size_t>(above), plan.tau.size() - 1);
-    const double share = (at - plan.tau[k - 1]) / (plan.tau[k] - plan.tau[k - 1]);
-    const auto mix = [&](const auto& rows) {
-      std::vector<double> row(rows[k]);
-      for (std::size_t i = 0; i < row.size(); ++i)
-        row[i] = rows[k - 1][i] + share * (rows[k][i] - rows[k - 1][i]);
-      return row;
-    };
-    guess.tau.push_back(tau);
-    guess.states.push_back(mix(plan.states));
-    guess.controls.push_back(mix(plan.controls));
-  }
-  return guess;
-}
-
-/// After a solved plan X(0) keeps its offset from X0p and the slacks their values: their rows start
-/// where the barrier left them.
-void PlannerCycle::place_slacks(const planner::Request& request, bool in_range, const Last* last,
-                                ocp::Trajectory& guess) const {
-  const auto& s = scenario_.planner;
-  guess.slacks.clear();
-  for (std::size_t i = 0; i < kStates; ++i) {
-    const double offset = last != nullptr ? last->plan.states.front()[i] - last->X0p[i] : 0;
-    guess.states.front()[i] = request.X0p[i] + offset;
-    guess.slacks.push_back(last != nullptr ? last->plan.slacks[i]
-                                           : inside(s.X0_tol[i], s.w_ic * s.w_s0[i]));
-  }
-  if (!in_range) return;
-  const auto& end = guess.states.back();
-  const auto& goal = scenario_.goal;
-  for (const double gap : {std::fabs(end[X] - goal.x), std::fabs(end[Y] - goal.y)})
-    guess.slacks.push_back(gap < s.XF_tol ? gap + inside(s.XF_tol - gap, s.w_xf) : s.XF_tol * 0.99);
-}
-
-/// Where the barrier alone would hold a slack of this weight, and at most half of its room.
-double PlannerCycle::inside(double room, double weight) const {
-  return std::min(2 * scenario_.planner.floor / weight, room / 2);
+void PlannerCycle::start(const planner::Request& request, const Last* last, nlp::Start& start) {
+  const bool in_range = goal_in_range(request.X0p);
+  start.x = form(in_range).transcription.point(
+      guess_(request, in_range, last != nullptr ? &last->plan : nullptr));
+  const bool same = last != nullptr && last->plan.in_range == in_range;
+  for (auto part : {&nlp::Start::y, &nlp::Start::zl, &nlp::Start::zu})
+    same ? (void)(start.*part = last->multipliers.*part) : (start.*part).clear();
 }
 
 sim::Scenario load(const std::string& environment, double tex, std::optional<int> N,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "guess.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/planner.hpp"
@@ -24,15 +25,12 @@ struct Form {
 
 /// The last solved plan: what the next start is made from.
 struct Last {
-  bool in_range = false;
-  double t_start = 0;      ///< absolute time of its node 0 [s]
-  vehicle::State X0p{};    ///< it was planned from
-  ocp::Trajectory plan;    ///< on the mesh's nodes, with its slacks
+  planner::LastPlan plan;
   nlp::Start multipliers;  ///< y, zl, zu in the NLP's units; no x
 };
 
-/// What a planning cycle does before it solves, as section 3 of docs/formulation.md has it
-/// ("Guess"), with the start in the open: a peer must get the same.
+/// What the planner does in a cycle before it solves, with the start in the open: a peer must get
+/// the same.
 class PlannerCycle {
  public:
   explicit PlannerCycle(sim::Scenario scenario);
@@ -42,18 +40,12 @@ class PlannerCycle {
   /// Made at first use.
   Form& form(bool in_range);
   /// Primal start and, for the same form as the last plan's, multipliers as they were. `last` may
-  /// be null: then from straight on.
-  nlp::Start start(const Form& form, bool in_range, const planner::Request& request,
-                   const Last* last) const;
+  /// be null: then from straight on. Reuses the memory of `start`.
+  void start(const planner::Request& request, const Last* last, nlp::Start& start);
 
  private:
-  ocp::Trajectory straight_on(const planner::Request& request) const;
-  ocp::Trajectory shifted(const planner::Request& request, const Last& last) const;
-  void place_slacks(const planner::Request& request, bool in_range, const Last* last,
-                    ocp::Trajectory& guess) const;
-  double inside(double room, double weight) const;
-
   const sim::Scenario scenario_;
+  planner::Guess guess_;
   std::array<std::unique_ptr<Form>, 2> forms_;
 };
 

@@ -56,7 +56,8 @@ class Recorder {
     const std::size_t begin = all.size();
     for (std::size_t before = all.size(); all.size() - begin < wanted; before = all.size()) {
       sim::Scenario scenario = planner_.scenario();
-      scenario.start = moved(scenario.start, kStartSpread, seed_, static_cast<std::uint64_t>(drives));
+      scenario.start =
+          moved(scenario.start, kStartSpread, seed_, static_cast<std::uint64_t>(drives));
       scenario.loop.on_failure = sim::OnFailure::last_plan;
       scenario.loop.warm_up = false;
       last_.reset();
@@ -102,7 +103,8 @@ class Recorder {
     options.max_iterations = settings.max_iterations;
     const Last* last = cycle.last ? &*cycle.last : nullptr;
     form.update(cycle.request);
-    const auto start = planner_.start(form, cycle.in_range, cycle.request, last);
+    nlp::Start start;
+    planner_.start(cycle.request, last, start);
     options.warm_start = !start.y.empty();
     nlp::Answer answer = solver_->solve(form.transcription, start, options);
     cycle.solved = answer.status == nlp::Status::solved &&
@@ -111,7 +113,7 @@ class Recorder {
     planner::Plan plan = plan_of(cycle, trajectory);
     if (cycle.solved) {
       answer.point.x.clear();
-      last_ = Last{cycle.in_range, plan.t_start, cycle.request.X0p, std::move(trajectory),
+      last_ = Last{{plan.t_start, cycle.request.X0p, std::move(trajectory), cycle.in_range},
                    std::move(answer.point)};
     }
     return plan;

@@ -1,6 +1,7 @@
 // Solves recorded cycles and times them; JSON on standard output, run.py makes the tables.
 //
-//   bench_solve --cycles FILE --environment E_C --backend NAME --floor MU --tol TOL --start warm|cold
+//   bench_solve --cycles FILE --environment E_C --backend NAME --floor MU --tol TOL --start
+//   warm|cold
 //               [--first I] [--count N] [--kernels baseline|avx2]
 //   bench_solve --growth --environment E_C --cycles FILE --backend NAME --floor MU
 //               [--N 15,30,...] [--obstacles 0,38,...]
@@ -18,8 +19,8 @@
 
 #include "cycle_file.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/base/timer.hpp"
 #include "slalom/base/kernels.hpp"
+#include "slalom/base/timer.hpp"
 #include "slalom/nlp/check.hpp"
 
 namespace {
@@ -46,14 +47,15 @@ nlp::Options options_of(const Arguments& a) {
 
 /// One cycle as the planner does it, timed from request to checked answer.
 json timed_solve(bench::PlannerCycle& planner, nlp::Solver& solver, const Cycle& cycle,
-                 const bench::Last* last, nlp::Options options, nlp::Answer& answer) {
+                 const bench::Last* last, nlp::Options options, nlp::Start& start,
+                 nlp::Answer& answer) {
   bench::Form& form = planner.form(cycle.in_range);
   const Timer timer;
   form.update(cycle.request);
-  const auto start = planner.start(form, cycle.in_range, cycle.request, last);
+  planner.start(cycle.request, last, start);
   options.warm_start = !start.y.empty();
   const double ready_s = timer.wall();
-  answer = solver.solve(form.transcription, start, options);
+  solver.solve(form.transcription, start, options, answer);
   const double solved_s = timer.wall();
   const auto residuals = nlp::check(form.transcription, answer.point, options);
   const double wall_s = timer.wall(), cpu_s = timer.cpu();
@@ -69,34 +71,46 @@ json timed_solve(bench::PlannerCycle& planner, nlp::Solver& solver, const Cycle&
   return result;
 }
 
-/// Seconds from reading the scenario until a problem can be solved.
-json set_up(const Arguments& a, bool in_range) {
-  const Timer timer;
-  bench::PlannerCycle planner(bench::load(a.environment, 0.5));
-  const auto& shape = planner.form(in_range).transcription.structure();
-  const auto solver = nlp::make_solver(a.backend);
-  return {{"setup_s", timer.wall()},
-          {"variables", shape.variables},
-          {"rows", shape.rows},
-          {"jacobian_entries", shape.jacobian_col.size()},
-          {"hessian_entries", shape.hessian_row.size()}};
+/// One solve without an iteration, as the planner prepares a form.
+void prepare(bench::PlannerCycle& planner, nlp::Solver& solver, bool in_range, nlp::Start& start,
+             nlp::Answer& answer) {
+  const auto& goal = planner.scenario().goal;
+  planner::Request request;
+  request.X0p = planner.scenario().start;
+  request.X0p[vehicle::X] = goal.x;
+  request.X0p[vehicle::Y] = goal.y - (in_range ? 0.5 : 1.5) * planner.scenario().planner.L_range;
+  planner.form(in_range).update(request);
+  planner.start(request, nullptr, start);
+  nlp::Options options;
+  options.max_iterations = 0;
+  solver.solve(planner.form(in_range).transcription, start, options, answer);
 }
 
+/// setup_s: from reading the scenario until a problem can be solved.
 json solve_recorded(const Arguments& a) {
-  json result = set_up(a, false);
+  nlp::Start start;
+  nlp::Answer answer;
+  const Timer timer;
   bench::PlannerCycle planner(bench::load(a.environment, 0.5));
   const auto solver = nlp::make_solver(a.backend);
+  for (const bool in_range : {true, false}) prepare(planner, *solver, in_range, start, answer);
+  const double setup_s = timer.cpu();
+
   const auto cycles = bench::read_cycles(a.cycles, planner);
   const bool warm = a.start == "warm";
   json solves = json::array();
-  nlp::Answer answer;
   for (std::size_t i = a.first; i < std::min(cycles.size(), a.first + a.count); ++i) {
     const bench::Last* last = warm && cycles[i].last ? &*cycles[i].last : nullptr;
-    solves.push_back(timed_solve(planner, *solver, cycles[i], last, options_of(a), answer));
+    solves.push_back(timed_solve(planner, *solver, cycles[i], last, options_of(a), start, answer));
     solves.back()["cycle"] = i;
   }
-  result["cycles"] = std::move(solves);
-  return result;
+  const auto& shape = planner.form(false).transcription.structure();
+  return {{"setup_s", setup_s},
+          {"variables", shape.variables},
+          {"rows", shape.rows},
+          {"jacobian_entries", shape.jacobian_col.size()},
+          {"hessian_entries", shape.hessian_row.size()},
+          {"cycles", std::move(solves)}};
 }
 
 /// The first cycles of the first recorded drive on another mesh or with other obstacles, each
@@ -107,23 +121,23 @@ json solve_chain(const Arguments& a, const std::vector<Cycle>& cycles, std::opti
   const Timer timer;
   bench::PlannerCycle planner(bench::load(a.environment, 0.5, N, obstacles));
   const auto solver = nlp::make_solver(a.backend);
-  (void)planner.form(false);
+  nlp::Start start;
+  nlp::Answer answer;
+  prepare(planner, *solver, false, start, answer);
   json result = {{"N", planner.scenario().planner.N},
                  {"obstacles", planner.scenario().obstacles.size()},
-                 {"setup_s", timer.wall()}};
+                 {"setup_s", timer.cpu()}};
   json solves = json::array();
   std::optional<bench::Last> last;
   for (std::size_t i = 0; i < cycles.size() && cycles[i].drive == 0 && i < kChain; ++i) {
     if (cycles[i].in_range) break;
-    nlp::Answer answer;
-    solves.push_back(
-        timed_solve(planner, *solver, cycles[i], last ? &*last : nullptr, options_of(a), answer));
+    solves.push_back(timed_solve(planner, *solver, cycles[i], last ? &*last : nullptr,
+                                 options_of(a), start, answer));
     if (answer.status != nlp::Status::solved) continue;
     auto plan = planner.form(false).transcription.trajectory(answer.point.x);
-    answer.point.x.clear();
     const auto& request = cycles[i].request;
-    last = bench::Last{false, request.t0 + request.tex, request.X0p, std::move(plan),
-                       std::move(answer.point)};
+    last =
+        bench::Last{{request.t0 + request.tex, request.X0p, std::move(plan), false}, answer.point};
   }
   result["cycles"] = std::move(solves);
   return result;
@@ -169,9 +183,9 @@ int main(int argc, char** argv) try {
   if (!a.kernels.empty())
     select_kernels(a.kernels == "avx2" ? KernelSet::avx2 : KernelSet::baseline);
   json result = a.growth ? growth(a) : solve_recorded(a);
-  result["kernels"] = to_string(a.kernels.empty()       ? best_kernels()
-                                      : a.kernels == "avx2" ? KernelSet::avx2
-                                                              : KernelSet::baseline);
+  result["kernels"] = to_string(a.kernels.empty()     ? best_kernels()
+                                : a.kernels == "avx2" ? KernelSet::avx2
+                                                      : KernelSet::baseline);
   std::cout << result.dump() << "\n";
   return 0;
 } catch (const std::exception& error) {
