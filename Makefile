@@ -27,7 +27,7 @@ test: ## set up, build, and run every test and check, with sanitizers too
 	tools/setup.sh test
 	tools/run_tests.sh
 
-bench: ## set up, and time the planner's problem beside the same in CasADi
+bench: ## set up, and time the planner's solver beside its peers into docs/benchmarks.md (takes hours)
 	tools/setup.sh bench
 	python3 benchmarks/run.py
 
@@ -55,4 +55,4 @@ format: ## format the C++ sources
 	tools/format.sh
 
 clean: ## remove the build trees and what `make run` wrote
-	rm -rf build build-debug build-asan run tests/browser/node_modules benchmarks/.venv
+	rm -rf build build-debug build-asan run tests/browser/node_modules

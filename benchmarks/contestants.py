@@ -75,7 +75,8 @@ def run_ours(backend, kernels=None):
     def run(job, cycles):
         level = LEVELS[job.level]
         command = [program("bench_solve"), *job_arguments(job, cycles), "--backend", backend,
-                   "--floor", str(level.floor), "--tol", str(level.tol)]  # fmt: skip
+                   "--floor", str(level.floor), "--tol", str(level.tol), "--dual-tol",
+                   str(level.stationarity), "--constraint-tol", str(level.violation)]  # fmt: skip
         return json.loads(run_command(command + (["--kernels", kernels] if kernels else [])))
 
     return run

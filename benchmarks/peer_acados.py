@@ -17,7 +17,7 @@ import numpy as np
 
 from cycles import FORMS, CycleFile, peer_arguments, write_results
 from levels import LEVELS
-from shooting import NS, NU, NX, TF, U_MAX, W_XF, XF_TOL, FlatNlp, Judge, Model
+from shooting import NS, NU, NX, TF, U_MAX, W_T, W_XF, XF_TOL, FlatNlp, Judge, Model
 
 BIG = 1e4  # stands for no bound: HPIPM has both sides of every row
 SOFT = 1e3  # weight of a violated row: more than its multiplier, so that the answer keeps to it
@@ -35,10 +35,10 @@ def formulate(model, in_range, name, options):
     m.name, m.x, m.u, m.p = name, x, u, p
     m.disc_dyn_expr = model.step(x, u)
     m.cost_expr_ext_cost = weight * model.state_cost(x) + model.control_cost(x, u)
-    m.cost_expr_ext_cost_e = 100 * x[TF] + weight * model.state_cost(x)
-    # Newtons and square metres made small: HPIPM does not scale rows.
+    m.cost_expr_ext_cost_e = W_T * x[TF] + weight * model.state_cost(x)
+    # Small numbers, for HPIPM does not scale rows, and distances, which linearise better.
     scale = ca.DM([1, 1, *[1e-3] * 4, *[1] * len(model.obstacles), 1e-3])
-    m.con_h_expr = scale * model.rows(x, p, tau)
+    m.con_h_expr = scale * model.rows(x, p, tau, root=True)
     count = m.con_h_expr.numel()
     if in_range:
         gap = x[:2] - ca.DM(model.env["goal"])

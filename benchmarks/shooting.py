@@ -13,13 +13,14 @@ import numpy as np
 from scipy.optimize import nnls
 
 from planner_casadi import (
-    ENVIRONMENTS, INF, NX, SA, TF_MAX, TF_MIN, W_FZ, W_G, W_HAF, W_JX, W_SA, W_SR, W_XF, X, XF_TOL,
-    Y, AX, FZ_MIN, vehicle)  # fmt: skip
+    AX, CONTROLS, ENVIRONMENTS, FZ_MIN, INF, NX, PLANNERS, SA, STATES, TF_MAX, TF_MIN, W_FZ, W_G,
+    W_HAF, W_JX, W_SA, W_SR, W_XF, X, XF_TOL, Y, vehicle)  # fmt: skip
 
 NS, NU = NX + 1, 2  # with tf
 TF = NX
 DEG = math.pi / 180
 U_MAX = np.array([5 * DEG, 5])
+W_T = PLANNERS["P_D"][0]
 
 
 class Model:
@@ -58,18 +59,19 @@ class Model:
         return x[TF] / self.N * (W_SR * u[0] ** 2 + W_JX * u[1] ** 2)
 
     def goal_cost(self, x, p):
-        """Out of range: distance to the goal beside that at the start; and w_t tf."""
+        """Out of range: distance to the goal beside that at the start."""
         to = lambda s: (s[X] - self.env["goal"][0]) ** 2 + (s[Y] - self.env["goal"][1]) ** 2
         return W_G * to(x) / (to(p) + 0.01)
 
-    def rows(self, x, p, tau):
-        """All >= 0, at nodes k >= 1."""
+    def rows(self, x, p, tau, root=False):
+        """All >= 0, at nodes k >= 1; with `root` an obstacle's is a distance, not its square."""
         _, loads, ax_min, ax_max = vehicle(ca.vertcat(x[:NX], 0, 0))
         margin, t = 2.5 + 1.5 * tau, p[8] + tau * x[TF]
         obstacle = ca.reshape(p[9 : self.np], 6, len(self.obstacles))
         xo, yo = obstacle[0, :] + obstacle[4, :] * t, obstacle[1, :] + obstacle[5, :] * t
-        outside = (((x[X] - xo) / (obstacle[2, :] + margin)) ** 2
-                   + ((x[Y] - yo) / (obstacle[3, :] + margin)) ** 2 - 1)  # fmt: skip
+        square = (((x[X] - xo) / (obstacle[2, :] + margin)) ** 2
+                  + ((x[Y] - yo) / (obstacle[3, :] + margin)) ** 2)  # fmt: skip
+        outside = (ca.sqrt(square) if root else square) - 1
         reach = self.env["L_range"] + self.env["kappa"]
         return ca.vertcat(x[AX] - ax_min, ax_max - x[AX], loads - FZ_MIN, outside.T,
                           reach**2 - self.distance(x, p))  # fmt: skip
@@ -87,14 +89,10 @@ class Model:
 
     def start(self, cycle, names, warm):
         """States (N+1, 9) and controls (N, 2) from our start: its nodes, intervals' mean controls."""
-        x = cycle.warm_x if warm else cycle.cold_x
-        first = names["variables"].index("x at node 0")
-        second = names["variables"].index("x at node 1")
-        # Node 0 may be followed by slacks; from node 1 on nodes stand ten numbers apart.
-        nodes = np.array([x[first : first + 10], *(x[second + 10 * k : second + 10 * k + 10]
-                                                   for k in range(self.N))])  # fmt: skip
-        states = np.column_stack([nodes[:, :NX],
-                                  np.full(self.N + 1, x[names["variables"].index("tf")])])
+        value = dict(zip(names["variables"], cycle.warm_x if warm else cycle.cold_x))
+        nodes = np.array([[value[f"{name} at node {k}"] for name in STATES + CONTROLS]
+                          for k in range(self.N + 1)])  # fmt: skip
+        states = np.column_stack([nodes[:, :NX], np.full(self.N + 1, value["tf"])])
         states[0, :NX] = cycle.X0p
         return states, 0.5 * (nodes[:-1, NX:] + nodes[1:, NX:])
 
@@ -117,7 +115,7 @@ class FlatNlp:
         xs, us, ts = ca.SX.sym("x", NS), ca.SX.sym("u", NU), ca.SX.sym("tau")
         step = ca.Function("step", [xs, us], [m.step(xs, us)])
         node = ca.Function("node", [xs, p, ts], [m.state_cost(xs), m.rows(xs, p, ts)])
-        f, g = 100 * x[N][TF], []
+        f, g = W_T * x[N][TF], []
         for k in range(N + 1):
             cost, at_node = node(x[k], p, k / N)
             f += cost * (0.5 if k in (0, N) else 1)

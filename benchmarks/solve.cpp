@@ -31,7 +31,7 @@ using nlohmann::json;
 
 struct Arguments {
   std::string environment = "E_C", cycles, backend, start = "warm", kernels;
-  double floor = 0, tol = 1e-6;
+  double floor = 0, tol = 1e-6, dual_tol = 1e-3, constraint_tol = 1e-6;
   std::size_t first = 0, count = static_cast<std::size_t>(-1);
   bool growth = false;
   std::vector<int> N;
@@ -42,6 +42,8 @@ nlp::Options options_of(const Arguments& a) {
   nlp::Options options;
   options.floor = a.floor;
   options.tol = a.tol;
+  options.dual_tol = a.dual_tol;
+  options.constraint_tol = a.constraint_tol;
   return options;
 }
 
@@ -163,6 +165,8 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--kernels", a.kernels, "baseline or avx2; the best by default");
   app.add_option("--floor", a.floor, "barrier floor; 0 for none");
   app.add_option("--tol", a.tol, "optimality tolerance without a floor");
+  app.add_option("--dual-tol", a.dual_tol, "largest gradient of the Lagrangian");
+  app.add_option("--constraint-tol", a.constraint_tol, "largest violation");
   app.add_option("--first", a.first, "cycle to begin with");
   app.add_option("--count", a.count, "cycles to solve");
   app.add_flag("--growth", a.growth, "other meshes and numbers of obstacles");

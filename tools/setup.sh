@@ -30,8 +30,9 @@ nodejs              | test  | cmd:node                  | runs the test of the p
 npm                 | test  | cmd:npm                   | installs playwright-core for the test of the page
 python3             | results | cmd:python3               | tabulates drives
 python3             | bench | cmd:python3               | runs the benchmarks
-python3-venv        | bench | py:ensurepip              | keeps the peer they compare with to a folder of its own
-gcc                 | bench | cmd:gcc                   | compiles the C code that peer generates
+python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
+gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
+make                | bench | cmd:make                  | builds acados' generated solver
 TABLE
 }
 
