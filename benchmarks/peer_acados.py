@@ -80,7 +80,7 @@ def set_options(o, model, options):
     o.time_steps = np.ones(model.N)  # the cost's own tf / N is in its expressions
     o.tf = float(model.N)
     o.qp_solver, o.hessian_approx = "PARTIAL_CONDENSING_HPIPM", "EXACT"
-    o.regularize_method, o.globalization = "MIRROR", "MERIT_BACKTRACKING"
+    o.regularize_method, o.globalization = "PROJECT", "MERIT_BACKTRACKING"
     o.hpipm_mode = "SPEED"  # of the modes the fastest, as reliable as BALANCE here
     o.qp_solver_iter_max, o.nlp_solver_max_iter, o.print_level = 100, 200, 0
     o.ext_fun_compile_flags = "-O3 -march=native"
