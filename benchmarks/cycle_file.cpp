@@ -136,6 +136,7 @@ json describe(const nlp::Residuals& residuals, const ocp::Trajectory& trajectory
           {"worst", residuals.worst_constraint},
           {"stationarity", residuals.stationarity},
           {"complementarity", residuals.complementarity},
+          {"worst_pair", residuals.worst_pair},
           {"f", residuals.objective},
           {"phi", residuals.phi},
           {"tf", trajectory.tf},

@@ -79,6 +79,12 @@ def split_multipliers(x, lower, upper, lam, floor):
     return zl, zu
 
 
+def within(z, slack, most):
+    """Multipliers z >= 0 no larger than most / slack: what a loose answer's exceeds of it counts as
+    stationarity, as the solver itself counted it, not as complementarity."""
+    return np.minimum(np.maximum(z, 0), most / np.maximum(slack, 1e-300))
+
+
 def write_answer(file, cycle, *arrays):
     """Appends one answer in the form bench_judge reads."""
     for values in (np.array([float(cycle)]), *arrays):

@@ -137,7 +137,7 @@ def run(args):
                            ("ineq", level.violation), ("comp", level.complementarity)):  # fmt: skip
             solver.options_set(f"tol_{which}", tol)
         flat = FlatNlp(args.environment, in_range)
-        forms[form] = model, solver, flat, Judge(flat)
+        forms[form] = model, solver, flat, Judge(flat, level)
     solves = []
     for cycle in file.cycles[args.first : args.first + args.count]:
         model, solver, flat, judge = forms[cycle.form]

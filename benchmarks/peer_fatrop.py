@@ -49,7 +49,7 @@ def run(args):
         source = library(args, form) + ".so" if args.mode == "c" else None
         solver = make_solver(flat, level, args.options, source)
         setup.append(time.perf_counter() - began)
-        forms[form] = flat, solver, Judge(flat)
+        forms[form] = flat, solver, Judge(flat, level)
     solves = []
     for cycle in file.cycles[args.first : args.first + args.count]:
         flat, solver, judge = forms[cycle.form]

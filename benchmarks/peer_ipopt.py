@@ -15,7 +15,8 @@ import numpy as np
 
 from compiled import compile_c
 from cycles import (
-    FORMS, CycleFile, Names, peer_arguments, split_multipliers, write_answer, write_results)  # fmt: skip
+    FORMS, CycleFile, Names, peer_arguments, split_multipliers, within,
+    write_answer, write_results)  # fmt: skip
 from levels import LEVELS, Level
 from planner_casadi import Ocp, X, Y
 
@@ -141,7 +142,12 @@ def solve_cycle(cycle, level, start, solver, variables, rows, answers):
     p = ocp.parameters(cycle.X0p, cycle.meta["t0"], cycle.meta["tex"])
     got, stats = solver.solve(x, p, duals)
     zl, zu = split_multipliers(got["x"], ocp.lbx, ocp.ubx, got["lam_x"], level.floor)
-    write_answer(answers, cycle.index, variables.to_ours(got["x"]), rows.to_ours(got["lam_g"]),
+    y = got["lam_g"]
+    if level.floor == 0:
+        most = level.complementarity
+        zl, zu = within(zl, got["x"] - ocp.lbx, most), within(zu, ocp.ubx - got["x"], most)
+        y = np.where(ocp.is_equation, y, -within(-y, got["g"], most))
+    write_answer(answers, cycle.index, variables.to_ours(got["x"]), rows.to_ours(y),
                  variables.to_ours(zl), variables.to_ours(zu))  # fmt: skip
     return describe(stats) | {"cycle": cycle.index}
 

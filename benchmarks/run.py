@@ -155,13 +155,10 @@ def measure(args):
 
 def growth(args):
     folder = current_run(args)
-    for environment in ENVIRONMENTS:
-        say(f"growth in {environment}")
-        command = [program("bench_solve"), "--growth", "--environment", environment, "--cycles",
-                   str(folder / f"{environment}.cycles"), "--backend", "interior_point",
-                   "--floor", str(LEVELS["floor"].floor), *GROWTH]  # fmt: skip
-        write_result(folder, f"growth_{environment}", {"environment": environment},
-                     lambda: json.loads(run_command(command)))  # fmt: skip
+    say("growth")
+    command = [program("bench_solve"), "--growth", "--cycles", str(folder / "E_C.cycles"),
+               "--backend", "interior_point", "--floor", str(LEVELS["floor"].floor), *GROWTH]  # fmt: skip
+    write_result(folder, "growth", {}, lambda: json.loads(run_command(command)))
 
 
 def functions(args):

@@ -171,10 +171,9 @@ class Judge:
     """Residuals of an answer from the NLP's functions and the answer's primal alone: multipliers
     are those that make stationarity and complementarity least (non-negative least squares)."""
 
-    WEIGHT = 100.0  # of complementarity beside stationarity: the ratio of their tolerances
-
-    def __init__(self, flat):
+    def __init__(self, flat, level):
         self.flat = flat
+        self.weight = level.stationarity / level.complementarity  # of complementarity, beside it
         x, p, f, g = (flat.nlp[k] for k in ("x", "p", "f", "g"))
         self.functions = ca.Function("all", [x, p], [f, ca.gradient(f, x), g, ca.jacobian(g, x)])
 
@@ -203,7 +202,7 @@ class Judge:
         if not (np.all(np.isfinite(gradient)) and np.all(np.isfinite(equations))):
             return None, None
         q = np.linalg.qr(equations.T, mode="complete")[0][:, len(equations) :]
-        matrix = np.vstack([q.T @ rows.T, self.WEIGHT * np.diag(slack)])
+        matrix = np.vstack([q.T @ rows.T, self.weight * np.diag(slack)])
         z, _ = nnls(matrix, np.concatenate([q.T @ gradient, np.zeros(len(slack))]), maxiter=10000)
         rest = q.T @ (gradient - rows.T @ z)
         return float(np.max(np.abs(q @ rest))), float(np.max(slack * z, initial=0))

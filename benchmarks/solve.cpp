@@ -56,16 +56,14 @@ json timed_solve(bench::PlannerCycle& planner, nlp::Solver& solver, const Cycle&
   form.update(cycle.request);
   planner.start(cycle.request, last, start);
   options.warm_start = !start.y.empty();
-  const double ready_s = timer.wall();
   solver.solve(form.transcription, start, options, answer);
-  const double solved_s = timer.wall();
   const auto residuals = nlp::check(form.transcription, answer.point, options);
   const double wall_s = timer.wall(), cpu_s = timer.cpu();
 
   json result = bench::describe(residuals, form.transcription.trajectory(answer.point.x));
   result["wall_s"] = wall_s;
   result["cpu_s"] = cpu_s;
-  result["solver_s"] = solved_s - ready_s;
+  result["solver_cpu_s"] = answer.cpu_s;
   result["claimed"] = answer.status == nlp::Status::solved;
   result["status"] = nlp::to_string(answer.status);
   result["backend"] = answer.backend;
@@ -132,7 +130,9 @@ json solve_chain(const Arguments& a, const std::vector<Cycle>& cycles, std::opti
   json solves = json::array();
   std::optional<bench::Last> last;
   for (std::size_t i = 0; i < cycles.size() && cycles[i].drive == 0 && i < kChain; ++i) {
+    const auto& request = cycles[i].request;
     if (cycles[i].in_range) break;
+    if (i > 0 && request.t0 > cycles[i - 1].request.t0 + 1.5 * request.tex) break;  // thinned out
     solves.push_back(timed_solve(planner, *solver, cycles[i], last ? &*last : nullptr,
                                  options_of(a), start, answer));
     if (answer.status != nlp::Status::solved) continue;

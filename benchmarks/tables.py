@@ -84,24 +84,19 @@ def environment_markdown(name, part):
     return "\n\n".join(parts)
 
 
-def growth_markdown(growth):
-    parts = []
-    for name, rows in growth.items():
-        if not rows:
-            continue
-        base = next((r for r in rows if r.get("us_per_iteration")), None)
-        lines = [[str(r["N"]), str(r["obstacles"]), number(r["cpu_ms"]["median"]),
-                  number(r["cpu_ms"]["max"]), number(r["iterations"]),
-                  number(r["us_per_iteration"]),
-                  number(r["us_per_iteration"] / base["us_per_iteration"]),
-                  f"{r['solved']}/{r['of']}", number(1e3 * r["setup_s"])]
-                 if "cpu_ms" in r else
-                 [str(r["N"]), str(r["obstacles"]), *["–"] * 5, f"0/{r['of']}",
-                  number(1e3 * r["setup_s"])] for r in rows]  # fmt: skip
-        parts.append(f"{name}:\n\n" + table(
-            ["N", "obstacles", "median [ms]", "max", "iterations", "µs an iteration",
-             "× the first row's", "solved", "set-up [ms]"], lines) + marginal(rows))  # fmt: skip
-    return "\n\n".join(parts)
+def growth_markdown(rows):
+    if not rows:
+        return "Not measured in this run."
+    base = next((r["us_per_iteration"] for r in rows if "cpu_ms" in r), None)
+    lines = []
+    for r in rows:
+        figures = ["–"] * 5 if "cpu_ms" not in r else [number(v) for v in (
+            r["cpu_ms"]["median"], r["cpu_ms"]["max"], r["iterations"], r["us_per_iteration"],
+            r["us_per_iteration"] / base)]  # fmt: skip
+        lines.append([str(r["N"]), str(r["obstacles"]), *figures, f"{r['solved']}/{r['of']}",
+                      number(1e3 * r["setup_s"])])  # fmt: skip
+    return table(["N", "obstacles", "median [ms]", "max", "iterations", "µs an iteration",
+                  "× the first row's", "solved", "set-up [ms]"], lines) + marginal(rows)  # fmt: skip
 
 
 def marginal(rows):
@@ -165,8 +160,8 @@ closed-loop drives by Ipopt and by our solver at tex 0.5 and 0.1 s from seeded s
 and {about[perturbed]} of them with a perturbed predicted state (seed {about[seed]}). Warm: from the
 last solved plan, shifted, with its slacks and its multipliers as they were. Cold: from straight on.
 Each cycle is solved once. Times are the thread's processor time: ours of the whole cycle (update of
-problem and obstacles, shift, solve, check), a peer's inside its solver alone. The tables are over
-the feasible cycles, and **what is not solved counts as {limit} ms**. An answer is solved when its
+problem and obstacles, shift, solve, check), a peer's inside its solver alone; an iteration's is the solver's alone for all. The tables are
+over the feasible cycles, and **what is not solved counts as {limit} ms**. An answer is solved when its
 solver says so and the independent checker, in unscaled units, finds it within
 
 {levels}
@@ -182,8 +177,9 @@ CasADi's wheel carries BLASFEO's generic kernels: fatrop would gain from others.
 {environments}
 
 ## Growth
-Warm at the floor, the first cycles of a drive, each from the last one's plan; obstacles beyond the
-environment's own stand beside the road and count like any other. More phases: not measured.
+In E_C at the floor, the first cycles of a drive, each from the last one's plan, the first from straight
+on; obstacles beyond the environment's own stand beside the road and count like any other. More phases:
+not measured.
 
 {growth}
 
