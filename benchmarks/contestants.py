@@ -76,7 +76,7 @@ def run_ours(backend, kernels=None):
         level = LEVELS[job.level]
         command = [program("bench_solve"), *job_arguments(job, cycles), "--backend", backend,
                    "--floor", str(level.floor), "--tol", str(level.tol), "--dual-tol",
-                   str(level.stationarity), "--constraint-tol", str(level.violation)]  # fmt: skip
+                   str(level.dual_tol), "--constraint-tol", str(level.violation)]  # fmt: skip
         return json.loads(run_command(command + (["--kernels", kernels] if kernels else [])))
 
     return run

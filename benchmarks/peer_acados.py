@@ -133,7 +133,7 @@ def run(args):
         began = time.perf_counter()
         model, solver = make(args, form, build=False)
         setup.append(time.perf_counter() - began)
-        for which, tol in (("stat", 0.1 * level.stationarity), ("eq", level.violation),
+        for which, tol in (("stat", level.dual_tol), ("eq", level.violation),
                            ("ineq", level.violation), ("comp", level.complementarity)):  # fmt: skip
             solver.options_set(f"tol_{which}", tol)
         flat = FlatNlp(args.environment, in_range)

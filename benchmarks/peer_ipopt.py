@@ -26,7 +26,7 @@ def ipopt_options(level, warm):
     options = {
         "print_level": 0, "sb": "yes", "max_iter": 500, "linear_solver": "mumps",
         "bound_relax_factor": 0, "tol": level.tol, "acceptable_tol": level.tol,
-        "dual_inf_tol": level.stationarity, "constr_viol_tol": level.violation,
+        "dual_inf_tol": level.dual_tol, "constr_viol_tol": level.violation,
         "compl_inf_tol": level.complementarity,
     }  # fmt: skip
     if level.floor > 0:

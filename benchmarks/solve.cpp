@@ -137,7 +137,6 @@ json solve_chain(const Arguments& a, const std::vector<Cycle>& cycles, std::opti
                                  options_of(a), start, answer));
     if (answer.status != nlp::Status::solved) continue;
     auto plan = planner.form(false).transcription.trajectory(answer.point.x);
-    const auto& request = cycles[i].request;
     last =
         bench::Last{{request.t0 + request.tex, request.X0p, std::move(plan), false}, answer.point};
   }

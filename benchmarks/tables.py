@@ -161,7 +161,7 @@ and {about[perturbed]} of them with a perturbed predicted state (seed {about[see
 last solved plan, shifted, with its slacks and its multipliers as they were. Cold: from straight on.
 Each cycle is solved once. Times are the thread's processor time: ours of the whole cycle (update of
 problem and obstacles, shift, solve, check), a peer's inside its solver alone; an iteration's is the solver's alone for all. The tables are
-over the feasible cycles, and **what is not solved counts as {limit} ms**. An answer is solved when its
+over the feasible cycles, and **what is not solved counts as {limit} ms** (or its time, if longer). An answer is solved when its
 solver says so and the independent checker, in unscaled units, finds it within
 
 {levels}
