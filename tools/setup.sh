@@ -20,6 +20,7 @@ libyaml-cpp-dev     | run   | inc:yaml-cpp/yaml.h       | reads scenarios
 nlohmann-json3-dev  | run   | inc:nlohmann/json.hpp     | writes results as JSON
 libboost-dev        | run   | inc:boost/numeric/odeint.hpp | integrates the plant (headers alone)
 coinor-libipopt-dev | run   | pc:ipopt                  | solves the nonlinear programs
+libsqlite3-dev      | run   | inc:sqlite3.h             | keeps the results of sweeps
 libsleef-dev        | run   | inc:sleef.h               | elementary functions on vectors
 libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests
 clang-format        | test  | cmd:clang-format          | checks the format of the source

@@ -8,6 +8,8 @@ namespace slalom::app {
 void add_simulate(CLI::App& app, Command& run);
 void add_plan(CLI::App& app, Command& run);
 void add_reproduce(CLI::App& app, Command& run);
+void add_sweep(CLI::App& app, Command& run);
+void add_merge(CLI::App& app, Command& run);
 void add_check(CLI::App& app, Command& run);
 void add_list(CLI::App& app, Command& run);
 void add_docs(CLI::App& app, Command& run);

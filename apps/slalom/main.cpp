@@ -66,6 +66,8 @@ int run_app(int argc, char** argv) {
   app::add_simulate(cli, run);
   app::add_plan(cli, run);
   app::add_reproduce(cli, run);
+  app::add_sweep(cli, run);
+  app::add_merge(cli, run);
   app::add_check(cli, run);
   app::add_list(cli, run);
   app::add_docs(cli, run);

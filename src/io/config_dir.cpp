@@ -79,7 +79,7 @@ fs::path find_config(const std::string& what, const std::string& name_or_file, c
   auto local = given.is_absolute() || base.empty() ? given : base / given;
   if (is_path) return local;
 
-  const auto folder = config_dir() / (what + "s");
+  const auto folder = config_dir() / (what == "study" ? "studies" : what + "s");
   std::error_code error;
   if (!name_or_file.empty() && fs::exists(folder / (name_or_file + ".yaml"), error))
     return folder / (name_or_file + ".yaml");
@@ -104,6 +104,9 @@ std::vector<BuiltIn> built_in_planners() {
 }
 std::vector<BuiltIn> built_in_vehicles() {
   return built_in("vehicles");
+}
+std::vector<BuiltIn> built_in_studies() {
+  return built_in("studies");
 }
 
 }  // namespace slalom::io

@@ -18,7 +18,7 @@ std::vector<BuiltIn> built_in(const std::string& folder);
 
 /// The file behind a built-in name or a path; a relative path counts from `base` (the folder of
 /// the file that names it, or the working folder). Throws InvalidValue at `where` when it is
-/// neither; `what` is "scenario", "planner" or "vehicle".
+/// neither; `what` is "scenario", "planner", "vehicle" or "study".
 std::filesystem::path find_config(const std::string& what, const std::string& name_or_file,
                                   const std::filesystem::path& base, const std::string& where);
 

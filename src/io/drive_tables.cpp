@@ -2,18 +2,11 @@
 
 #include <algorithm>
 
+#include "csv.hpp"
 #include "slalom/io/drive_files.hpp"
 
 namespace slalom::io {
 namespace {
-
-/// A text cell: quoted when it holds what would break a row.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 template <class Range>
 void append_all(std::string& row, const Range& values) {
@@ -89,7 +82,7 @@ std::string plan_csv(const planner::Plan& plan) {
 std::string cycles_csv(const sim::Drive& drive) {
   const auto terms = cost_term_names(drive);
   std::string text = "cycle,t0,tex,solve_time_s,iterations,status,cpu_time_s,cost";
-  for (const auto& term : terms) text += "," + cell("cost_" + term);
+  for (const auto& term : terms) text += "," + csv_cell("cost_" + term);
   text +=
       ",worst_constraint,worst_violation,stationarity,complementarity,phi,tf,goal_in_range,used,"
       "backend,best_iterate,planning_cpu_s\n";
@@ -97,13 +90,13 @@ std::string cycles_csv(const sim::Drive& drive) {
     if (cycle.index == 0) continue;
     const auto& report = cycle.plan.report;
     text += fmt::format("{},{},{},{},{},{},{},{}", cycle.index, cycle.t0, cycle.tex, report.wall_s,
-                        report.iterations, cell(report.status), report.cpu_s, report.cost);
+                        report.iterations, csv_cell(report.status), report.cpu_s, report.cost);
     for (const auto& term : terms) text += fmt::format(",{}", cost_term(report, term));
     text +=
-        fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", cell(report.worst_constraint),
+        fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(report.worst_constraint),
                     report.worst_violation, report.stationarity, report.complementarity, report.phi,
                     cycle.plan.tf, cycle.plan.goal_in_range ? 1 : 0, cycle.used ? 1 : 0,
-                    cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s);
+                    csv_cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s);
   }
   return text;
 }

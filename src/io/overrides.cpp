@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "document.hpp"
 #include "scenario_tables.hpp"
@@ -13,9 +14,18 @@ namespace {
 
 /// One assignment, split: section "obstacles.O2", key "vy".
 struct Assignment {
-  std::string section, key, text;
-  Place place;
+  std::string section, key;
+  std::string text;            ///< of the value, for options that are text
+  std::optional<Value> value;  ///< absent: what `text` means as YAML
+  Place place;                 ///< of the key
 };
+
+/// The last dot parts section and key, so that an obstacle's name may hold dots.
+void split_path(const std::string& path, Assignment& a) {
+  const auto dot = path.rfind('.');
+  a.section = dot == std::string::npos ? "" : path.substr(0, dot);
+  a.key = dot == std::string::npos ? path : path.substr(dot + 1);
+}
 
 Assignment split(const std::string& assignment) {
   const auto equals = assignment.find('=');
@@ -25,10 +35,7 @@ Assignment split(const std::string& assignment) {
   Assignment result;
   result.place = {"--set " + path, 0, 0};
   result.text = assignment.substr(equals + 1);
-  // The last dot parts section and key, so that an obstacle's name may hold dots.
-  const auto dot = path.rfind('.');
-  result.section = dot == std::string::npos ? "" : path.substr(0, dot);
-  result.key = dot == std::string::npos ? path : path.substr(dot + 1);
+  split_path(path, result);
   return result;
 }
 
@@ -40,7 +47,7 @@ void set_field(const Section& section, const Assignment& a, Places& places) {
       field.store(a.text);
       return;
     }
-  section.set(a.key, parse_argument(a.text, a.place.source), a.place, places);
+  section.set(a.key, a.value ? *a.value : parse_argument(a.text, a.place.source), a.place, places);
 }
 
 void set_obstacle(const Assignment& a, sim::Scenario& scenario, Places& places) {
@@ -75,10 +82,7 @@ void set_top_level(const Assignment& a, sim::Scenario& scenario) {
                      fmt::format("one key of it, {}.KEY=value", a.key));
 }
 
-}  // namespace
-
-void apply_override(const std::string& assignment, sim::Scenario& scenario, Places& places) {
-  const Assignment a = split(assignment);
+void apply(const Assignment& a, sim::Scenario& scenario, Places& places) {
   const auto head = a.section.substr(0, a.section.find('.'));
   if (a.section == "planner") {
     set_field(Section(a.section).add(planner::setting_options(), scenario.planner), a, places);
@@ -103,6 +107,22 @@ void apply_override(const std::string& assignment, sim::Scenario& scenario, Plac
     unknown_key(a.section, a.place, "",
                 {"planner", "loop", "vehicle", "start", "goal", "region", "obstacles"});
   }
+}
+
+}  // namespace
+
+void apply_override(const std::string& assignment, sim::Scenario& scenario, Places& places) {
+  apply(split(assignment), scenario, places);
+}
+
+void apply_setting(const std::string& path, const Place& place, const Value& value,
+                   sim::Scenario& scenario, Places& places) {
+  Assignment a;
+  a.place = place;
+  a.text = value.text;
+  a.value = value;
+  split_path(path, a);
+  apply(a, scenario, places);
 }
 
 }  // namespace slalom::io

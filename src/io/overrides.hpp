@@ -11,5 +11,9 @@ namespace slalom::io {
 /// start.x=6.1, goal.sigma=5, region.x_min=0, obstacles.O2.vy=-20, title=text. Throws InvalidValue
 /// naming "--set key.path".
 void apply_override(const std::string& assignment, sim::Scenario& scenario, Places& places);
+/// The same for a key path and a value that stand in a file; throws InvalidValue naming their
+/// places.
+void apply_setting(const std::string& path, const Place& place, const Value& value,
+                   sim::Scenario& scenario, Places& places);
 
 }  // namespace slalom::io

@@ -27,11 +27,10 @@ void require_key(const Value& map, const std::string& path, const std::string& k
 /// Reads one scenario file and what it refers to.
 class Loader {
  public:
-  Loader(const ScenarioRequest& request, fs::path file)
-      : request_(request), file_(std::move(file)) {}
+  Loader(const ScenarioRequest& request, fs::path file, Value root)
+      : request_(request), file_(std::move(file)), root_(std::move(root)) {}
 
   sim::Scenario load() {
-    root_ = parse_file(file_, "a scenario");
     require_map(root_, "a scenario (a map with start, goal, ...)");
     static const std::vector<std::string> known = {
         "name", "title", "vehicle", "planner", "start", "goal", "region", "obstacles", "loop"};
@@ -206,7 +205,12 @@ class Loader {
 }  // namespace
 
 sim::Scenario load_scenario(const ScenarioRequest& request) {
-  return Loader(request, find_config("scenario", request.name_or_file, "", "SCENARIO")).load();
+  const auto file = find_config("scenario", request.name_or_file, "", "SCENARIO");
+  return Loader(request, file, parse_file(file, "a scenario")).load();
+}
+
+sim::Scenario parse_scenario(const std::string& text, const std::string& source) {
+  return Loader({}, source, parse_text(text, source, "a scenario")).load();
 }
 
 }  // namespace slalom::io

@@ -152,7 +152,8 @@ class Others(ProgramTest):
         names = {kind: [entry["name"] for entry in entries] for kind, entries in listed.items()}
         self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C"],
                                  "planners": ["P_A", "P_B", "P_C", "P_D"],
-                                 "vehicles": ["hmmwv"]})
+                                 "vehicles": ["hmmwv"],
+                                 "studies": ["paper", "paper-printed"]})
         text = run("list").out
         for entries in listed.values():
             for entry in entries:

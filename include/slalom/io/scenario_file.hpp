@@ -21,6 +21,9 @@ struct ScenarioRequest {
 /// nearest known one.
 sim::Scenario load_scenario(const ScenarioRequest& request);
 
+/// The same for the text of a scenario file that came from `source`.
+sim::Scenario parse_scenario(const std::string& text, const std::string& source);
+
 /// The whole scenario as one YAML file that load_scenario reads back to the same bits.
 std::string to_yaml(const sim::Scenario& scenario);
 
@@ -33,6 +36,7 @@ struct BuiltIn {
 std::vector<BuiltIn> built_in_scenarios();
 std::vector<BuiltIn> built_in_planners();
 std::vector<BuiltIn> built_in_vehicles();
+std::vector<BuiltIn> built_in_studies();
 
 /// Markdown reference of every key, generated from the option tables (docs/scenario-reference.md).
 std::string scenario_reference();

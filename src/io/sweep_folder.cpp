@@ -1,0 +1,155 @@
+#include "sweep_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "slalom/base/error.hpp"
+#include "slalom/io/drive_files.hpp"
+#include "slalom/io/sweep.hpp"
+#include "trial_store.hpp"
+
+namespace slalom::io {
+namespace fs = std::filesystem;
+namespace {
+
+/// The identity of the study whose results stand in a folder; empty if there are none.
+study::SweepTable study_in(const fs::path& folder) {
+  study::SweepTable found;
+  for (const auto& file : store_files(folder)) {
+    auto study = read_store(file, false);
+    if (study.identity.empty()) continue;
+    if (!found.identity.empty() && found.identity != study.identity)
+      throw Error(fmt::format("{}: holds the results of two studies, '{}' and '{}'",
+                              folder.string(), found.name, study.name));
+    found = std::move(study);
+  }
+  return found;
+}
+
+/// Whether a sweep may have left a file of this name.
+bool is_ours(const fs::path& file) {
+  const auto name = file.filename().string();
+  return name == "trials.csv" || name == "index.html" || name == "figures" || name == "drives" ||
+         (name.starts_with("trials") && name.find(".sqlite") != std::string::npos) ||
+         name.ends_with(".lock") || name.ends_with(".aside");
+}
+
+/// A name in the folder that no sweep left there; empty if there is none.
+std::string foreign_entry(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (!is_ours(entry.path())) return entry.path().filename().string();
+  return "";
+}
+
+}  // namespace
+
+void prepare_sweep_folder(const fs::path& folder, const study::SweepTable& study, bool resume,
+                          bool force) {
+  const auto found = study_in(folder);
+  const bool same = found.identity == study.identity;
+  if (resume && !same)
+    throw Error(fmt::format("{}: holds {}, so that there is nothing to resume", folder.string(),
+                            found.identity.empty() ? "no sweep" : "another study"));
+  if (!force && !same && !found.identity.empty())
+    throw Error(fmt::format(
+        "{}: holds results of {}; take another folder, or --force to replace them", folder.string(),
+        found.name == study.name ? fmt::format("study '{}' as it was before it changed", found.name)
+                                 : fmt::format("another study, '{}'", found.name)));
+  if (!force && found.identity.empty())
+    if (const auto name = foreign_entry(folder); !name.empty())
+      throw Error(
+          fmt::format("{}: holds something else already ('{}'), expected an empty or new folder",
+                      folder.string(), name));
+  prepare_folder(folder, true);
+}
+
+void clear_sweep_folder(const fs::path& folder) {
+  std::vector<fs::path> ours;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_ours(entry.path()) && entry.path().extension() != ".lock") ours.push_back(entry.path());
+  for (const auto& path : ours) {
+    std::error_code error;
+    fs::remove_all(path, error);
+    if (error) throw Error(fmt::format("{}: {}", path.string(), error.message()));
+  }
+}
+
+SweepLock::SweepLock(const fs::path& store) {
+  const auto file = store.parent_path() / ("." + store.stem().string() + ".lock");
+  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0)
+    throw Error(fmt::format("{}: cannot be written ({})", file.string(), std::strerror(errno)));
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor_);
+    throw Error(fmt::format("{}: another sweep is at work on it", store.string()));
+  }
+}
+
+SweepLock::~SweepLock() {
+  ::close(descriptor_);
+}
+
+fs::path drive_folder(const fs::path& folder, std::int64_t trial) {
+  return folder / "drives" / fmt::format("{:06}", trial);
+}
+
+study::SweepTable read_sweep(const fs::path& folder) {
+  auto table = study_in(folder);
+  if (table.identity.empty())
+    throw Error(fmt::format("{}: holds no results of a sweep", folder.string()));
+  for (const auto& file : store_files(folder)) {
+    auto part = read_store(file).trials;
+    table.trials.insert(table.trials.end(), std::make_move_iterator(part.begin()),
+                        std::make_move_iterator(part.end()));
+  }
+  auto& trials = table.trials;
+  // Overlapping shards: the first of equals stays.
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const auto& a, const auto& b) { return a.trial < b.trial; });
+  trials.erase(std::unique(trials.begin(), trials.end(),
+                           [](const auto& a, const auto& b) { return a.trial == b.trial; }),
+               trials.end());
+  return table;
+}
+
+study::SweepTable export_sweep(const fs::path& folder) {
+  auto table = read_sweep(folder);
+  write_file(folder / "trials.csv", trials_csv(table));
+  return table;
+}
+
+study::SweepTable merge_sweeps(const std::vector<fs::path>& from, const fs::path& out, bool force) {
+  std::vector<study::SweepTable> tables;
+  for (const auto& folder : from) {
+    tables.push_back(read_sweep(folder));
+    if (tables.back().identity != tables.front().identity)
+      throw Error(fmt::format("{}: holds another study ('{}') than {} ('{}')", folder.string(),
+                              tables.back().name, from.front().string(), tables.front().name));
+  }
+  prepare_sweep_folder(out, tables.front(), false, force);
+  const auto file = store_file(out, 1, 1);
+  const SweepLock lock(file);
+  if (force) clear_sweep_folder(out);
+  {
+    TrialStore store(file, tables.front());
+    store.add_all(tables);
+    store.checkpoint();
+  }
+  for (const auto& folder : from) {
+    std::error_code error;
+    if (!fs::exists(folder / "drives", error) || fs::equivalent(folder, out, error)) continue;
+    fs::copy(folder / "drives", out / "drives",
+             fs::copy_options::recursive | fs::copy_options::skip_existing, error);
+    if (error) throw Error(fmt::format("{}: {}", (out / "drives").string(), error.message()));
+  }
+  return export_sweep(out);
+}
+
+}  // namespace slalom::io

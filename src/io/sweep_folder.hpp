@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+
+#include "slalom/study/sweep_table.hpp"
+
+namespace slalom::io {
+
+/// Sees to it that `folder` may take results of `study`: it is new, empty, or holds the same study.
+/// `force` lets anything stand there. Throws Error otherwise, or when `resume` demands results that
+/// are not there.
+void prepare_sweep_folder(const std::filesystem::path& folder, const study::SweepTable& study,
+                          bool resume, bool force);
+
+/// Removes what a sweep left in the folder, nothing else.
+void clear_sweep_folder(const std::filesystem::path& folder);
+
+/// Keeps other sweeps out of a file while it lives, also when this process is killed.
+class SweepLock {
+ public:
+  /// Throws Error when another process holds it.
+  explicit SweepLock(const std::filesystem::path& store);
+  ~SweepLock();
+  SweepLock(const SweepLock&) = delete;
+  SweepLock& operator=(const SweepLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// The folder of a kept drive.
+std::filesystem::path drive_folder(const std::filesystem::path& folder, std::int64_t trial);
+
+/// Writes trials.csv of all that stands in the folder, whole or not at all; returns the table.
+study::SweepTable export_sweep(const std::filesystem::path& folder);
+
+}  // namespace slalom::io

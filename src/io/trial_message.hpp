@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "slalom/sim/drive.hpp"
+#include "slalom/study/sweep_table.hpp"
+
+namespace slalom::io {
+
+/// What a worker is asked: one line of JSON.
+struct TrialOrder {
+  std::string resolved;  ///< the scenario, as to_yaml gives it
+  std::string kernels;   ///< instruction set
+  std::string folder;    ///< where the drive is kept; empty: nowhere
+};
+std::string to_line(const TrialOrder& order);
+TrialOrder parse_order(const std::string& line);
+
+/// What it answers: the drive's figures, or why its files could not be written.
+struct TrialAnswer {
+  study::TrialRecord record;  ///< figures of the drive alone
+  std::string not_written;
+};
+std::string to_line(const TrialAnswer& answer);
+TrialAnswer parse_answer(const std::string& line);
+
+/// The figures of a drive.
+study::TrialRecord record_of(const sim::Drive& drive);
+
+}  // namespace slalom::io

@@ -1,0 +1,183 @@
+#include "trial_store.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "slalom/base/error.hpp"
+
+namespace slalom::io {
+namespace fs = std::filesystem;
+namespace {
+
+using study::SweepTable;
+using study::TrialRecord;
+
+constexpr int kFormat = 1;
+
+constexpr const char* kSchema =
+    "CREATE TABLE IF NOT EXISTS study (format INTEGER, name TEXT, title TEXT, scenario TEXT,"
+    " identity TEXT, kernels TEXT, planners TEXT, columns TEXT, repeats INTEGER, size INTEGER);"
+    "CREATE TABLE IF NOT EXISTS trials (trial INTEGER PRIMARY KEY, identity TEXT, planner TEXT,"
+    " axes TEXT, repeat INTEGER, outcome TEXT, hit TEXT, message TEXT, nearest TEXT, time_s REAL,"
+    " goal_time_s REAL, least_clearance_m REAL, least_wheel_load_N REAL, cycles INTEGER,"
+    " failed_cycles INTEGER, iterations INTEGER, max_solve_time_s REAL, median_solve_time_s REAL,"
+    " max_cpu_time_s REAL, median_cpu_time_s REAL)";
+
+std::string as_json(const std::vector<std::string>& list) {
+  return nlohmann::json(list).dump();
+}
+
+std::vector<std::string> from_json(const std::string& text) {
+  return nlohmann::json::parse(text).get<std::vector<std::string>>();
+}
+
+bool is_store(const fs::path& file) {
+  const auto name = file.filename().string();
+  return file.extension() == ".sqlite" && name.starts_with("trials");
+}
+
+void insert_study(Database& database, const SweepTable& study) {
+  // One transaction, so that a second process does not state the study twice.
+  database.execute("BEGIN IMMEDIATE");
+  database.execute(kSchema);
+  if (!Statement(database, "SELECT 1 FROM study").step())
+    Statement(database, "INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+        .bind(1, std::int64_t{kFormat})
+        .bind(2, study.name)
+        .bind(3, study.title)
+        .bind(4, study.scenario)
+        .bind(5, study.identity)
+        .bind(6, study.kernels)
+        .bind(7, as_json(study.planners))
+        .bind(8, as_json(study.columns))
+        .bind(9, std::int64_t{study.repeats})
+        .bind(10, study.size)
+        .run();
+  database.execute("COMMIT");
+}
+
+TrialRecord read_trial(const Statement& row) {
+  TrialRecord r;
+  r.trial = row.integer(0);
+  r.identity = row.text(1);
+  r.planner = row.text(2);
+  r.values = from_json(row.text(3));
+  r.repeat = static_cast<int>(row.integer(4));
+  r.outcome = row.text(5);
+  r.hit = row.text(6);
+  r.message = row.text(7);
+  r.least_clearance_obstacle = row.text(8);
+  r.time = row.real(9);
+  r.goal_time = row.real(10);
+  r.least_clearance = row.real(11);
+  r.least_wheel_load = row.real(12);
+  r.cycles = static_cast<int>(row.integer(13));
+  r.failed_cycles = static_cast<int>(row.integer(14));
+  r.iterations = static_cast<int>(row.integer(15));
+  r.max_solve_time = row.real(16);
+  r.median_solve_time = row.real(17);
+  r.max_cpu_time = row.real(18);
+  r.median_cpu_time = row.real(19);
+  return r;
+}
+
+SweepTable read_study(const Database& database, const fs::path& file) {
+  // A process killed while it made the file leaves one that states nothing yet.
+  if (!Statement(database, "SELECT 1 FROM sqlite_master WHERE name = 'study'").step()) return {};
+  Statement row(database,
+                "SELECT format, name, title, scenario, identity, kernels, planners, columns,"
+                " repeats, size FROM study");
+  if (!row.step()) throw Error(fmt::format("{}: states no study", file.string()));
+  if (row.integer(0) != kFormat)
+    throw Error(
+        fmt::format("{}: found format {}, expected {}", file.string(), row.integer(0), kFormat));
+  SweepTable study;
+  study.name = row.text(1);
+  study.title = row.text(2);
+  study.scenario = row.text(3);
+  study.identity = row.text(4);
+  study.kernels = row.text(5);
+  study.planners = from_json(row.text(6));
+  study.columns = from_json(row.text(7));
+  study.repeats = static_cast<int>(row.integer(8));
+  study.size = row.integer(9);
+  return study;
+}
+
+}  // namespace
+
+fs::path store_file(const fs::path& folder, int shard, int shards) {
+  return folder /
+         (shards == 1 ? "trials.sqlite" : fmt::format("trials-{}-of-{}.sqlite", shard, shards));
+}
+
+std::vector<fs::path> store_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_store(entry.path())) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TrialStore::TrialStore(const fs::path& file, const SweepTable& study)
+    : database_(file, Database::Mode::write) {
+  insert_study(database_, study);
+  insert_ = std::make_unique<Statement>(
+      database_,
+      "INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+      "?, ?)");
+}
+
+void TrialStore::add(const TrialRecord& r) {
+  insert_->bind(1, r.trial)
+      .bind(2, r.identity)
+      .bind(3, r.planner)
+      .bind(4, as_json(r.values))
+      .bind(5, std::int64_t{r.repeat})
+      .bind(6, r.outcome)
+      .bind(7, r.hit)
+      .bind(8, r.message)
+      .bind(9, r.least_clearance_obstacle)
+      .bind(10, r.time)
+      .bind(11, r.goal_time)
+      .bind(12, r.least_clearance)
+      .bind(13, r.least_wheel_load)
+      .bind(14, std::int64_t{r.cycles})
+      .bind(15, std::int64_t{r.failed_cycles})
+      .bind(16, std::int64_t{r.iterations})
+      .bind(17, r.max_solve_time)
+      .bind(18, r.median_solve_time)
+      .bind(19, r.max_cpu_time)
+      .bind(20, r.median_cpu_time)
+      .run();
+}
+
+void TrialStore::add_all(const std::vector<SweepTable>& tables) {
+  database_.execute("BEGIN IMMEDIATE");
+  for (const auto& table : tables)
+    for (const auto& record : table.trials) add(record);
+  database_.execute("COMMIT");
+}
+
+SweepTable read_store(const fs::path& file, bool with_trials) {
+  const Database database(file, Database::Mode::read);
+  auto study = read_study(database, file);
+  if (!with_trials || study.identity.empty()) return study;
+  Statement row(database, "SELECT * FROM trials ORDER BY trial");
+  while (row.step()) study.trials.push_back(read_trial(row));
+  return study;
+}
+
+std::vector<std::int64_t> stored_trials(const fs::path& file) {
+  const Database database(file, Database::Mode::read);
+  std::vector<std::int64_t> numbers;
+  if (read_study(database, file).identity.empty()) return numbers;
+  Statement row(database, "SELECT trial FROM trials ORDER BY trial");
+  while (row.step()) numbers.push_back(row.integer(0));
+  return numbers;
+}
+
+}  // namespace slalom::io
