@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce results robustness realtime format clean build
+.PHONY: help run test bench reproduce study results robustness realtime format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -36,7 +36,13 @@ reproduce: ## all drives of the paper's figures into run/reproduce/, ours beside
 	$(MAKE) --no-print-directory build
 	build/slalom reproduce --out run/reproduce --force
 
-results: ## the same drives into docs/results.md and docs/figures/
+study: ## the paper's sweep of 800 drives into run/study/, with its page; goes on where it stopped
+	tools/setup.sh run
+	$(MAKE) --no-print-directory build
+	build/slalom sweep paper --out run/study
+	build/slalom study-report run/study
+
+results: ## all drives of the figures into docs/results.md and docs/figures/
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/results.py --program build/slalom

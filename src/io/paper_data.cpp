@@ -68,25 +68,6 @@ const OptionTable<PaperData::Note>& note_options() {
   return table;
 }
 
-const std::vector<Value>& items_of(const Value& list, const std::string& content) {
-  if (list.kind != Value::Kind::sequence)
-    throw InvalidValue(list.place.to_string(), list.describe(), content);
-  return list.items;
-}
-
-/// Each item of a list of maps, as the table has it.
-template <class S>
-std::vector<S> read_list(const Value& list, const std::string& path, const OptionTable<S>& table) {
-  std::vector<S> result;
-  Places places;
-  for (const auto& item : items_of(list, "a list of " + path)) {
-    S one;
-    Section(path).add(table, one).read(item, places);
-    result.push_back(std::move(one));
-  }
-  return result;
-}
-
 PaperDrive read_drive(const Value& map) {
   PaperDrive drive;
   Places places;

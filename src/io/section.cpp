@@ -111,6 +111,12 @@ void require_map(const Value& value, const std::string& content) {
     throw InvalidValue(value.place.to_string(), value.describe(), content);
 }
 
+const std::vector<Value>& items_of(const Value& list, const std::string& content) {
+  if (list.kind != Value::Kind::sequence)
+    throw InvalidValue(list.place.to_string(), list.describe(), content);
+  return list.items;
+}
+
 const std::string& to_text(const Value& value, const std::string& what) {
   if (value.kind != Value::Kind::scalar)
     throw InvalidValue(value.place.to_string(), value.describe(), what);

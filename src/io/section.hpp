@@ -73,5 +73,20 @@ OptionValue to_option_value(const OptionInfo& info, const Value& value);
 
 /// The text of a scalar; throws InvalidValue for anything else.
 const std::string& to_text(const Value& value, const std::string& what);
+/// The items of a list; throws InvalidValue for anything else. `content` says what was expected.
+const std::vector<Value>& items_of(const Value& list, const std::string& content);
+
+/// Each item of a list of maps, as the table has it; keys that are left out keep S's defaults.
+template <class S>
+std::vector<S> read_list(const Value& list, const std::string& path, const OptionTable<S>& table) {
+  std::vector<S> result;
+  Places places;
+  for (const auto& item : items_of(list, "a list of " + path)) {
+    S one;
+    Section(path).add(table, one).read(item, places);
+    result.push_back(std::move(one));
+  }
+  return result;
+}
 
 }  // namespace slalom::io

@@ -76,11 +76,11 @@ void only(const Value& map, const std::string& path, const std::vector<std::stri
       unknown_key(member.key, member.place, path, known);
 }
 
-const std::vector<Value>& items_of(const Value& value, const std::string& content) {
-  if (value.kind != Value::Kind::sequence)
-    throw InvalidValue(value.place.to_string(), value.describe(), content);
-  if (value.items.empty()) throw InvalidValue(value.place.to_string(), "an empty list", content);
-  return value.items;
+/// The items of a list that must have some.
+const std::vector<Value>& some_items(const Value& value, const std::string& content) {
+  const auto& items = items_of(value, content);
+  if (items.empty()) throw InvalidValue(value.place.to_string(), "an empty list", content);
+  return items;
 }
 
 /// {from, to, count}: evenly spaced, both ends included and met exactly.
@@ -119,7 +119,7 @@ Distribution read_distribution(const Value& map) {
     throw InvalidValue(map.place.to_string(), uniform != nullptr ? "two distributions" : "none",
                        "either uniform: [low, high] or normal: [mean, standard deviation]");
   const Value& value = uniform != nullptr ? *uniform : *normal;
-  const auto& items = items_of(value, "a list of two numbers");
+  const auto& items = some_items(value, "a list of two numbers");
   if (items.size() != 2)
     throw InvalidValue(value.place.to_string(), fmt::format("{} numbers", items.size()), "two");
   const Distribution d{normal != nullptr, finite(items[0]), finite(items[1])};
@@ -134,7 +134,7 @@ Distribution read_distribution(const Value& map) {
 void read_draw(const Value& map, int seed, std::size_t stream, PlacedAxis& axis) {
   only(map, "draw", {"count", "of"});
   const int count = count_of(required(map, "count", "a draw"), 1);
-  const auto& of = items_of(required(map, "of", "a draw"), "a list of keys and distributions");
+  const auto& of = some_items(required(map, "of", "a draw"), "a list of keys and distributions");
   std::vector<Distribution> distributions;
   for (const auto& item : of) {
     distributions.push_back(read_distribution(item));
@@ -156,13 +156,13 @@ void read_draw(const Value& map, int seed, std::size_t stream, PlacedAxis& axis)
 /// values: one a key, or for several keys lists of one value each.
 void read_values(const Value& list, PlacedAxis& axis) {
   const auto n = axis.axis.keys.size();
-  for (const auto& item : items_of(list, "a list of values")) {
+  for (const auto& item : some_items(list, "a list of values")) {
     if (n == 1) {
       axis.values.push_back({item});
       continue;
     }
     const auto content = fmt::format("a list of {} values, one a key", n);
-    if (items_of(item, content).size() != n)
+    if (some_items(item, content).size() != n)
       throw InvalidValue(item.place.to_string(), fmt::format("{} values", item.items.size()),
                          content);
     axis.values.push_back(item.items);
@@ -177,7 +177,7 @@ void read_keys(const Value& map, PlacedAxis& axis) {
   const Value *key = map.find("key"), *keys = map.find("keys");
   if (key != nullptr) add(*key);
   if (keys != nullptr)
-    for (const auto& item : items_of(*keys, "a list of key paths")) add(item);
+    for (const auto& item : some_items(*keys, "a list of key paths")) add(item);
 }
 
 /// Throws InvalidValue unless the axis has exactly one of the forms it may have.

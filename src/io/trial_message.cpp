@@ -96,9 +96,9 @@ TrialRecord record_of(const sim::Drive& drive) {
   for (const auto& cycle : drive.cycles) {
     if (cycle.index == 0) continue;  // the warm-up
     ++r.cycles;
-    r.failed_cycles += !cycle.plan.report.solved;
     r.iterations += cycle.plan.report.iterations;
   }
+  r.failed_cycles = sim::unsolved(drive).cycles;
   const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
   r.max_solve_time = sim::greatest(wall);
   r.median_solve_time = sim::median(wall);

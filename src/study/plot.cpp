@@ -132,9 +132,10 @@ void draw_levels(Svg& svg, const Plot& plot, const Frame& frame) {
 
 void draw_marker(Svg& svg, Point at, const Series& series) {
   if (series.hollow)
-    svg.ellipse(at, 2, 2, {"#ffffff", 1}, {series.stroke.colour, 0.9, "", 1});
+    svg.ellipse(at, 2 * series.size, 2 * series.size, {"#ffffff", 1},
+                {series.stroke.colour, 0.9, "", 1});
   else
-    svg.ellipse(at, 1.4, 1.4, {series.stroke.colour, 1});
+    svg.ellipse(at, 1.4 * series.size, 1.4 * series.size, {series.stroke.colour, 1});
 }
 
 void draw_series(Svg& svg, const Plot& plot, const Frame& frame) {
@@ -144,7 +145,7 @@ void draw_series(Svg& svg, const Plot& plot, const Frame& frame) {
     const auto n = std::min(series.x.size(), series.y.size());
     for (std::size_t i = 0; i < n; ++i)
       points.push_back({frame.px(series.x[i]), frame.py(series.y[i])});
-    svg.polyline(points, series.stroke);
+    if (series.line) svg.polyline(points, series.stroke);
     if (!series.markers) continue;
     for (const auto& p : points) draw_marker(svg, p, series);
   }
@@ -200,7 +201,7 @@ double draw_legend(Svg& svg, const std::vector<Series>& series, Point corner, do
       x = corner.x;
       y += 10;
     }
-    svg.line({x, y - 2.4}, {x + 12, y - 2.4}, one.stroke);
+    if (one.line) svg.line({x, y - 2.4}, {x + 12, y - 2.4}, one.stroke);
     if (one.markers) draw_marker(svg, {x + 6, y - 2.4}, one);
     svg.text({x + 15, y}, one.label, {kFont, "start"});
     x += advance + 4;

@@ -2,28 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "comparison.hpp"
 #include "html.hpp"
 #include "map.hpp"
+#include "page_parts.hpp"
 #include "slalom/study/plot.hpp"
 #include "slalom/study/reproduction.hpp"
 #include "traces.hpp"
 
 namespace slalom::study {
 namespace {
-
-/// One look for each planner in every figure.
-Stroke stroke_of(const std::string& planner) {
-  static const std::map<std::string, Stroke> strokes = {{"P_A", {colours::ink, 1, "", 1}},
-                                                        {"P_B", {colours::green, 2, "", 1}},
-                                                        {"P_C", {colours::vermilion, 1, "4 2", 1}},
-                                                        {"P_D", {colours::blue, 1, "", 1}}};
-  const auto found = strokes.find(planner);
-  return found == strokes.end() ? Stroke{colours::purple, 1, "", 1} : found->second;
-}
 
 /// The paper's column of traces: solve time, sa, ux, ax.
 Figure traces_figure(const std::vector<const ReproducedDrive*>& group) {
@@ -36,7 +26,7 @@ Figure traces_figure(const std::vector<const ReproducedDrive*>& group) {
   Plot ax{.x_label = "t [s]", .y_label = "ax [m/s²]"};
   for (const auto* one : group) {
     const auto& name = one->scenario.planner.name;
-    const auto stroke = stroke_of(name);
+    const auto stroke = planner_stroke(name);
     solve.series.push_back(solve_time_series(name, one->drive, false, stroke));
     sa.series.push_back(state_series(name, one->drive, vehicle::SA, 1, stroke));
     ux.series.push_back(state_series(name, one->drive, vehicle::UX, 1, stroke));
@@ -55,7 +45,7 @@ Map group_map(const std::vector<const ReproducedDrive*>& group, const PaperData&
   for (const auto* one : group) {
     const auto& name = one->scenario.planner.name;
     const auto* printed = find(paper, *one);
-    MapVehicle vehicle{&one->drive, name, stroke_of(name), thirds(one->drive), {}};
+    MapVehicle vehicle{&one->drive, name, planner_stroke(name), thirds(one->drive), {}};
     if (printed != nullptr && !printed->snapshots.empty()) {
       vehicle.paper = printed->snapshots;
       vehicle.instants.clear();

@@ -5,23 +5,13 @@
 #include "claims.hpp"
 #include "comparison.hpp"
 #include "html.hpp"
+#include "page_parts.hpp"
 #include "reproduction_tables.hpp"
 #include "slalom/study/reproduction.hpp"
 #include "viewer_assets.hpp"
 
 namespace slalom::study {
 namespace {
-
-std::string plain_svg(const std::string& document) {
-  const auto start = document.find("<svg");
-  return start == document.npos ? document : document.substr(start);
-}
-
-std::string figure_html(const Figure& figure) {
-  return fmt::format("<figure class=\"figure card\">\n{}<figcaption>{} {}</figcaption></figure>\n",
-                     plain_svg(figure.svg), escape(figure.caption),
-                     link("figures/" + figure.file, "SVG"));
-}
 
 /// One row of figures an environment, as the paper sets them: traces, paths, a closer look.
 std::string figures_html(const std::vector<ReproducedDrive>& drives, const PaperData& paper) {

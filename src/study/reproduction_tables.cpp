@@ -10,25 +10,16 @@
 #include "claims.hpp"
 #include "comparison.hpp"
 #include "html.hpp"
+#include "page_parts.hpp"
 #include "words.hpp"
 
 namespace slalom::study {
 namespace {
 
-std::string cell(const std::string& html, const char* kind = "num") {
-  return fmt::format("<td class=\"{}\">{}</td>", kind, html);
-}
-
 /// The head of a row: environment and planner, linked to the drive's page.
 std::string row_head(const ReproducedDrive& one) {
   return fmt::format("<th scope=\"row\">{}</th><td>{}</td>", escape(one.scenario.name),
                      link(one.folder + "/report.html", one.scenario.planner.name));
-}
-
-std::string table(const std::string& head, const std::string& rows) {
-  return fmt::format(
-      "<div class=\"scroll\"><table>\n<thead>{}</thead>\n<tbody>\n{}</tbody></table></div>\n", head,
-      rows);
 }
 
 std::string mark(bool good, const std::string& yes = "yes", const std::string& no = "no") {

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <deque>
-#include <memory>
 
 #include "slalom/base/error.hpp"
 #include "worker_process.hpp"
@@ -46,7 +45,7 @@ class Pool {
  private:
   /// A worker and what it works on.
   struct Seat {
-    std::unique_ptr<WorkerProcess> worker;
+    std::optional<WorkerProcess> worker;
     bool ready = false;
     std::optional<Attempt> attempt;
     Clock::time_point since = Clock::now();  ///< of the attempt, or of the worker's start
@@ -84,8 +83,7 @@ class Pool {
     };
     while (static_cast<int>(seats_.size()) < settings_.workers && job_waits() &&
            (starting() < waiting_.size() || !exhausted_))
-      seats_.push_back(
-          {std::make_unique<WorkerProcess>(settings_.command), false, {}, Clock::now()});
+      seats_.emplace_back().worker.emplace(settings_.command);
   }
 
   void assign(Seat& seat) {

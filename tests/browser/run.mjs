@@ -2,6 +2,7 @@
 //
 //   SLALOM_DRIVE_DIR      a drive's folder; else one is made by `slalom simulate E_B --planner P_D`
 //   SLALOM_REPRODUCE_DIR  a reproduction's folder; else one is made by `slalom reproduce`
+//   SLALOM_SWEEP_DIR      a sweep's folder; else one of a small study is made
 //   SLALOM                the program, for making them
 //   SLALOM_TEST_DIR       where screenshots go
 import assert from 'node:assert/strict';
@@ -25,7 +26,22 @@ function made(variable, name, command) {
   return folder;
 }
 
+/** A study of eight short drives over tex and the speed of O2, as the paper's. */
+function smallStudy() {
+  const file = join(out, 'small.yaml');
+  writeFileSync(file, `scenario: E_C
+planners: [P_C, P_D]
+set: {loop.timeout: 1, goal.y: 20}
+axes:
+  - {key: loop.tex, values: [0.25, 0.5]}
+  - {key: obstacles.O2.vy, values: [0, -10]}
+`);
+  return file;
+}
+
 const driveDir = made('SLALOM_DRIVE_DIR', 'drive', ['simulate', 'E_B', '--planner', 'P_D']);
+const sweepDir = made('SLALOM_SWEEP_DIR', 'sweep', ['sweep', smallStudy()]);
+if (process.env.SLALOM) execFileSync(process.env.SLALOM, ['study-report', sweepDir], { stdio: 'ignore' });
 const reproduceDir = made('SLALOM_REPRODUCE_DIR', 'reproduce', ['reproduce']);
 const report = join(driveDir, 'report.html');
 
@@ -257,8 +273,32 @@ describe('the page of the reproduction', () => {
   }
 });
 
+describe('the page of a sweep', () => {
+  for (const colorScheme of ['light', 'dark']) {
+    test(colorScheme, async () => {
+      const browser = await openBrowser({ colorScheme, width: 1280, height: 900 });
+      try {
+        const { page, complaints } = await browser.open(join(sweepDir, 'index.html'));
+        assert.ok((await page.$$('table')).length >= 5);
+        const figures = await page.$$eval('.figure svg', (all) => all.map((s) => s.getBoundingClientRect().height));
+        assert.ok(figures.length === 3 && figures.every((h) => h > 100), String(figures));
+        const links = await page.$$eval('a[href]', (all) => all.map((a) => a.getAttribute('href').split('#')[0]));
+        for (const link of new Set(links.filter((l) => l !== ''))) {
+          assert.ok(existsSync(join(sweepDir, link)), `no ${link}`);
+        }
+        await page.click('summary >> nth=1');
+        assert.ok(await page.isVisible('details >> nth=1 >> table'));
+        await page.screenshot({ path: join(out, `sweep-${colorScheme}.png`), fullPage: true });
+        assert.deepEqual(complaints, []);
+      } finally {
+        await browser.close();
+      }
+    });
+  }
+});
+
 describe('figures for print', () => {
-  const folders = [join(driveDir, 'figures'), join(reproduceDir, 'figures')];
+  const folders = [driveDir, reproduceDir, sweepDir].map((folder) => join(folder, 'figures'));
   const files = folders.flatMap((f) => readdirSync(f).filter((n) => n.endsWith('.svg')).map((n) => join(f, n)));
 
   test('are pictures without scripts', async () => {

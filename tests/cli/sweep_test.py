@@ -9,6 +9,7 @@ import sqlite3
 import subprocess
 import time
 import unittest
+import xml.etree.ElementTree
 
 from program import PROGRAM, ProgramTest, interrupt, run, start
 
@@ -120,6 +121,35 @@ class Sweep(SweepTest):
         self.assertEqual({row["outcome"] for row in (rows[0], rows[4], rows[5])}, {"timeout"})
 
 
+class Report(SweepTest):
+    def test_the_page_and_its_figures_stand_beside_the_table(self):
+        self.sweep("out")
+        before = self.entries(self.folder / "out")
+        result = run("study-report", self.folder / "out")
+        self.assertEqual((result.code, result.err), (0, ""))
+        self.assertEqual(sorted(set(self.entries(self.folder / "out")) - set(before)),
+                         ["figures", "figures/map_P_C.svg", "figures/map_P_D.svg",
+                          "figures/real_time.svg", "index.html"])
+        for figure in (self.folder / "out/figures").iterdir():
+            xml.etree.ElementTree.parse(figure)
+        page = (self.folder / "out/index.html").read_text()
+        self.assertIn("12 <small>of 12</small>", page)
+        self.assertNotIn("paper: RTF", page)  # of another scenario
+        self.sweep("out")  # goes on beside its page
+
+    def test_the_papers_figures_stand_beside_its_sweep(self):
+        rows = self.sweep("paper", "--limit", "1", "--set", "loop.timeout=1", study="paper")
+        self.assertEqual(len(rows), 1)
+        self.assertEqual(run("study-report", self.folder / "paper").code, 0)
+        page = (self.folder / "paper/index.html").read_text()
+        self.assertIn("1 <small>of 800</small>", page)
+        self.assertIn("paper: RTF", page)
+
+    def test_a_folder_without_a_sweep_is_refused(self):
+        self.assert_refused(run("study-report", self.folder), 3, "holds no results of a sweep")
+        self.assert_refused(run("study-report", self.folder / "none"), 3, "holds no results")
+
+
 class Killed(SweepTest):
     def test_a_worker_that_crashes_costs_an_attempt(self):
         expected = self.sweep("calm")
@@ -160,11 +190,14 @@ class Killed(SweepTest):
                 run("sweep", self.study, "--out", self.folder / "out", "--force", "--limit", "0")
 
     def test_workers_end_with_the_supervisor(self):
-        process = start("sweep", self.study, "--out", self.folder / "out", "--json", "--jobs", "1")
+        # A trial of minutes: the worker would find out at its end alone.
+        slow = self.write("slow.yaml", "scenario: E_C\nset: {loop.tex: 0.01, planner.N: 60}\n")
+        process = start("sweep", slow, "--out", self.folder / "out", "--json", "--jobs", "1")
         worker = next_event(process, "started")["process"]
+        time.sleep(0.5)
         process.kill()
         process.communicate()
-        for _ in range(100):
+        for _ in range(20):
             try:
                 with open(f"/proc/{worker}/stat") as file:
                     state = file.read().split(") ")[1][0]

@@ -25,6 +25,8 @@ struct Series {
   Stroke stroke;
   bool markers = false;
   bool hollow = false;  ///< markers are rings
+  bool line = true;     ///< false: markers alone
+  double size = 1;      ///< of the markers, as a multiple of their usual one
 };
 
 /// A level drawn across a plot, such as a limit.

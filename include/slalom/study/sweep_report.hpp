@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slalom/study/report.hpp"
+#include "slalom/study/statistics.hpp"
+#include "slalom/study/sweep_table.hpp"
+
+namespace slalom::study {
+
+/// What the paper printed of its sweep; config/paper/sweep.yaml, keys as the members are named.
+struct PaperSweep {
+  struct Count {
+    std::string planner;
+    int passed = 0, trials = 0;
+  };
+  /// Real-time factor and probability of safety at one execution horizon, over the speeds of O2 up
+  /// to `speed`. NaN where nothing is printed.
+  struct Point {
+    std::string planner;
+    double tex = 0;    ///< [s]
+    double speed = 0;  ///< [m/s]
+    double rtf = TrialRecord::kNone, pos = TrialRecord::kNone;
+  };
+  struct Note {
+    std::string topic, text;  ///< topics: counts, real_time, table
+  };
+  std::vector<Count> counts;
+  std::vector<Point> points;
+  std::vector<Note> notes;
+
+  /// Whether a sweep is of the paper's kind, so that its figures may stand beside: E_C over
+  /// loop.tex and obstacles.O2.vy.
+  static bool comparable(const SweepTable& table);
+};
+
+/// Passes of one planner.
+struct PassCount {
+  std::string planner;
+  std::int64_t passed = 0, trials = 0;
+};
+/// One a planner that has trials, in the study's order.
+std::vector<PassCount> pass_counts(const SweepTable& table);
+
+/// Trials of two planners that differ in nothing else.
+struct PairCount {
+  std::int64_t both = 0, only1 = 0, only2 = 0, neither = 0;
+};
+PairCount pair_count(const SweepTable& table, const std::string& planner1,
+                     const std::string& planner2);
+
+/// One execution horizon of one planner, by the paper's definitions.
+struct HorizonRow {
+  double tex = 0;  ///< [s]
+  std::int64_t passed = 0, trials = 0;
+  double rtf = 0, rtf_cpu = 0;  ///< mean over trials of the longest solve, over tex; wall, CPU
+  double rtf_cpu_95 = 0;        ///< 95th percentile over trials of the same, by CPU
+  double pos() const;           ///< probability of safety: passed / trials
+};
+/// In order of tex; empty when tex is no axis. Trials at higher |speed of O2| than `speed` are left
+/// out. Trials that failed or are invalid count as not passed and have no solve times.
+std::vector<HorizonRow> horizon_rows(const SweepTable& table, const std::string& planner,
+                                     double speed = std::numeric_limits<double>::infinity());
+
+/// The page of a sweep, self-contained, and its pictures.
+std::string sweep_page(const SweepTable& table, const PaperSweep& paper);
+std::vector<Figure> sweep_figures(const SweepTable& table);
+
+}  // namespace slalom::study

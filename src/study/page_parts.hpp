@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "slalom/study/report.hpp"
+#include "slalom/study/svg.hpp"
+
+namespace slalom::study {
+
+/// A table's cell; `html` as it is, `kind` its class.
+std::string cell(const std::string& html, const char* kind = "num");
+
+/// A table that scrolls by itself; `head` and `rows` are HTML.
+std::string table(const std::string& head, const std::string& rows);
+
+/// A figure as part of a page, with a link to its file in figures/.
+std::string figure_html(const Figure& figure);
+
+/// One look for each planner in every figure.
+Stroke planner_stroke(const std::string& planner);
+
+}  // namespace slalom::study

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "slalom/study/sweep_table.hpp"
+
+namespace slalom::study {
+
+inline constexpr const char* kTexKey = "loop.tex";
+inline constexpr const char* kSpeedKey = "obstacles.O2.vy";
+
+/// Where a key stands among the table's columns.
+std::optional<std::size_t> column_index(const SweepTable& table, const std::string& key);
+
+/// The number in a column; NaN for text.
+double number_at(const TrialRecord& record, std::size_t column);
+
+}  // namespace slalom::study

@@ -1,0 +1,239 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "html.hpp"
+#include "page_parts.hpp"
+#include "slalom/study/statistics.hpp"
+#include "slalom/study/sweep_report.hpp"
+#include "sweep_axes.hpp"
+#include "viewer_assets.hpp"
+
+namespace slalom::study {
+namespace {
+
+/// Speeds of O2 up to which the paper looks separately [m/s], with room for the grid's third digit.
+constexpr double kModerate = 16.85, kLow = 4.215;
+
+std::string head_cells(const std::vector<std::string>& names) {
+  std::string html = "<tr>";
+  for (const auto& name : names)
+    html += fmt::format("<th scope=\"col\"{}>{}</th>",
+                        &name == &names.front() ? "" : " class=\"num\"", name);
+  return html + "</tr>";
+}
+
+std::string row_head(const std::string& text) {
+  return "<tr><th scope=\"row\">" + escape(text) + "</th>";
+}
+
+std::string share(std::int64_t k, std::int64_t n) {
+  return n > 0 ? number(100.0 * static_cast<double>(k) / static_cast<double>(n), 1) + " %" : "–";
+}
+
+std::string p_value(double p) {
+  return p < 1e-4 ? fmt::format("{:.1e}", p) : significant(p, 3);
+}
+
+const PaperSweep::Count* printed_count(const PaperSweep& paper, const std::string& planner) {
+  for (const auto& count : paper.counts)
+    if (count.planner == planner) return &count;
+  return nullptr;
+}
+
+std::string notes_html(const PaperSweep& paper, const std::string& topic) {
+  std::string html;
+  for (const auto& note : paper.notes)
+    if (note.topic == topic) html += fmt::format("<p class=\"remark\">{}</p>\n", escape(note.text));
+  return html;
+}
+
+std::string count_table(const SweepTable& sweep, const PaperSweep& paper, bool beside) {
+  std::string rows;
+  for (const auto& count : pass_counts(sweep)) {
+    const auto interval = clopper_pearson(count.passed, count.trials);
+    rows +=
+        row_head(count.planner) + cell(fmt::format("{}", count.passed)) +
+        cell(fmt::format("{}", count.trials)) + cell(share(count.passed, count.trials)) +
+        cell(fmt::format("{} to {} %", number(100 * interval.lo, 1), number(100 * interval.hi, 1)));
+    if (beside) {
+      const auto* printed = printed_count(paper, count.planner);
+      rows +=
+          cell(printed == nullptr ? "–"
+                                  : fmt::format("{} of {} ({})", printed->passed, printed->trials,
+                                                share(printed->passed, printed->trials)),
+               "num paper");
+    }
+    rows += "</tr>\n";
+  }
+  std::vector<std::string> names = {"planner", "at the goal", "trials", "share",
+                                    "95 % interval (Clopper–Pearson)"};
+  if (beside) names.push_back("paper");
+  return table(head_cells(names), rows);
+}
+
+std::string comparison_row(const PassCount& a, const PassCount& b, const PairCount* pairs,
+                           const char* kind) {
+  const Fourfold counts{a.passed, a.trials - a.passed, b.passed, b.trials - b.passed};
+  const auto odds = odds_ratio(counts);
+  const auto per_trial = [](const PassCount& c) {
+    return static_cast<double>(c.passed) / static_cast<double>(c.trials);
+  };
+  return cell(number(per_trial(b) / per_trial(a), 2), kind) +
+         cell(fmt::format("{} ({} to {})", significant(odds.ratio, 3),
+                          significant(odds.interval.lo, 3), significant(odds.interval.hi, 3)),
+              kind) +
+         cell(p_value(fisher_exact(counts)), kind) +
+         cell(pairs == nullptr ? "–" : fmt::format("{} : {}", pairs->only1, pairs->only2), kind) +
+         cell(pairs == nullptr ? "–" : p_value(mcnemar_exact(pairs->only1, pairs->only2)), kind) +
+         "</tr>\n";
+}
+
+std::string comparison_table(const SweepTable& sweep, const PaperSweep& paper, bool beside) {
+  const auto counts = pass_counts(sweep);
+  std::string rows;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    for (std::size_t j = i + 1; j < counts.size(); ++j) {
+      const auto &a = counts[i], &b = counts[j];
+      const auto pairs = pair_count(sweep, a.planner, b.planner);
+      const auto name = fmt::format("{} → {}", a.planner, b.planner);
+      rows += row_head(name) + comparison_row(a, b, &pairs, "num");
+      const auto* one = printed_count(paper, a.planner);
+      const auto* two = printed_count(paper, b.planner);
+      if (beside && one != nullptr && two != nullptr)
+        rows += row_head("the same, from the paper’s counts") +
+                comparison_row({a.planner, one->passed, one->trials},
+                               {b.planner, two->passed, two->trials}, nullptr, "num paper");
+    }
+  if (rows.empty()) return "<p class=\"sub\">One planner: nothing to compare.</p>\n";
+  return table(head_cells({"planners", "ratio of shares", "odds ratio (95 %, Woolf)",
+                           "Fisher’s exact test p", "pairs only one passes", "McNemar p"}),
+               rows);
+}
+
+/// Causes with their counts, a column a planner.
+std::string outcome_table(const SweepTable& sweep) {
+  std::map<std::string, std::map<std::string, int>> counts;
+  for (const auto& record : sweep.trials) {
+    const bool hit = record.outcome == "crash" || record.outcome == "wheel_lift";
+    const bool cone = record.hit.starts_with("cone");
+    const auto what = !hit || record.hit.empty() ? "" : cone ? " cone" : " " + record.hit;
+    ++counts[record.outcome + what][record.planner];
+  }
+  std::string rows;
+  for (const auto& [cause, by_planner] : counts) {
+    rows += row_head(cause);
+    for (const auto& planner : sweep.planners) {
+      const auto found = by_planner.find(planner);
+      rows += cell(fmt::format("{}", found == by_planner.end() ? 0 : found->second));
+    }
+    rows += "</tr>\n";
+  }
+  auto names = sweep.planners;
+  for (auto& name : names) name = escape(name);
+  names.insert(names.begin(), "outcome");
+  return table(head_cells(names), rows);
+}
+
+const PaperSweep::Point* printed_point(const PaperSweep& paper, const std::string& planner,
+                                       double tex, double speed) {
+  constexpr double kSameTex = 0.003;  // the paper prints .790 for .792
+  for (const auto& point : paper.points)
+    if (point.planner == planner && std::abs(point.tex - tex) < kSameTex &&
+        std::abs(point.speed - speed) < 0.1)
+      return &point;
+  return nullptr;
+}
+
+/// `speed`: the paper's, to find its figures by; `limit`: what is left out.
+std::string horizon_table(const SweepTable& sweep, const PaperSweep& paper, bool beside,
+                          double speed, double limit) {
+  std::string rows;
+  for (const auto& planner : sweep.planners)
+    for (const auto& row : horizon_rows(sweep, planner, limit)) {
+      rows += row_head(planner) + cell(number(row.tex, 3)) +
+              cell(fmt::format("{} of {}", row.passed, row.trials)) + cell(number(row.pos(), 3)) +
+              cell(significant(row.rtf_cpu, 3), row.rtf_cpu < 1 ? "num good" : "num bad") +
+              cell(significant(row.rtf_cpu_95, 3)) + cell(significant(row.rtf, 3));
+      if (beside) {
+        const auto* point = printed_point(paper, planner, row.tex, speed);
+        rows += cell(point == nullptr ? "" : number(point->rtf, 3), "num paper") +
+                cell(point == nullptr ? "" : number(point->pos, 3), "num paper");
+      }
+      rows += "</tr>\n";
+    }
+  std::vector<std::string> names = {
+      "planner",         "tex [s]", "at the goal", "POS", "RTF (CPU time)", "its 95th percentile",
+      "RTF (wall clock)"};
+  if (beside) names.insert(names.end(), {"paper: RTF", "paper: POS"});
+  return table(head_cells(names), rows);
+}
+
+std::string horizons_html(const SweepTable& sweep, const PaperSweep& paper, bool beside) {
+  if (!column_index(sweep, kTexKey)) return "<p class=\"sub\">The study does not vary tex.</p>\n";
+  const auto part = [&](const char* title, double speed, double limit, bool open) {
+    return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open ? " open" : "",
+                       title, horizon_table(sweep, paper, beside, speed, limit));
+  };
+  auto html = part("All speeds", 40, std::numeric_limits<double>::infinity(), true);
+  if (column_index(sweep, kSpeedKey))
+    html += part("O2 at up to 16.8 m/s", 16.8, kModerate, false) +
+            part("O2 at up to 4.21 m/s", 4.21, kLow, false);
+  return html;
+}
+
+/// Every pass with how near it came.
+std::string pass_table(const SweepTable& sweep) {
+  std::string rows;
+  for (const auto& r : sweep.trials) {
+    if (!r.passed()) continue;
+    rows += row_head(fmt::format("{}", r.trial)) + cell(escape(r.planner), "");
+    for (std::size_t i = 0; i < r.values.size(); ++i) {
+      const double value = number_at(r, i);
+      rows += cell(std::isnan(value) ? escape(r.values[i]) : significant(value, 4));
+    }
+    rows += cell(number(r.time, 2)) + cell(number(r.least_clearance, 3)) +
+            cell(escape(r.least_clearance_obstacle), "") + "</tr>\n";
+  }
+  std::vector<std::string> names = {"trial", "planner"};
+  for (const auto& column : sweep.columns) names.push_back(escape(column));
+  names.insert(names.end(), {"time [s]", "least clearance [m]", "to"});
+  return table(head_cells(names), rows);
+}
+
+std::string summary(const SweepTable& sweep) {
+  const auto run = static_cast<std::int64_t>(sweep.trials.size());
+  auto html = fmt::format("<div><dt>Trials run</dt><dd>{} <small>of {}</small></dd></div>\n", run,
+                          sweep.size);
+  for (const auto& count : pass_counts(sweep))
+    html += fmt::format("<div><dt>{} at the goal</dt><dd>{} <small>of {}</small></dd></div>\n",
+                        escape(count.planner), count.passed, count.trials);
+  return html;
+}
+
+}  // namespace
+
+std::string sweep_page(const SweepTable& sweep, const PaperSweep& paper) {
+  const bool beside = PaperSweep::comparable(sweep);
+  const auto notes = [&](const char* topic) { return beside ? notes_html(paper, topic) : ""; };
+  std::string figures;
+  for (const auto& figure : sweep_figures(sweep)) figures += figure_html(figure);
+  return fill(viewer::sweep_html,
+              {{"css", fmt::format("{}\n{}", viewer::base_css, viewer::reproduction_css)},
+               {"name", escape(sweep.name)},
+               {"title", escape(sweep.title)},
+               {"settings", escape(fmt::format("Scenario {}, instruction set {}, study {}.",
+                                               sweep.scenario, sweep.kernels, sweep.identity))},
+               {"summary", summary(sweep)},
+               {"figures", figures},
+               {"counts", count_table(sweep, paper, beside) +
+                              comparison_table(sweep, paper, beside) + notes("counts")},
+               {"outcomes", outcome_table(sweep)},
+               {"horizons", horizons_html(sweep, paper, beside) + notes("real_time")},
+               {"passes", pass_table(sweep)}});
+}
+
+}  // namespace slalom::study
