@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "commands.hpp"
@@ -9,21 +11,66 @@
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "slalom/io/drive_files.hpp"
+#include "slalom/io/recording_file.hpp"
 #include "slalom/sim/closed_loop.hpp"
 
 namespace slalom::app {
 namespace {
 
-int simulate(const CommonOptions& options) {
+struct SimulateOptions : CommonOptions {
+  std::string record;                                     ///< folder for recorded solves
+  double slow = std::numeric_limits<double>::infinity();  ///< record from this solve time on [s]
+};
+
+/// Writes solves that failed or were slow, one file a cycle.
+class Recordings {
+ public:
+  Recordings(const SimulateOptions& options, const sim::Scenario& scenario)
+      : options_(options), scenario_(scenario), cycle_(scenario.loop.warm_up ? 0 : 1) {
+    if (options.record.empty()) return;
+    write_or_fail([&] { io::prepare_recordings(options.record, options.force); });
+  }
+
+  planner::Recorder recorder() {
+    if (options_.record.empty()) return {};
+    return {[this](const planner::SolveReport& report) {
+              const bool failed = !report.solved && report.status != "interrupted";
+              return failed || report.cpu_s >= options_.slow;
+            },
+            [this](const planner::Recording& recording) {
+              const auto file =
+                  std::filesystem::path(options_.record) / fmt::format("cycle-{}.json", cycle_);
+              write_or_fail([&] { io::write_file(file, io::to_json({scenario_, recording})); });
+              ++count_;
+            }};
+  }
+  void next_cycle() { ++cycle_; }
+  std::string text() const {
+    if (options_.record.empty()) return "";
+    return fmt::format("  recorded           {} solves in {}\n", count_, options_.record);
+  }
+
+ private:
+  const SimulateOptions& options_;
+  const sim::Scenario& scenario_;
+  int cycle_, count_ = 0;
+};
+
+int simulate(const SimulateOptions& options) {
   check_expectations(options.expect, sim::outcome_names());
   const auto scenario = io::load_scenario(options.request);
   if (options.writes()) write_or_fail([&] { io::prepare_folder(options.out, options.force); });
 
+  Recordings recordings(options, scenario);
   sim::Drive drive;
   {
     Progress progress(scenario.name + " " + scenario.planner.name, options.quiet);
     sim::LoopHooks hooks;
-    hooks.on_cycle = [&](const sim::Cycle& cycle) { progress.show(cycle); };
+    hooks.on_cycle = [&](const sim::Cycle& cycle) {
+      progress.show(cycle);
+      recordings.next_cycle();
+    };
+    hooks.record = recordings.recorder();
     hooks.interrupted = interrupted;
     drive = sim::drive(scenario, hooks);
   }
@@ -34,7 +81,7 @@ int simulate(const CommonOptions& options) {
   } else if (!options.quiet) {
     auto text = drive_text(scenario, drive);
     if (options.writes()) text += fmt::format("  written to         {}\n", options.out);
-    print(text);
+    print(text + recordings.text());
   }
   return exit_code_for(sim::to_string(drive.outcome), options.expect);
 }
@@ -42,11 +89,21 @@ int simulate(const CommonOptions& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Command& run) {
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<SimulateOptions>();
   auto* command = app.add_subcommand("simulate", "Drive a scenario in closed loop");
   add_scenario(*command, *options);
   add_overrides(*command, *options, true);
   add_output(*command, *options);
+  auto* record = command->add_option("--record-failures", options->record,
+                                     "Folder for solves that fail, one file each, which 'slalom "
+                                     "replay' solves again; results stay the same in all but the "
+                                     "last bits");
+  record->type_name("DIR");
+  command
+      ->add_option("--record-slow", options->slow,
+                   "Record solves of at least this thread time too [s]")
+      ->needs(record)
+      ->check(CLI::NonNegativeNumber);
   add_printing(*command, *options);
   add_expect(*command, *options, fmt::format("{}", fmt::join(sim::outcome_names(), ", ")));
   command->footer(std::string("Example: slalom simulate E_C --planner P_D --out drives/E_C\n"

@@ -18,10 +18,6 @@ namespace {
 
 using namespace vehicle;
 
-const ocp::Scheme& scheme_of(const Settings& settings) {
-  return settings.scheme == SchemeChoice::trapezoidal ? ocp::trapezoidal() : ocp::hermite_simpson();
-}
-
 const Settings& checked(const Settings& settings) {
   check(settings, "planner " + settings.name);
   return settings;
@@ -86,13 +82,23 @@ class Planner::Impl {
     options.time_limit = std::max(0.0, request.time_limit - timer.cpu() - longest_reading_s_);
     solver_->solve(transcription, start_, options, answer_);
     const double solved_at = timer.cpu();
+    std::optional<Recording> recording;
+    if (recorder_) recording = record_solve(request, in_range, options);
     Plan plan = read(request, in_range, options);
+    if (recording && recorder_->wanted(plan.report)) {
+      recording->phi = plan.report.phi;
+      recorder_->take(*recording);
+    }
     plan.report.planning_cpu_s = timer.cpu();
     longest_reading_s_ = std::max(longest_reading_s_, plan.report.planning_cpu_s - solved_at);
     return plan;
   }
 
   void reset() { last_.reset(); }
+  void record(Recorder recorder) {
+    recorder_.reset();
+    if (recorder.wanted && recorder.take) recorder_ = std::move(recorder);
+  }
 
  private:
   Form& form(bool in_range) { return in_range ? in_range_ : out_of_range_; }
@@ -107,6 +113,17 @@ class Planner::Impl {
       options.max_iterations = 0;
       solver_->solve(transcription, start_, options, answer_);
     }
+  }
+
+  /// The last solve, but for what judging it brings.
+  Recording record_solve(const Request& request, bool in_range, const nlp::Options& options) const {
+    Recording r{request.X0p,        request.t0, request.tex,   in_range,
+                current_kernels(),  options,    start_,        answer_.status,
+                answer_.iterations, 0,          answer_.cpu_s, answer_.wall_s,
+                answer_.point};
+    r.options.stop = nullptr;
+    r.options.stop_data = nullptr;
+    return r;
   }
 
   /// The answer as a plan, judged. The next solve starts from one to be driven, and goes on from
@@ -164,6 +181,7 @@ class Planner::Impl {
   const Goal goal_;
   Form out_of_range_, in_range_;  ///< of the goal
   Guess guess_;
+  std::optional<Recorder> recorder_;
   std::unique_ptr<nlp::Solver> solver_;
   nlp::Start start_;  ///< its multipliers are the last plan's
   nlp::Answer answer_;
@@ -183,6 +201,9 @@ Plan Planner::plan(const Request& request) {
 }
 void Planner::reset() {
   impl_->reset();
+}
+void Planner::record(Recorder recorder) {
+  impl_->record(std::move(recorder));
 }
 
 }  // namespace slalom::planner

@@ -30,6 +30,10 @@ std::array<ocp::Expr, N> in_terms_of(const std::array<ocp::Expr, N>& values, con
 
 }  // namespace
 
+const ocp::Scheme& scheme_of(const Settings& settings) {
+  return settings.scheme == SchemeChoice::trapezoidal ? ocp::trapezoidal() : ocp::hermite_simpson();
+}
+
 TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters& vehicle,
                                      const Goal& goal, const Region& region,
                                      const std::vector<Obstacle>& obstacles, bool goal_in_range)

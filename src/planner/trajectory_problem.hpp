@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/scheme.hpp"
 #include "slalom/planner/goal.hpp"
 #include "slalom/planner/obstacle.hpp"
 #include "slalom/planner/planner.hpp"
@@ -12,6 +13,9 @@
 #include "slalom/vehicle/parameters.hpp"
 
 namespace slalom::planner {
+
+/// The collocation scheme that the settings name.
+const ocp::Scheme& scheme_of(const Settings& settings);
 
 /// The trajectory-planning OCP of section 3 of docs/formulation.md (the paper's section II-B), in
 /// one of its two forms: goal within the LiDAR range, or beyond it. What a form does not have is

@@ -8,6 +8,7 @@
 #include "slalom/planner/goal.hpp"
 #include "slalom/planner/obstacle.hpp"
 #include "slalom/planner/plan.hpp"
+#include "slalom/planner/recording.hpp"
 #include "slalom/planner/settings.hpp"
 #include "slalom/vehicle/parameters.hpp"
 
@@ -40,6 +41,9 @@ class Planner {
   Plan plan(const Request& request);
   /// Forgets the last plan, so that the next one starts from the straight-on guess.
   void reset();
+  /// From now on hands solves that are wanted to the recorder. Each solve then starts in fresh
+  /// memory, a millisecond slower, so that replay() comes to the same bits by itself.
+  void record(Recorder recorder);
 
  private:
   class Impl;

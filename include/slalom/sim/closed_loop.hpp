@@ -14,6 +14,9 @@ struct LoopHooks {
   std::function<void(const Cycle&)> on_cycle;
   /// Polled at every cycle, sample and solver iteration; true ends the drive as interrupted.
   std::function<bool()> interrupted;
+  /// If `take` is set: which solves of the scenario's own planner to record. Called before
+  /// on_cycle.
+  planner::Recorder record;
 };
 
 /// One planning call; planner::Planner in earnest, anything in tests.

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "slalom/io/recording_file.hpp"
+
+namespace slalom::app {
+namespace {
+
+struct ReplayOptions {
+  std::string file;
+  CommonOptions common;
+};
+
+std::string text(const io::RecordedSolve& solve, const planner::Replayed& replayed) {
+  const auto& recorded = solve.recording;
+  const auto line = [](const char* who, nlp::Status status, int iterations, double phi) {
+    return fmt::format("  {:<10} {} after {} iterations, phi {}\n", who, nlp::to_string(status),
+                       iterations, phi);
+  };
+  return fmt::format("{} {}, planned at {} s, kernel set {}\n", solve.scenario.name,
+                     solve.scenario.planner.name, recorded.t0, to_string(recorded.kernels)) +
+         line("recorded", recorded.status, recorded.iterations, recorded.phi) +
+         line("replayed", replayed.status, replayed.iterations, replayed.phi) +
+         (replayed.same ? "  the same to the last bit\n" : "  NOT the same\n");
+}
+
+std::string json_text(const io::RecordedSolve& solve, const planner::Replayed& replayed) {
+  const auto one = [](nlp::Status status, int iterations, double phi) {
+    nlohmann::ordered_json json;
+    json["status"] = nlp::to_string(status);
+    json["iterations"] = iterations;
+    json["phi"] = std::isfinite(phi) ? nlohmann::ordered_json(phi) : nullptr;
+    return json;
+  };
+  const auto& recorded = solve.recording;
+  nlohmann::ordered_json json;
+  json["scenario"] = solve.scenario.name;
+  json["planner"] = solve.scenario.planner.name;
+  json["t0_s"] = recorded.t0;
+  json["kernels"] = to_string(recorded.kernels);
+  json["recorded"] = one(recorded.status, recorded.iterations, recorded.phi);
+  json["replayed"] = one(replayed.status, replayed.iterations, replayed.phi);
+  json["same"] = replayed.same;
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+int replay(const ReplayOptions& options) {
+  const auto solve = io::read_recording(options.file);
+  const auto& s = solve.scenario;
+  const auto replayed =
+      planner::replay(solve.recording, s.planner, s.vehicle, s.goal, s.region, s.obstacles);
+  if (options.common.json) {
+    print(json_text(solve, replayed));
+  } else if (!options.common.quiet) {
+    print(text(solve, replayed));
+  }
+  return replayed.same ? kOk : kNotExpected;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Command& run) {
+  auto options = std::make_shared<ReplayOptions>();
+  auto* command = app.add_subcommand("replay", "Solve a recorded solve again and compare the bits");
+  command
+      ->add_option("FILE", options->file,
+                   "A recorded solve, from 'slalom simulate --record-failures'")
+      ->required();
+  add_printing(*command, options->common);
+  command->footer(std::string("Exits with 0 when the answer is the same to the last bit, else 1.\n"
+                              "Example: slalom replay failures/cycle-12.json\n\n") +
+                  kExitCodeHelp);
+  command->callback([options, &run] { run = [options] { return replay(*options); }; });
+}
+
+}  // namespace slalom::app

@@ -1,0 +1,64 @@
+#include "slalom/planner/recording.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include "slalom/base/error.hpp"
+#include "slalom/nlp/check.hpp"
+#include "slalom/ocp/transcription.hpp"
+#include "trajectory_problem.hpp"
+
+namespace slalom::planner {
+namespace {
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::bit_cast<std::uint64_t>(a[i]) != std::bit_cast<std::uint64_t>(b[i])) return false;
+  return true;
+}
+
+bool same_bits(const nlp::Start& a, const nlp::Start& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.zl, b.zl) &&
+         same_bits(a.zu, b.zu);
+}
+
+/// Cut off from outside, after a number of iterations that only the clock knew.
+bool cut_off(nlp::Status status) {
+  return status == nlp::Status::time_limit || status == nlp::Status::interrupted;
+}
+
+}  // namespace
+
+Replayed replay(const Recording& recording, const Settings& settings,
+                const vehicle::Parameters& vehicle, const Goal& goal, const Region& region,
+                const std::vector<Obstacle>& obstacles) {
+  select_kernels(recording.kernels);
+  TrajectoryProblem problem(settings, vehicle, goal, region, obstacles, recording.goal_in_range);
+  Request request;
+  request.X0p = recording.X0p;
+  request.t0 = recording.t0;
+  request.tex = recording.tex;
+  problem.update(request);
+  ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
+                                   scheme_of(settings));
+  nlp::Options options = recording.options;
+  options.time_limit = std::numeric_limits<double>::infinity();
+  const bool cut = cut_off(recording.status);
+  if (cut) options.max_iterations = recording.iterations;
+  const auto solver = nlp::make_solver(to_string(settings.solver));
+  const nlp::Answer answer = solver->solve(transcription, recording.start, options);
+
+  Replayed result;
+  result.status = answer.status;
+  result.iterations = answer.iterations;
+  result.phi = nlp::check(transcription, answer.point, options).phi;
+  const bool same_end =
+      cut ? answer.status == nlp::Status::iteration_limit : answer.status == recording.status;
+  result.same = same_end && answer.iterations == recording.iterations &&
+                same_bits(answer.point, recording.end);
+  return result;
+}
+
+}  // namespace slalom::planner

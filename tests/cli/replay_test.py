@@ -1,0 +1,123 @@
+"""Solves that failed, were slow or cut off are written down and solved again to the same bits."""
+
+import json
+import unittest
+
+from program import ProgramTest, run
+
+FAST = ("--set", "loop.timeout=2", "--quiet")
+
+
+class Replay(ProgramTest):
+    def record(self, *arguments, solver="interior_point"):
+        """Drives 2 s of E_B; the recorded files, by name."""
+        folder = self.folder / "recorded"
+        result = run("simulate", "E_B", "--planner", "P_D", "--set", f"planner.solver={solver}",
+                     *FAST, "--record-failures", folder, *arguments)
+        self.assertEqual(result.code, 0, result.err)
+        return {path.name: path for path in sorted(folder.glob("*"))}
+
+    def assert_replays(self, path):
+        result = run("replay", path, "--json")
+        self.assertEqual(result.code, 0, result.out + result.err)
+        replayed = json.loads(result.out)
+        self.assertTrue(replayed["same"])
+        self.assertEqual(replayed["recorded"]["iterations"], replayed["replayed"]["iterations"])
+        self.assertEqual(replayed["recorded"]["phi"], replayed["replayed"]["phi"])
+        return replayed
+
+    def test_every_solve_of_a_drive(self):
+        files = self.record("--record-slow", "0")
+        self.assertEqual(len(files), 5)  # the warm-up and four cycles
+        for path in files.values():
+            self.assertEqual(self.assert_replays(path)["replayed"]["status"], "solved")
+            self.assertLess(path.stat().st_size, 200_000)
+
+    def test_nothing_where_nothing_fails_or_is_slow(self):
+        self.assertEqual(self.record("--record-slow", "1000"), {})
+
+    def test_failures_alone(self):
+        files = self.record("--set", "planner.max_iterations=2")
+        self.assertEqual(list(files), ["cycle-0.json", "cycle-1.json"])
+        for path in files.values():
+            self.assertEqual(self.assert_replays(path)["replayed"]["status"], "iteration_limit")
+
+    def test_a_solve_cut_off_by_time_ends_at_the_same_iteration(self):
+        files = self.record("--set", "loop.solve_time_limit=1e-4", "--set", "loop.warm_up=false")
+        self.assertIn("cycle-1.json", files)
+        replayed = self.assert_replays(files["cycle-1.json"])
+        self.assertEqual(replayed["recorded"]["status"], "time_limit")
+        self.assertEqual(replayed["replayed"]["status"], "iteration_limit")
+
+    def test_both_kernel_sets(self):
+        path = self.record("--record-slow", "0")["cycle-2.json"]
+        recorded = json.loads(path.read_text())
+        if recorded["kernels"] == "baseline":
+            self.skipTest("this processor has the baseline set alone")
+        recorded["kernels"] = "baseline"
+        result = run("replay", self.write("other.json", json.dumps(recorded)))
+        self.assertEqual(result.code, 1, result.out + result.err)
+        self.assertIn("kernel set baseline", result.out)
+        self.assertIn("NOT the same", result.out)
+
+    def test_one_bit_of_the_answer_is_seen(self):
+        path = self.record("--record-slow", "0")["cycle-1.json"]
+        for key in ("x", "y", "zl", "zu"):
+            recorded = json.loads(path.read_text())
+            index = next(i for i, v in enumerate(recorded["end"][key]) if v != 0)
+            recorded["end"][key][index] *= 1 + 2.3e-16
+            result = run("replay", self.write("bit.json", json.dumps(recorded)), "--quiet")
+            self.assertEqual((result.code, result.out, result.err), (1, "", ""), key)
+
+    def test_bad_files(self):
+        whole = json.loads(self.record("--record-slow", "0")["cycle-1.json"].read_text())
+
+        def changed(*path, to):
+            copy = json.loads(json.dumps(whole))
+            inner = copy
+            for key in path[:-1]:
+                inner = inner[key]
+            if to is None:
+                del inner[path[-1]]
+            else:
+                inner[path[-1]] = to
+            return json.dumps(copy)
+
+        cases = {
+            "no JSON": ("{", ["bad.json: found no valid JSON"]),
+            "no object": ("[]", ["bad.json: found no 'format'"]),
+            "another format": (changed("format", to="x"), ["bad.json: format: found 'x'"]),
+            "no start": (changed("start", to=None), ["bad.json: found no 'start'"]),
+            "text for a number": (changed("start", "x", 3, to="soon"),
+                                  ["bad.json: start.x[3]: found \"soon\", expected a number"]),
+            "short start": (changed("start", "x", to=[1.0]), ["start: x", "found 1 numbers"]),
+            "short state": (changed("request", "X0p", to=[1, 2]),
+                            ["bad.json: request.X0p: found 2 numbers, expected 8"]),
+            "kernel set": (changed("kernels", to="neon"),
+                           ["bad.json: kernels: found \"neon\", expected one of baseline, avx2"]),
+            "status": (changed("status", to="fine"), ["bad.json: status: found \"fine\""]),
+            "option": (changed("options", "tol", to=-1), ["bad.json: options", "tol = -1"]),
+            "scenario": (changed("scenario", to="start: {x: 0}"), ["bad.json: scenario:1:"]),
+            "fraction": (changed("iterations", to=1.5),
+                         ["bad.json: iterations: found 1.5, expected an integer"]),
+        }
+        for name, (content, parts) in cases.items():
+            with self.subTest(name):
+                self.assert_refused(run("replay", self.write("bad.json", content)), 2, *parts)
+        self.assert_refused(run("replay", self.folder / "none.json"), 2, "no such file")
+        self.assert_refused(run("replay", self.folder), 2, "a folder")
+
+    def test_older_recordings_stay_unless_forced(self):
+        self.record("--record-slow", "0")
+        folder = self.folder / "recorded"
+        again = ("simulate", "E_B", *FAST, "--record-failures", folder)
+        self.assert_refused(run(*again), 3, "holds recorded solves already", "--force")
+        self.assertEqual(run(*again, "--force").code, 0)
+        self.assertEqual(self.entries(folder), [])
+
+    def test_slow_needs_a_folder(self):
+        self.assert_refused(run("simulate", "E_B", "--record-slow", "1"), 2, "--record-failures")
+
+
+if __name__ == "__main__":
+    unittest.main()
