@@ -96,8 +96,7 @@ void add_simulate(CLI::App& app, Command& run) {
   add_output(*command, *options);
   auto* record = command->add_option("--record-failures", options->record,
                                      "Folder for solves that fail, one file each, which 'slalom "
-                                     "replay' solves again; results stay the same in all but the "
-                                     "last bits");
+                                     "replay' solves again");
   record->type_name("DIR");
   command
       ->add_option("--record-slow", options->slow,

@@ -41,8 +41,8 @@ class Planner {
   Plan plan(const Request& request);
   /// Forgets the last plan, so that the next one starts from the straight-on guess.
   void reset();
-  /// From now on hands solves that are wanted to the recorder. Each solve then starts in fresh
-  /// memory, a millisecond slower, so that replay() comes to the same bits by itself.
+  /// From now on hands solves that are wanted to the recorder; replay() comes to the same bits, for
+  /// a solve depends on nothing that solves before it left behind but its start.
   void record(Recorder recorder);
 
  private:
