@@ -91,6 +91,15 @@ TEST(InteriorPoint, Interrupted) {
   EXPECT_EQ(solve(problem, problem.cold_start(), options).status, Status::interrupted);
 }
 
+TEST(InteriorPoint, ALooseToleranceIsMetToo) {
+  auto problem = hs071();
+  Options options;
+  options.tol = 1e-2;
+  const Answer answer = solve(problem, problem.cold_start(), options);
+  EXPECT_EQ(answer.status, Status::solved) << answer.message;
+  EXPECT_NEAR(answer.objective, 17.0140173, 1e-1);
+}
+
 TEST(InteriorPoint, InfeasibleEndsWithTheLeastViolation) {
   auto problem = one_variable(1, 0, 0, 10, 1, 1, 20, kInf);  // x >= 20 and x <= 10
   const Answer answer = solve(problem, problem.cold_start());

@@ -29,6 +29,11 @@ double inside(double value, double lower, double upper, double push) {
   return value;
 }
 
+/// Without a floor: so far below the tolerances that complementarity can meet them.
+double least_barrier(const Options& options) {
+  return std::min(options.tol, options.dual_tol) / 10;
+}
+
 /// Gradient-based scales (section 3.8); a floor's point does not move with a row's scale, and would
 /// with the objective's, so there are none.
 void set_scales(Descent& descent, const Options& options) {
@@ -157,7 +162,7 @@ bool prepare(Descent& descent, const Start& start, const Options& options) {
   Point& point = descent.point;
   const bool floor = options.floor > 0;
   descent.barrier.begin(options.barrier_rule, floor ? options.floor : kFirstBarrier,
-                        floor ? options.floor : options.tol / 10);
+                        floor ? options.floor : least_barrier(options));
   descent.newton.restart();
   descent.search.filter().clear();
   Beginning beginning(descent, start, options);
@@ -172,7 +177,8 @@ bool prepare(Descent& descent, const Start& start, const Options& options) {
   set_scales(descent, options);
   if (!floor && !descent.model.evaluate(point.at, point.have, point.e)) return false;
   if (!floor && options.warm_start)
-    descent.barrier.begin(options.barrier_rule, beginning.complementarity(), options.tol / 10);
+    descent.barrier.begin(options.barrier_rule, beginning.complementarity(),
+                          least_barrier(options));
   beginning.multipliers();
   if (!options.warm_start) descent.estimate_multipliers();
   return descent.complete();
