@@ -33,7 +33,7 @@ struct Arguments {
   std::string environment = "E_C", cycles, backend, start = "warm", kernels;
   double floor = 0, tol = 1e-6, dual_tol = 1e-3, constraint_tol = 1e-6;
   std::size_t first = 0, count = static_cast<std::size_t>(-1);
-  bool growth = false;
+  bool growth = false, log = false;
   std::vector<int> N;
   std::vector<std::size_t> obstacles;
 };
@@ -44,6 +44,7 @@ nlp::Options options_of(const Arguments& a) {
   options.tol = a.tol;
   options.dual_tol = a.dual_tol;
   options.constraint_tol = a.constraint_tol;
+  options.print_level = a.log ? 1 : 0;
   return options;
 }
 
@@ -168,6 +169,7 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--constraint-tol", a.constraint_tol, "largest violation");
   app.add_option("--first", a.first, "cycle to begin with");
   app.add_option("--count", a.count, "cycles to solve");
+  app.add_flag("--log", a.log, "prints the iterations before the JSON");
   app.add_flag("--growth", a.growth, "other meshes and numbers of obstacles");
   app.add_option("--N", a.N, "numbers of intervals")->delimiter(',');
   app.add_option("--obstacles", a.obstacles, "numbers of obstacles")->delimiter(',');
