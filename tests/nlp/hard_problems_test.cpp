@@ -25,6 +25,24 @@ TEST_P(SolvableProblem, MaratosEffect) {
   EXPECT_LE(answer.iterations, 9);
 }
 
+TEST(InteriorPoint, AWarmStartMayLeapAtFirst) {
+  // The Maratos effect, so strong that second-order corrections do not mend it: from a point on the
+  // circle, with the multiplier of the solution, the search alone takes short steps along it.
+  Statement p;
+  const auto x = p.variables({std::cos(0.9), std::sin(0.9)});
+  p.minimise(1000 * (square(x[1]) + square(x[2]) - 1) - x[1]);
+  p.zero(square(x[1]) + square(x[2]) - 1);
+  ExpressionProblem problem(p);
+  Start start = problem.cold_start();
+  Options options;
+  options.warm_start = true;
+  start.y = {-999.5};
+  start.zl = start.zu = {0, 0};
+  const Answer answer = make_solver("interior_point")->solve(problem, start, options);
+  EXPECT_EQ(answer.status, Status::solved);
+  EXPECT_LE(answer.iterations, 6);
+}
+
 /// Waechter & Biegler 2000: from starts with x1 < 0 every step that satisfies the linearised
 /// equations is cut by x2, x3 >= 0, so that a line search alone converges to (-1, 0, 0), which is
 /// not feasible. The second row may be scaled: that does not change those steps.

@@ -174,7 +174,7 @@ class Run final : public Restoration::Watch {
     callback_s_ = longest_step_ = last_iteration_ = 0;
     end_.reset();
     descent_.model.refresh(problem);
-    watchdog_.restart();
+    watchdog_.restart(options.warm_start);
     best_.begin(descent_.model, options.constraint_tol);
   }
 

@@ -13,6 +13,8 @@ constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1
 constexpr double kEta = 1e-8, kGammaAlpha = 0.05, kKappaSoc = 0.99, kTau = 0.99;
 constexpr double kRounding = 1e-15;
 constexpr int kMaxCorrections = 4;
+constexpr int kBlockedSearches = 4;
+constexpr double kLessViolation = 0.1;
 
 /// How far the rows' multipliers go along with a primal step. W&B move them by alpha; but where
 /// alpha is small they would stay far from the bounds' multipliers, which go on by a step of their
@@ -62,6 +64,18 @@ void LineSearch::reset(double violation_at_start) {
   most_violation_ = 1e4 * std::max(1.0, violation_at_start);
   small_violation_ = 1e-4 * std::max(1.0, violation_at_start);
   filter_.reset(most_violation_);
+  blocked_ = 0;
+}
+
+/// Pairs from another region may block good steps here (section 3.2, accelerating heuristics):
+/// where they alone did so in several searches on end, they go, for a tighter bound on the
+/// violation.
+void LineSearch::note_blocked(bool by_filter, const Merit& now) {
+  blocked_ = by_filter ? blocked_ + 1 : 0;
+  if (blocked_ < kBlockedSearches || now.violation >= kLessViolation * most_violation_) return;
+  most_violation_ *= kLessViolation;
+  filter_.reset(most_violation_);
+  blocked_ = 0;
 }
 
 Merit LineSearch::merit(const Point& point, double mu) const {
@@ -97,7 +111,11 @@ bool LineSearch::try_step(const Point& from, const Step& step, double alpha, dou
 
 bool LineSearch::acceptable(const Merit& now, const Merit& trial, double slope, double alpha,
                             bool& armijo) {
-  if (!filter_.accepts(trial)) return false;
+  return filter_.accepts(trial) && progresses(now, trial, slope, alpha, armijo);
+}
+
+bool LineSearch::progresses(const Merit& now, const Merit& trial, double slope, double alpha,
+                            bool& armijo) const {
   const bool descent =
       slope < 0 && alpha * std::pow(-slope, kSPhi) > kDelta * std::pow(now.violation, kSTheta);
   armijo = descent && now.violation <= small_violation_;
@@ -126,7 +144,7 @@ LineSearch::Result LineSearch::search(Newton& newton, double mu, const Step& ste
   const double slope = this->slope(point, step), least = least_alpha(now, slope, point, step);
   Result result;
   result.alpha_dual = longest(step.reach.dual, mu);
-  bool armijo = false;
+  bool armijo = false, by_filter = false;
   for (double alpha = longest(step.reach.primal, mu); alpha > least || result.trials == 0;
        alpha /= 2) {
     ++result.trials;
@@ -139,7 +157,11 @@ LineSearch::Result LineSearch::search(Newton& newton, double mu, const Step& ste
     } else if (finite && result.trials == 1 && trial.violation >= now.violation) {
       result.accepted = correct(newton, point, mu, step, now, slope, alpha, result, armijo);
     }
-    if (!result.accepted) continue;
+    if (!result.accepted) {
+      by_filter = finite && progresses(now, trial, slope, alpha, armijo);
+      continue;
+    }
+    note_blocked(by_filter, now);
     if (!armijo) filter_.add(now);
     std::swap(point.at.zl, trial_.at.zl);
     std::swap(point.at.zu, trial_.at.zu);

@@ -56,6 +56,9 @@ class LineSearch {
   double slope(const Point& point, const Step& step) const;
 
  private:
+  bool progresses(const Merit& now, const Merit& trial, double slope, double alpha,
+                  bool& armijo) const;
+  void note_blocked(bool by_filter, const Merit& now);
   bool try_step(const Point& from, const Step& step, double alpha, double mu, bool derivatives,
                 Merit& merit);
   bool correct(Newton& newton, const Point& point, double mu, const Step& step, const Merit& now,
@@ -65,6 +68,7 @@ class LineSearch {
   Model& model_;
   Filter filter_;
   double most_violation_ = 0, small_violation_ = 0;
+  int blocked_ = 0;  ///< searches on end whose step the filter alone shortened
   Point trial_;
   Step corrected_;
   std::vector<double> residuals_;

@@ -3,7 +3,7 @@
 namespace slalom::nlp::ipm {
 namespace {
 
-constexpr int kShortenedSteps = 10, kLeaps = 3, kSoftSteps = 10;
+constexpr int kShortenedSteps = 5, kLeaps = 3, kFirstLeaps = 8, kSoftSteps = 10;
 constexpr double kSoftProgress = 0.9999;
 
 }  // namespace
@@ -13,12 +13,19 @@ Watchdog::Watchdog(const Model& model) {
   step_.resize(model.primal(), model.rows());
 }
 
-void Watchdog::restart() {
-  shortened_ = leaps_ = softened_ = 0;
+void Watchdog::restart(bool close) {
+  leaps_ = softened_ = 0;
+  shortened_ = close ? kShortenedSteps : 0;
+  most_leaps_ = close ? kFirstLeaps : kLeaps;
+}
+
+void Watchdog::end_leaps() {
+  leaps_ = 0;
+  most_leaps_ = kLeaps;
 }
 
 Watchdog::Outcome Watchdog::advance(Descent& descent) {
-  if (leaps_ > 0 && descent.barrier.mu() != mu_) leaps_ = 0;  // another problem by now
+  if (leaps_ > 0 && descent.barrier.mu() != mu_) end_leaps();  // another problem by now
   if (leaps_ > 0) return leap(descent);
   if (shortened_ < kShortenedSteps) return search(descent);
   shortened_ = 0;
@@ -69,15 +76,15 @@ Watchdog::Outcome Watchdog::leap(Descent& descent) {
   const Merit now = descent.search.merit(descent.point, mu_);
   if (descent.search.acceptable(merit_, now, slope_, alpha_, armijo)) {
     if (!armijo) descent.search.filter().add(merit_);
-    leaps_ = 0;
-  } else if (leaps_ >= kLeaps) {
+    end_leaps();
+  } else if (leaps_ >= most_leaps_) {
     return go_back(descent);
   }
   return Outcome::moved;
 }
 
 Watchdog::Outcome Watchdog::go_back(Descent& descent) {
-  leaps_ = 0;
+  end_leaps();
   descent.point = point_;
   descent.step = step_;
   // The factorisation is of another point by now: without second-order corrections of this step.

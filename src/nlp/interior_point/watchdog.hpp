@@ -12,7 +12,9 @@ namespace slalom::nlp::ipm {
 class Watchdog {
  public:
   explicit Watchdog(const Model& model);
-  void restart();
+  /// With a start close to a solution, as a warm one is, it leaps from the first step on: nearly
+  /// feasible and lower than the solution, such a point would let the filter pass short steps only.
+  void restart(bool close = false);
 
   enum class Outcome { moved, stuck };
   /// One iteration along the step found.
@@ -23,10 +25,12 @@ class Watchdog {
   bool soften(Descent& descent);
   Outcome leap(Descent& descent);
   Outcome go_back(Descent& descent);
+  void end_leaps();
 
   int shortened_ = 0;  ///< steps in a row
   int leaps_ = 0;      ///< of the attempt under way; 0: none
-  int softened_ = 0;   ///< soft steps since the filter last accepted one
+  int most_leaps_ = 0;
+  int softened_ = 0;  ///< soft steps since the filter last accepted one
   double mu_ = 0, slope_ = 0, alpha_ = 0;
   Merit merit_;
   Point point_;  ///< where it began, and the step from there
