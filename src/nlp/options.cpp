@@ -38,10 +38,11 @@ OptionTable<Options> make_table() {
             "system's share and the user's code are not the solver's. Infinite by default.")
       .boolean("warm_start", &O::warm_start,
                "The start's multipliers are used. Off by default, for a guess has none.")
-      .choice("barrier_rule", &O::barrier_rule, {"monotone", "adaptive"},
-              "How mu falls without a floor, in interior_point. adaptive follows the mean "
-              "complementarity and falls back to monotone when the error does not; it takes fewer "
-              "iterations on most problems.")
+      .choice(
+          "barrier_rule", &O::barrier_rule, {"monotone", "adaptive"},
+          "How mu falls without a floor, in interior_point. adaptive follows how far a step to mu "
+          "= 0 would get, takes its second-order terms off the next, and falls back to monotone "
+          "when the error does not fall; it takes fewer iterations on most problems.")
       .integer("print_level", &O::print_level, Range::closed(0, 12), "1",
                "Detail of the back end's log on standard output; 0: none.");
   return table;

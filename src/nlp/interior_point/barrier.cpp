@@ -43,6 +43,7 @@ bool Barrier::update_monotone(const Survey& survey) {
 }
 
 bool Barrier::update_free(const Survey& survey) {
+  if (!(survey.mean_product > 0)) return set(least_);
   const double error = survey.error(0);
   const std::size_t known = std::min(noted_, errors_.size());
   if (known > 0 &&
@@ -52,11 +53,18 @@ bool Barrier::update_free(const Survey& survey) {
     return set(kHold * survey.mean_product);
   }
   errors_[noted_++ % errors_.size()] = error;
-  const double mean = survey.mean_product;
-  if (!(mean > 0)) return set(least_);
-  const double spread = survey.least_product / mean;
+  return false;
+}
+
+void Barrier::follow_predictor(double mean, double mean_after) {
+  const double ratio = mean_after / mean;
+  set(std::min(1.0, ratio * ratio * ratio) * mean);
+}
+
+void Barrier::follow_spread(const Survey& survey) {
+  const double mean = survey.mean_product, spread = survey.least_product / mean;
   const double sigma = 0.1 * std::pow(std::min(0.05 * (1 - spread) / spread, 2.0), 3);
-  return set(sigma * mean);
+  set(sigma * mean);
 }
 
 }  // namespace slalom::nlp::ipm

@@ -9,7 +9,12 @@ namespace {
 
 constexpr double kKappaSigma = 1e10;  // Waechter & Biegler 2006, eq. 16
 constexpr double kMostMultiplier = 1e3;
+constexpr double kFar = 0.5;     ///< of a predictor's steps, for its second-order terms to count
 constexpr double kCentral = 10;  ///< multipliers within this factor of mu / slack are kept
+
+double longest_within(double reach) {
+  return reach > 1 ? 1 / reach : 1;
+}
 
 }  // namespace
 
@@ -17,6 +22,9 @@ Descent::Descent(Problem& problem, const Elastic* elastic)
     : model(problem, elastic), newton(model), search(model), surveyor_(model) {
   point.resize(model);
   step.resize(model.primal(), model.rows());
+  predictor_.resize(model.primal(), model.rows());
+  over_lower_.resize(model.primal());
+  over_upper_.resize(model.primal());
 }
 
 bool Descent::complete() {
@@ -36,12 +44,52 @@ void Descent::update_barrier() {
 bool Descent::find_step() {
   vector_kernels().barrier(model.segments(), point.local.bounded(model, point.at), barrier.mu(),
                            point.local.sigma.data(), point.local.slope.data());
+  if (!newton.factorize(point.e, point.local, barrier.mu())) return false;
+  if (barrier.free() && survey.mean_product > 0 && predict() && corrected_step()) return true;
   const double mu = barrier.mu();
-  if (!newton.factorize(point.e, point.local, mu)) return false;
   const bool finite = newton.step(point.e, point.local, point.at, mu, step);
   if (finite && newton.accurate()) return true;
   return newton.factorize_as_singular(point.e, point.local, mu) &&
          newton.step(point.e, point.local, point.at, mu, step);
+}
+
+/// Mu by how far a step towards mu = 0 gets, where it gets far; what that step adds to the products
+/// beyond first order is then known too (Mehrotra, SIAM J. Optim. 2(4), 1992).
+bool Descent::predict() {
+  const auto& kernels = vector_kernels();
+  const BoundedVector bounded = point.local.bounded(model, point.at);
+  std::fill(point.local.slope.begin(), point.local.slope.end(), 0.0);
+  bool far = newton.step(point.e, point.local, point.at, 0, predictor_);
+  const double primal = longest_within(predictor_.reach.primal),
+               dual = longest_within(predictor_.reach.dual);
+  far = far && std::min(primal, dual) >= kFar;
+  if (far) {
+    const double sum =
+        kernels.products_after(model.segments(), bounded, primal, dual, predictor_.w.data(),
+                               predictor_.zl.data(), predictor_.zu.data());
+    barrier.follow_predictor(survey.mean_product, sum / survey.bounds);
+  } else {
+    barrier.follow_spread(survey);
+  }
+  search.filter().clear();
+  kernels.barrier(model.segments(), bounded, barrier.mu(), point.local.sigma.data(),
+                  point.local.slope.data());
+  return far;
+}
+
+/// The step towards mu less the second-order terms of the predictor.
+bool Descent::corrected_step() {
+  const auto& kernels = vector_kernels();
+  const BoundedVector bounded = point.local.bounded(model, point.at);
+  kernels.second_order(model.segments(), bounded, predictor_.w.data(), predictor_.zl.data(),
+                       predictor_.zu.data(), over_lower_.data(), over_upper_.data(),
+                       point.local.slope.data());
+  const bool finite = newton.step(point.e, point.local, point.at, barrier.mu(), step);
+  step.reach = kernels.correct_duals(model.segments(), bounded, step.w.data(), over_lower_.data(),
+                                     over_upper_.data(), step.zl.data(), step.zu.data());
+  kernels.barrier(model.segments(), bounded, barrier.mu(), point.local.sigma.data(),
+                  point.local.slope.data());
+  return finite && newton.accurate() && std::isfinite(step.reach.primal + step.reach.dual);
 }
 
 bool Descent::take_step() {

@@ -47,7 +47,12 @@ class Descent {
 
  private:
   void move_duals();
+  bool predict();
+  [[nodiscard]] bool corrected_step();
+
   Surveyor surveyor_;
+  Step predictor_;
+  std::vector<double> over_lower_, over_upper_;  ///< its products dw dz / slack
 };
 
 }  // namespace slalom::nlp::ipm

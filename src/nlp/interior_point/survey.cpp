@@ -55,6 +55,7 @@ Survey Surveyor::operator()(const Point& point) {
   }
   if (bounds > 0) {
     survey.bounded = true;
+    survey.bounds = static_cast<double>(bounds);
     survey.least_product = products.least;
     survey.most_product = products.most;
     survey.mean_product = products.sum / static_cast<double>(bounds);

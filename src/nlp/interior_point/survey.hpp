@@ -12,6 +12,7 @@ struct Survey {
   double dual = 0;       ///< largest |gradient of the Lagrangian|
   double primal = 0;     ///< largest |row residual|
   bool bounded = false;  ///< there are bounds, and so products of slack and multiplier:
+  double bounds = 0;     ///< how many
   double least_product = 0, most_product = 0, mean_product = 0;
   double dual_scale = 1, product_scale = 1;  ///< s_d, s_c of eq. 5
 

@@ -47,6 +47,17 @@ struct VectorKernels {
   /// dzl = mu / s - zl - zl dw / s, dzu likewise (Waechter & Biegler 2006, eq. 12).
   StepReach (*dual_step)(Segments segments, const BoundedVector& v, double mu, const double* dw,
                          double* dzl, double* dzu);
+  /// Sum of the products slack * multiplier after a step of these lengths.
+  double (*products_after)(Segments segments, const BoundedVector& v, double alpha_primal,
+                           double alpha_dual, const double* dw, const double* dzl,
+                           const double* dzu);
+  /// What a step adds to the products beyond first order, over the slack: cl = dw dzl / s,
+  /// cu = -dw dzu / s; slope += cl - cu.
+  void (*second_order)(Segments segments, const BoundedVector& v, const double* dw,
+                       const double* dzl, const double* dzu, double* cl, double* cu, double* slope);
+  /// dzl -= cl, dzu -= cu.
+  StepReach (*correct_duals)(Segments segments, const BoundedVector& v, const double* dw,
+                             const double* cl, const double* cu, double* dzl, double* dzu);
   /// Sum of the logarithms of all slacks; -infinity unless all are positive and normal.
   double (*log_slacks)(Segments segments, const BoundedVector& v);
   /// z += alpha dz, kept within mu / (kappa s) ... kappa mu / s (eq. 16).

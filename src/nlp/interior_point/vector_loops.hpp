@@ -79,6 +79,59 @@ class VectorLoops {
     return {V::largest(primal), V::largest(dual)};
   }
 
+  static double products_after(Segments segments, const BoundedVector& v, double alpha_primal,
+                               double alpha_dual, const double* dw, const double* dzl,
+                               const double* dzu) {
+    const T ap = V::all(alpha_primal), ad = V::all(alpha_dual);
+    T sum{};
+    for_segments(segments, [&](auto lower, auto upper, std::size_t i, auto load, auto store) {
+      const T w = V::fma(ap, load(dw + i), load(v.w + i));
+      const auto add = [&](T slack, T z, T dz) {
+        sum = sum + store.only(slack * V::fma(ad, dz, z));
+      };
+      if constexpr (lower) add(w - load(v.lower + i), load(v.zl + i), load(dzl + i));
+      if constexpr (upper) add(load(v.upper + i) - w, load(v.zu + i), load(dzu + i));
+    });
+    return V::sum(sum);
+  }
+
+  static void second_order(Segments segments, const BoundedVector& v, const double* dw,
+                           const double* dzl, const double* dzu, double* cl, double* cu,
+                           double* slope) {
+    for_segments(segments, [&](auto lower, auto upper, std::size_t i, auto load, auto store) {
+      const T d = load(dw + i);
+      T added = load(slope + i);
+      if constexpr (lower) {
+        const T c = d * load(dzl + i) * load(v.over_lower + i);
+        store(cl + i, c);
+        added = added + c;
+      }
+      if constexpr (upper) {
+        const T c = T{} - d * load(dzu + i) * load(v.over_upper + i);
+        store(cu + i, c);
+        added = added - c;
+      }
+      store(slope + i, added);
+    });
+  }
+
+  static StepReach correct_duals(Segments segments, const BoundedVector& v, const double* dw,
+                                 const double* cl, const double* cu, double* dzl, double* dzu) {
+    T primal{}, dual{};
+    for_segments(segments, [&](auto lower, auto upper, std::size_t i, auto load, auto store) {
+      const auto side = [&](T over, T z, T change, const double* c, double* dz) {
+        const T step = load(dz + i) - load(c + i);
+        store(dz + i, step);
+        primal = V::max(primal, store.only(T{} - change * over));
+        dual = V::max(dual, store.only(T{} - step / z));
+      };
+      const T d = load(dw + i);
+      if constexpr (lower) side(load(v.over_lower + i), load(v.zl + i), d, cl, dzl);
+      if constexpr (upper) side(load(v.over_upper + i), load(v.zu + i), T{} - d, cu, dzu);
+    });
+    return {V::largest(primal), V::largest(dual)};
+  }
+
   static double log_slacks(Segments segments, const BoundedVector& v) {
     constexpr std::size_t kMost = 500;  // products of so many mantissas below 2 stay finite
     T product = V::all(1), least = V::all(-std::numeric_limits<double>::infinity());
@@ -209,7 +262,8 @@ class VectorLoops {
 using VecLoops = VectorLoops<simd::Vec>;
 constexpr VectorKernels kVecKernels = {
     VecLoops::reciprocals,    VecLoops::barrier,           VecLoops::complementarity,
-    VecLoops::dual_step,      VecLoops::log_slacks,        VecLoops::move_duals,
+    VecLoops::dual_step,      VecLoops::products_after,    VecLoops::second_order,
+    VecLoops::correct_duals,  VecLoops::log_slacks,        VecLoops::move_duals,
     VecLoops::combine,        VecLoops::multiply_add,      VecLoops::dot,
     VecLoops::sum_magnitudes, VecLoops::largest_magnitude, VecLoops::most_outside};
 
