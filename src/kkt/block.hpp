@@ -36,6 +36,15 @@ struct BlockKernels {
   void (*forward)(const Block& block, double* y);
   /// y <- D^-1 y, then L^-T y, on the eliminated rows.
   void (*backward)(const Block& block, double* y);
+
+  // While an order is searched for.
+  /// Largest |a| of n numbers; 0 of none.
+  double (*largest)(std::size_t n, const double* a);
+  /// to -= f x
+  void (*subtract_one)(std::size_t n, double f, const double* x, double* to);
+  /// to -= f x + g y
+  void (*subtract_two)(std::size_t n, double f, const double* x, double g, const double* y,
+                       double* to);
 };
 
 extern const BlockKernels kBlockBaseline;

@@ -2,6 +2,6 @@
 
 namespace slalom::kkt {
 
-const BlockKernels kBlockAvx2 = {VecLoops::factor, VecLoops::forward, VecLoops::backward};
+const BlockKernels kBlockAvx2 = kVecKernels;
 
 }  // namespace slalom::kkt

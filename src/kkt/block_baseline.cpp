@@ -2,6 +2,6 @@
 
 namespace slalom::kkt {
 
-const BlockKernels kBlockBaseline = {VecLoops::factor, VecLoops::forward, VecLoops::backward};
+const BlockKernels kBlockBaseline = kVecKernels;
 
 }  // namespace slalom::kkt

@@ -52,6 +52,28 @@ class Loops {
     for (; p > 0; p -= 4) four(b, p - 4, y);
   }
 
+  static double largest(std::size_t n, const double* a) {
+    T most{};
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto) {
+      most = V::max(V::abs(load(a + i)), most);  // NaN is let go
+    });
+    return V::largest(most);
+  }
+  static void subtract_one(std::size_t n, double f, const double* x, double* to) {
+    const T factor = V::all(f);
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
+      store(to + i, V::fnma(factor, load(x + i), load(to + i)));
+    });
+  }
+  static void subtract_two(std::size_t n, double f, const double* x, double g, const double* y,
+                           double* to) {
+    const T first = V::all(f), second = V::all(g);
+    simd::for_vectors<V>(n, [&](std::size_t i, auto load, auto store) {
+      const T part = V::fnma(first, load(x + i), load(to + i));
+      store(to + i, V::fnma(second, load(y + i), part));
+    });
+  }
+
  private:
   using T = typename V::type;
   static constexpr double magnitude(double v) { return v < 0 ? -v : v; }
@@ -237,6 +259,9 @@ class Loops {
 };
 
 using VecLoops = Loops<simd::Vec>;
+constexpr BlockKernels kVecKernels = {VecLoops::factor,       VecLoops::forward,
+                                      VecLoops::backward,     VecLoops::largest,
+                                      VecLoops::subtract_one, VecLoops::subtract_two};
 
 }  // namespace
 }  // namespace slalom::kkt

@@ -28,10 +28,16 @@ void Front::reset(const FrontStorage& storage, std::size_t size, std::size_t can
 }
 
 double Front::largest(std::size_t j, std::size_t skip) const {
+  const BlockKernels& kernels = block_kernels();
   const double* a = column(j);
+  const std::size_t gaps[] = {std::min(j, skip), std::max(j, skip), size_};
   double most = 0;
-  for (std::size_t i = eliminated_; i < size_; ++i)
-    if (i != skip && i != j) most = std::max(most, std::fabs(a[i]));
+  std::size_t from = eliminated_;
+  for (const std::size_t gap : gaps) {
+    const std::size_t to = std::min(gap, size_);
+    if (to > from) most = std::max(most, kernels.largest(to - from, a + from));
+    from = to + 1;
+  }
   return most;
 }
 
@@ -102,6 +108,7 @@ void Front::force_one(Inertia& inertia) {
 }
 
 void Front::eliminate_one() {
+  const BlockKernels& kernels = block_kernels();
   const std::size_t p = eliminated_;
   double* pivot = column(p);
   const double inverse = 1 / pivot[p];
@@ -110,16 +117,14 @@ void Front::eliminate_one() {
     row0_[i] = pivot[i];
     pivot[i] *= inverse;
   }
-  for (std::size_t col = p + 1; col < size_; ++col) {
-    const double factor = row0_[col];
-    if (factor == 0) continue;
-    double* to = column(col);
-    for (std::size_t i = p + 1; i < size_; ++i) to[i] -= factor * pivot[i];
-  }
+  for (std::size_t col = p + 1; col < size_; ++col)
+    if (row0_[col] != 0)
+      kernels.subtract_one(size_ - p - 1, row0_[col], pivot + p + 1, column(col) + p + 1);
   ++eliminated_;
 }
 
 void Front::eliminate_two() {
+  const BlockKernels& kernels = block_kernels();
   const std::size_t p = eliminated_;
   double *first = column(p), *second = column(p + 1);
   const double a = first[p], b = first[p + 1], c = second[p + 1];
@@ -133,10 +138,9 @@ void Front::eliminate_two() {
     second[i] = (a * row1_[i] - b * row0_[i]) / det;
   }
   for (std::size_t col = p + 2; col < size_; ++col) {
-    const double f0 = row0_[col], f1 = row1_[col];
-    if (f0 == 0 && f1 == 0) continue;
-    double* to = column(col);
-    for (std::size_t i = p + 2; i < size_; ++i) to[i] -= f0 * first[i] + f1 * second[i];
+    if (row0_[col] == 0 && row1_[col] == 0) continue;
+    kernels.subtract_two(size_ - p - 2, row0_[col], first + p + 2, row1_[col], second + p + 2,
+                         column(col) + p + 2);
   }
   eliminated_ += 2;
 }
