@@ -21,6 +21,10 @@ constexpr std::size_t padded(std::size_t n) {
 /// Rows there is room for, at least, that a front passes on; more are forced through.
 constexpr std::size_t kLeastPassed = 16;
 
+/// Multiplications after which Values::stop is asked: some ten microseconds' worth, so that asking
+/// costs nothing beside them.
+constexpr double kAskAfter = 2e5;
+
 /// One front's factorisation by a known order of pivots: where every number goes, and the result.
 struct Factor {
   std::size_t capacity = 0;   ///< rows there is room for
@@ -84,12 +88,19 @@ class Multifrontal final : public Backend {
 
   Inertia factorize(const Values& values) override {
     Inertia sum;
+    double work = 0;
     for (std::size_t k = 0; k < plans_.size(); ++k) {
+      if (values.stop != nullptr && work > kAskAfter) {
+        if (values.stop(values.stop_data)) break;
+        work = 0;
+      }
       Inertia part;
       factorize_front(k, values, part);
       sum.positive += part.positive;
       sum.negative += part.negative;
       sum.zero += part.zero;
+      const auto size = static_cast<double>(factors_[k].size);
+      work += size * size * static_cast<double>(factors_[k].eliminated) / 2;
       const bool too_many =
           plans_[k].equations_so_far != kNoFront && sum.negative > plans_[k].equations_so_far;
       if (part.zero > 0 || (values.minimum_only && too_many)) break;

@@ -221,6 +221,33 @@ TEST(StageLdlt, CountsNegativeCurvature) {
   EXPECT_EQ(inertia, (Inertia{5, 1, 0}));
 }
 
+TEST(StageLdlt, AsksDuringALongFactorisationWhetherToStop) {
+  Shape shape;
+  shape.variables.assign(400, 14);
+  shape.defects.assign(399, 8);
+  const System system = Maker(5).make(shape);
+  const auto backend = make_stage_ldlt(system.pattern);
+  struct Asked {
+    int times = 0, stop_at = -1;
+  } asked;
+  Values values = system.values();
+  values.stop = [](void* data) {
+    auto& a = *static_cast<Asked*>(data);
+    return ++a.times == a.stop_at;
+  };
+  values.stop_data = &asked;
+  const Inertia whole = backend->factorize(values);
+  EXPECT_EQ(whole.positive + whole.negative, system.pattern.variables + system.pattern.equations);
+  const int times = asked.times;
+  EXPECT_GT(times, 5);
+  EXPECT_LT(times, 100) << "asking costs a system call";
+  asked = {0, times / 2};
+  const Inertia part = backend->factorize(values);
+  EXPECT_EQ(asked.times, times / 2);
+  EXPECT_LT(part.positive + part.negative, 2 * (whole.positive + whole.negative) / 3);
+  EXPECT_EQ(backend->factorize(system.values()), whole);
+}
+
 TEST(StageLdlt, RefusesARowAcrossDistantStages) {
   Maker maker(9);
   System s = maker.make({{2, 2, 2}, {1, 1}, 0, 0, 0});

@@ -45,6 +45,10 @@ struct Values {
   /// there are more negative pivots than equations, for what is left has as many at least as it has
   /// equations.
   bool minimum_only = false;
+  /// Asked between fronts, some ten thousand multiplications apart; true ends the factorisation,
+  /// with part of the inertia and nothing ready to be solved.
+  bool (*stop)(void*) = nullptr;
+  void* stop_data = nullptr;
 };
 
 /// Signs of the pivots. A regular step on a minimum has as many positive as free variables and as

@@ -25,10 +25,13 @@ constexpr int kMostTinySteps = 2;
 constexpr double kRoom = 1e-9;
 
 /// The workspace of one problem structure, and a solve on it.
-class Run final : public Restoration::Watch {
+class Run final : public Restoration::Watch, public Deadline {
  public:
   explicit Run(Problem& problem)
-      : structure_id_(problem.structure().id), descent_(problem), watchdog_(descent_.model) {}
+      : structure_id_(problem.structure().id), descent_(problem), watchdog_(descent_.model) {
+    descent_.newton.give_up_at(this);
+  }
+  Run(const Run&) = delete;
 
   /// Whether this workspace fits: the same structure, with the same equations and fixed variables.
   bool fits(const Problem& problem) const {
@@ -103,6 +106,7 @@ class Run final : public Restoration::Watch {
 
   /// When no step is acceptable: less violation first, then on. Empty: go on.
   std::optional<Status> restore() {
+    if (descent_.newton.gave_up()) return Status::time_limit;
     Point& point = descent_.point;
     if (point.local.violation <= 1e-2 * options_->constraint_tol)
       return descent_.last.faulted ? Status::invalid_number : Status::numerical_failure;
@@ -127,7 +131,7 @@ class Run final : public Restoration::Watch {
       case Restoration::Outcome::stopped:
         break;
     }
-    return end_;
+    return end_ ? end_ : Status::time_limit;
   }
 
   // --- when to end -------------------------------------------------------------------------
@@ -147,6 +151,9 @@ class Run final : public Restoration::Watch {
       end_ = Status::unbounded;
     }
     return end_;
+  }
+  bool passed() override {
+    return std::isfinite(options_->time_limit) && timer_.cpu() - callback_s_ > options_->time_limit;
   }
   bool asked_to_stop() {
     if (options_->stop == nullptr) return false;

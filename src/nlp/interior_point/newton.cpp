@@ -72,6 +72,11 @@ double Newton::row_regularisation(double mu) {
   return kRowDelta * std::pow(mu, kRowPower);
 }
 
+bool Newton::deadline_passed(void* self) {
+  auto* newton = static_cast<Newton*>(self);
+  return newton->gave_up_ = newton->deadline_->passed();
+}
+
 /// Algorithm IC.
 bool Newton::find_regularisation(const Evaluation& e, const Local& local, double mu) {
   const auto attempt = [&] {
@@ -79,15 +84,19 @@ bool Newton::find_regularisation(const Evaluation& e, const Local& local, double
       sigma_x_[i] = local.sigma[i] + delta_w_ + (model_.elastic() ? model_.proximity(i) : 0);
     for (std::size_t k = 0; k < flexibility_.size(); ++k)
       flexibility_[k] = delta_c_ + give_[model_.equations()[k]];
-    return backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_, true});
+    return backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_, true,
+                                deadline_ != nullptr ? &Newton::deadline_passed : nullptr, this});
   };
+  gave_up_ = false;
   delta_w_ = 0;
   auto inertia = attempt();
+  if (gave_up_) return false;
   if (inertia == wanted_) return true;
   if (inertia.zero > 0) delta_c_ = row_regularisation(mu);
   delta_w_ = last_delta_w_ == 0 ? kFirstDelta : std::max(kLeastDelta, last_delta_w_ * kShrink);
   while (delta_w_ < kMostDelta) {
     inertia = attempt();
+    if (gave_up_) return false;
     if (inertia == wanted_) {
       last_delta_w_ = delta_w_;
       return true;

@@ -26,6 +26,13 @@ struct Local {
   BoundedVector bounded(const Model& model, const Iterate& at) const;
 };
 
+/// Tells a long factorisation when to give up.
+class Deadline {
+ public:
+  virtual ~Deadline() = default;
+  virtual bool passed() = 0;
+};
+
 /// The Newton step of the primal-dual equations (Waechter & Biegler 2006, eq. 9 to 13), bound
 /// multipliers, inequalities and elastic parts eliminated row by row, the rest by the
 /// stage-structured factorisation.
@@ -38,8 +45,14 @@ class Newton {
     backend_->distrust();
   }
 
+  /// Asked during factorisations from now on; outlives this.
+  void give_up_at(Deadline* deadline) { deadline_ = deadline; }
+  Deadline* deadline() const { return deadline_; }
+  /// Whether the last factorisation gave up.
+  bool gave_up() const { return gave_up_; }
+
   /// Factorises at an iterate, with the least regularisation that gives the right inertia
-  /// (Algorithm IC). False when none up to the limit does.
+  /// (Algorithm IC). False when none up to the limit does, or when it gave up.
   [[nodiscard]] bool factorize(const Evaluation& e, const Local& local, double mu);
   /// The same with the rows regularised from the start: when the last step was not accurate, for
   /// then rows depend on each other though no pivot vanished (section 3.1).
@@ -63,6 +76,7 @@ class Newton {
 
  private:
   static double row_regularisation(double mu);
+  static bool deadline_passed(void* self);
   [[nodiscard]] bool find_regularisation(const Evaluation& e, const Local& local, double mu);
   void weigh(const Local& local);
   void shift(const Local& local, const Iterate& at, std::span<const double> residuals);
@@ -76,7 +90,8 @@ class Newton {
   std::unique_ptr<kkt::Backend> backend_;
   kkt::Inertia wanted_;
   double delta_w_ = 0, delta_c_ = 0, last_delta_w_ = 0;
-  bool accurate_ = true;
+  bool accurate_ = true, gave_up_ = false;
+  Deadline* deadline_ = nullptr;
   std::vector<double> sigma_x_;      ///< diagonal added to W
   std::vector<double> weight_;       ///< by row: what condenses an inequality; 0 of an equation
   std::vector<double> give_;         ///< by row: what elastic parts give way for a multiplier of 1

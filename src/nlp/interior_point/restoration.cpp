@@ -15,6 +15,7 @@ constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
 }  // namespace
 
 Restoration::Restoration(Descent& main) : main_(main), inner_(main.model.problem(), &elastic_) {
+  inner_.newton.give_up_at(main.newton.deadline());
   trial_.resize(main.model);
   elastic_.reference.resize(main.model.variables());
   elastic_.weight.resize(main.model.variables());
@@ -98,7 +99,8 @@ Restoration::Outcome Restoration::run(Watch& watch) {
       return Outcome::infeasible;
     }
     inner_.update_barrier();
-    if (!inner_.find_step() || !inner_.take_step()) return Outcome::failed;
+    if (!inner_.find_step()) return inner_.newton.gave_up() ? Outcome::stopped : Outcome::failed;
+    if (!inner_.take_step()) return Outcome::failed;
     watch.iterated(inner_);
     if (accepted_by_main()) {
       hand_back();
