@@ -23,13 +23,18 @@ using namespace ipm;
 constexpr double kMostVariable = 1e20;  ///< beyond, iterates diverge
 constexpr int kMostTinySteps = 2;
 constexpr double kRoom = 1e-9;
+constexpr std::size_t kLongestReason = 64;
 
 /// The workspace of one problem structure, and a solve on it.
 class Run final : public Restoration::Watch, public Deadline {
  public:
   explicit Run(Problem& problem)
-      : structure_id_(problem.structure().id), descent_(problem), watchdog_(descent_.model) {
+      : structure_id_(problem.structure().id),
+        descent_(problem),
+        watchdog_(descent_.model),
+        restoration_(descent_) {
     descent_.newton.give_up_at(this);
+    restoration_.give_up_at(this);
   }
   Run(const Run&) = delete;
 
@@ -111,9 +116,8 @@ class Run final : public Restoration::Watch, public Deadline {
     if (point.local.violation <= 1e-2 * options_->constraint_tol)
       return descent_.last.faulted ? Status::invalid_number : Status::numerical_failure;
     descent_.search.filter().add(descent_.search.merit(point, descent_.barrier.mu()));
-    if (!restoration_) restoration_.emplace(descent_);
-    restoration_->refresh();
-    const auto outcome = restoration_->run(*this);
+    restoration_.refresh();
+    const auto outcome = restoration_.run(*this);
     watchdog_.restart();
     switch (outcome) {
       case Restoration::Outcome::restored:
@@ -206,6 +210,7 @@ class Run final : public Restoration::Watch, public Deadline {
     answer.status = status;
     answer.backend = "interior_point/";
     answer.backend += descent_.newton.backend().name();
+    answer.message.reserve(kLongestReason);
     answer.message = reason(status);
     answer.fault = status == Status::invalid_number ? model.fault() : Fault{};
     if (best_.empty()) {
@@ -238,7 +243,7 @@ class Run final : public Restoration::Watch, public Deadline {
   Timer timer_;
   Descent descent_;
   Watchdog watchdog_;
-  std::optional<Restoration> restoration_;
+  Restoration restoration_;
   BestIterate best_;
   std::optional<Status> end_;
   int iterations_ = 0, tiny_steps_ = 0;

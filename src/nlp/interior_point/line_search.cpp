@@ -32,6 +32,10 @@ double longest(double reach, double mu) {
 
 void Point::resize(const Model& model) {
   at.resize(model.primal(), model.rows());
+  e.gradient.resize(model.variables());
+  e.rows.resize(model.rows());
+  e.jacobian.resize(model.shape().jacobian_row.size());
+  e.hessian.resize(model.shape().hessian_row.size());
   local.resize(model);
   have = {};
 }

@@ -47,7 +47,6 @@ class Newton {
 
   /// Asked during factorisations from now on; outlives this.
   void give_up_at(Deadline* deadline) { deadline_ = deadline; }
-  Deadline* deadline() const { return deadline_; }
   /// Whether the last factorisation gave up.
   bool gave_up() const { return gave_up_; }
 

@@ -15,10 +15,10 @@ constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
 }  // namespace
 
 Restoration::Restoration(Descent& main) : main_(main), inner_(main.model.problem(), &elastic_) {
-  inner_.newton.give_up_at(main.newton.deadline());
   trial_.resize(main.model);
   elastic_.reference.resize(main.model.variables());
   elastic_.weight.resize(main.model.variables());
+  misfits_.resize(main.model.rows());
 }
 
 void Restoration::refresh() {
@@ -27,12 +27,13 @@ void Restoration::refresh() {
   inner_.model.set_scale(1, main_.model.row_scale());
 }
 
-/// Eq. 32, 33: p, n >= 0 that fit a row's residual and minimise their own barrier function.
+/// Eq. 32, 33: p, n >= 0 that fit a row's residual (without them) and minimise their own barrier
+/// function.
 void Restoration::set_elastic_parts(double mu) {
   Iterate& at = inner_.point.at;
   const double rho = elastic_.rho;
   for (std::size_t r = 0; r < inner_.model.rows(); ++r) {
-    const double c = main_.point.local.residuals[r];
+    const double c = misfits_[r];
     const double half = (mu - rho * c) / (2 * rho);
     const double least = 1e-12 * std::max(1.0, std::fabs(c));
     const double n = half + std::sqrt(half * half + mu * c / (2 * rho));
@@ -61,11 +62,28 @@ void Restoration::begin() {
     at.zl[i] = std::min(elastic_.rho, main_.point.at.zl[i]);
     at.zu[i] = std::min(elastic_.rho, main_.point.at.zu[i]);
   }
+  misfits_ = main_.point.local.residuals;
   set_elastic_parts(mu);
   inner_.newton.restart();
   inner_.barrier.begin(BarrierRule::monotone, mu, kLeastBarrier);
   inner_.point.have = {};
   inner_.point.measured = false;
+}
+
+/// Where no step is acceptable: the elastic parts anew, so that every row is met. The filter keeps
+/// the search from coming back. False when they are met already.
+bool Restoration::meet_rows() {
+  Point& point = inner_.point;
+  const double mu = inner_.barrier.mu();
+  if (point.local.violation <= kTolerance) return false;
+  inner_.search.filter().add(inner_.search.merit(point, mu));
+  for (std::size_t r = 0; r < inner_.model.rows(); ++r)
+    misfits_[r] =
+        point.local.residuals[r] + point.at.w[inner_.model.p(r)] - point.at.w[inner_.model.n(r)];
+  set_elastic_parts(mu);
+  point.have = {};
+  point.measured = false;
+  return inner_.complete();
 }
 
 bool Restoration::accepted_by_main() {
@@ -100,7 +118,7 @@ Restoration::Outcome Restoration::run(Watch& watch) {
     }
     inner_.update_barrier();
     if (!inner_.find_step()) return inner_.newton.gave_up() ? Outcome::stopped : Outcome::failed;
-    if (!inner_.take_step()) return Outcome::failed;
+    if (!inner_.take_step() && !meet_rows()) return Outcome::failed;
     watch.iterated(inner_);
     if (accepted_by_main()) {
       hand_back();

@@ -23,17 +23,20 @@ class Restoration {
   /// On `restored` and `infeasible`, the primal point of `main` is the one reached (on `restored`
   /// complete, with multipliers for going on); otherwise it is as it was.
   Outcome run(Watch& watch);
+  void give_up_at(Deadline* deadline) { inner_.newton.give_up_at(deadline); }
   /// Takes over scales and limits of the main model; for a new solve.
   void refresh();
 
  private:
   void begin();
   void set_elastic_parts(double mu);
+  bool meet_rows();
   bool accepted_by_main();
   void hand_back();
 
   Descent& main_;
   Elastic elastic_;
+  std::vector<double> misfits_;  ///< of the rows, elastic parts left out
   Descent inner_;
   Point trial_;
 };
