@@ -31,7 +31,7 @@ struct Arguments {
   std::uint64_t seed = 1;
   double width = 4, deadline = 0.002, floor = 0.9;
   std::size_t first = 0, count = 100;
-  bool log = false;
+  bool log = false, ours_only = false;
 };
 
 /// What a unit of --width adds to X0p at most; SI.
@@ -95,6 +95,7 @@ class Study {
     line["deadline"] = solve_ours(limited, allocations);
     line["deadline"]["longest_step_s"] = answer_.longest_step_s;
     line["allocations"] = allocations;
+    if (arguments_.ours_only) return line;
     line["ipopt"] = solve_ipopt();
     if (found.status == nlp::Status::infeasible) {
       place(cycle, false);
@@ -146,6 +147,7 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--first", a.first, "cycle to begin with");
   app.add_option("--count", a.count, "cycles to solve");
   app.add_option("--deadline", a.deadline, "of the second solve by ours [s]");
+  app.add_flag("--ours-only", a.ours_only, "without Ipopt");
   app.add_flag("--log", a.log, "prints the iterations of ours before each line");
   app.add_option("--floor", a.floor, "barrier floor");
   try {

@@ -23,6 +23,7 @@ using namespace ipm;
 constexpr double kMostVariable = 1e20;  ///< beyond, iterates diverge
 constexpr int kMostTinySteps = 2;
 constexpr double kRoom = 1e-9;
+constexpr int kSoon = 10;  ///< iterations from one restoration to the next
 constexpr std::size_t kLongestReason = 64;
 
 /// The workspace of one problem structure, and a solve on it.
@@ -117,7 +118,9 @@ class Run final : public Restoration::Watch, public Deadline {
       return descent_.last.faulted ? Status::invalid_number : Status::numerical_failure;
     descent_.search.filter().add(descent_.search.merit(point, descent_.barrier.mu()));
     restoration_.refresh();
-    const auto outcome = restoration_.run(*this);
+    const auto outcome =
+        restoration_.run(*this, restored_at_ > 0 && iterations_ - restored_at_ < kSoon);
+    restored_at_ = iterations_;
     watchdog_.restart();
     switch (outcome) {
       case Restoration::Outcome::restored:
@@ -181,7 +184,7 @@ class Run final : public Restoration::Watch, public Deadline {
   void begin(Problem& problem, const Options& options) {
     options_ = &options;
     timer_ = Timer();
-    iterations_ = tiny_steps_ = 0;
+    iterations_ = tiny_steps_ = restored_at_ = 0;
     callback_s_ = longest_step_ = last_iteration_ = 0;
     end_.reset();
     descent_.model.refresh(problem);
@@ -247,6 +250,7 @@ class Run final : public Restoration::Watch, public Deadline {
   BestIterate best_;
   std::optional<Status> end_;
   int iterations_ = 0, tiny_steps_ = 0;
+  int restored_at_ = 0;  ///< iteration at which the last restoration ended
   double callback_s_ = 0, longest_step_ = 0, last_iteration_ = 0;
 };
 

@@ -12,15 +12,17 @@ namespace {
 constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1, kSTheta = 1.1, kSPhi = 2.3;
 constexpr double kEta = 1e-8, kGammaAlpha = 0.05, kKappaSoc = 0.99, kTau = 0.99;
 constexpr double kRounding = 1e-15;
+constexpr double kMostMultiplier = 1e6;
 constexpr int kMaxCorrections = 4;
 constexpr int kBlockedSearches = 4;
 constexpr double kLessViolation = 0.1;
 
 /// How far the rows' multipliers go along with a primal step. W&B move them by alpha; but where
 /// alpha is small they would stay far from the bounds' multipliers, which go on by a step of their
-/// own, and so would the Hessian of the Lagrangian, and the next step be no better.
-double row_alpha(double alpha, double alpha_dual) {
-  return alpha < 0.03 ? std::max(alpha, alpha_dual) : alpha;
+/// own, and so would the Hessian of the Lagrangian, and the next step be no better. A huge change,
+/// of rows that nearly depend on each other, says nothing.
+double row_alpha(double alpha, double alpha_dual, double size) {
+  return alpha < 0.03 && size < kMostMultiplier ? std::max(alpha, alpha_dual) : alpha;
 }
 
 double longest(double reach, double mu) {
@@ -100,9 +102,10 @@ double LineSearch::slope(const Point& point, const Step& step) const {
 bool LineSearch::try_step(const Point& from, const Step& step, double alpha, double mu,
                           bool derivatives, Merit& merit) {
   const auto& kernels = vector_kernels();
+  const double y_alpha = row_alpha(alpha, longest(step.reach.dual, mu),
+                                   kernels.largest_magnitude(model_.rows(), step.y.data()));
   kernels.combine(model_.primal(), from.at.w.data(), alpha, step.w.data(), trial_.at.w.data());
-  kernels.combine(model_.rows(), from.at.y.data(), row_alpha(alpha, longest(step.reach.dual, mu)),
-                  step.y.data(), trial_.at.y.data());
+  kernels.combine(model_.rows(), from.at.y.data(), y_alpha, step.y.data(), trial_.at.y.data());
   trial_.logs = kernels.log_slacks(model_.segments(), trial_.local.bounded(model_, trial_.at));
   trial_.measured = false;
   if (!std::isfinite(trial_.logs)) return false;

@@ -8,6 +8,8 @@ namespace slalom::nlp::ipm {
 namespace {
 
 constexpr double kSufficient = 0.9;  ///< of the violation, at most, to go on with (section 3.3)
+/// Called again soon, it has gone on with too little: each time this part of it, to the least.
+constexpr double kStricter = 0.1, kLeastSufficient = 1e-4;
 /// Of its own errors, in units of rho; and its least barrier parameter, for slacks of mu / rho are
 /// to stay well above rounding.
 constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
@@ -92,7 +94,7 @@ bool Restoration::accepted_by_main() {
   if (!main_.model.evaluate(trial_.at, trial_.have, trial_.e)) return false;
   measure(main_.model, trial_);
   const Merit merit = main_.search.merit(trial_, main_.barrier.mu());
-  return trial_.local.violation <= kSufficient * main_.point.local.violation &&
+  return trial_.local.violation <= sufficient_ * main_.point.local.violation &&
          main_.search.filter().accepts(merit);
 }
 
@@ -104,7 +106,8 @@ void Restoration::hand_back() {
   main_.point.measured = false;
 }
 
-Restoration::Outcome Restoration::run(Watch& watch) {
+Restoration::Outcome Restoration::run(Watch& watch, bool again) {
+  sufficient_ = again ? std::max(kStricter * sufficient_, kLeastSufficient) : kSufficient;
   begin();
   if (!inner_.complete()) return Outcome::failed;
   inner_.search.reset(inner_.point.local.violation);

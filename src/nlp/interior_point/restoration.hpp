@@ -21,8 +21,9 @@ class Restoration {
     virtual void iterated(const Descent& restoration) = 0;
   };
   /// On `restored` and `infeasible`, the primal point of `main` is the one reached (on `restored`
-  /// complete, with multipliers for going on); otherwise it is as it was.
-  Outcome run(Watch& watch);
+  /// complete, with multipliers for going on); otherwise it is as it was. `again`: the search has
+  /// got stuck soon after the last time; then violation must fall further.
+  Outcome run(Watch& watch, bool again);
   void give_up_at(Deadline* deadline) { inner_.newton.give_up_at(deadline); }
   /// Takes over scales and limits of the main model; for a new solve.
   void refresh();
@@ -35,6 +36,7 @@ class Restoration {
   void hand_back();
 
   Descent& main_;
+  double sufficient_ = 0;  ///< part of the violation to go on with
   Elastic elastic_;
   std::vector<double> misfits_;  ///< of the rows, elastic parts left out
   Descent inner_;

@@ -4,6 +4,8 @@ namespace slalom::nlp::ipm {
 namespace {
 
 constexpr int kShortenedSteps = 5, kLeaps = 3, kFirstLeaps = 8, kSoftSteps = 10;
+constexpr int kMostFailed = 2;
+constexpr double kFeasible = 1e-4;  ///< violation with which restoration has nothing to do
 constexpr double kSoftProgress = 0.9999;
 
 }  // namespace
@@ -14,7 +16,7 @@ Watchdog::Watchdog(const Model& model) {
 }
 
 void Watchdog::restart(bool close) {
-  leaps_ = softened_ = 0;
+  leaps_ = softened_ = failed_ = 0;
   shortened_ = close ? kShortenedSteps : 0;
   most_leaps_ = close ? kFirstLeaps : kLeaps;
 }
@@ -41,6 +43,7 @@ Watchdog::Outcome Watchdog::search(Descent& descent) {
   if (!descent.take_step()) return soften(descent) ? Outcome::moved : Outcome::stuck;
   softened_ = 0;
   shortened_ = descent.last.trials > 1 ? shortened_ + 1 : 0;
+  if (shortened_ == 0) failed_ = 0;
   return Outcome::moved;
 }
 
@@ -77,6 +80,7 @@ Watchdog::Outcome Watchdog::leap(Descent& descent) {
   if (descent.search.acceptable(merit_, now, slope_, alpha_, armijo)) {
     if (!armijo) descent.search.filter().add(merit_);
     end_leaps();
+    failed_ = 0;
   } else if (leaps_ >= most_leaps_) {
     return go_back(descent);
   }
@@ -85,10 +89,12 @@ Watchdog::Outcome Watchdog::leap(Descent& descent) {
 
 Watchdog::Outcome Watchdog::go_back(Descent& descent) {
   end_leaps();
+  ++failed_;
   descent.point = point_;
   descent.step = step_;
   // The factorisation is of another point by now: without second-order corrections of this step.
   if (!descent.find_step()) return Outcome::stuck;
+  if (failed_ >= kMostFailed && descent.point.local.violation > kFeasible) return Outcome::stuck;
   return search(descent);
 }
 

@@ -6,7 +6,8 @@ namespace slalom::nlp::ipm {
 
 /// The watchdog (Waechter & Biegler 2006, section 3.2; Chamberlain et al., Math. Program. Study 16,
 /// 1982): after many shortened steps the full step is taken unsearched, a few times; if that leads
-/// to a point acceptable from where it began, it pays, else the search goes on from there. And the
+/// to a point acceptable from where it began, it pays, else the search goes on from there. After
+/// two attempts in vain the search is stuck: it crawls, and restoration gets on faster. And the
 /// soft restoration (their section 3.3's first resort as Ipopt has it): where no step is
 /// acceptable, the longest is taken if it brings the primal-dual equations' error down.
 class Watchdog {
@@ -29,6 +30,7 @@ class Watchdog {
 
   int shortened_ = 0;  ///< steps in a row
   int leaps_ = 0;      ///< of the attempt under way; 0: none
+  int failed_ = 0;     ///< attempts on end, with none but shortened steps between them
   int most_leaps_ = 0;
   int softened_ = 0;  ///< soft steps since the filter last accepted one
   double mu_ = 0, slope_ = 0, alpha_ = 0;
