@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "slalom/base/error.hpp"
-
 namespace slalom::kkt {
 namespace {
 
@@ -11,17 +9,28 @@ std::uint32_t narrow(std::size_t n) {
   return static_cast<std::uint32_t>(n);
 }
 
-/// Throws unless a front knows both ids of an entry: of the next stage, it knows the variables, but
-/// not the multipliers.
-void check_coupling(const Pattern& p, const std::vector<std::size_t>& front, std::size_t a,
-                    std::size_t b) {
-  const auto [first, last] = std::minmax(front[a], front[b]);
-  const bool multiplier_ahead =
-      (front[a] > first && a >= p.variables) || (front[b] > first && b >= p.variables);
-  if (last != first && last != p.stages && (last != first + 1 || multiplier_ahead))
-    throw Error("kkt: an entry couples stages " + std::to_string(front[a]) + " and " +
-                std::to_string(front[b]) +
-                "; it may couple a row's stage with itself and the next one");
+/// The first front with an entry of each id.
+std::vector<std::size_t> first_touch(const Pattern& p, const std::vector<std::size_t>& front) {
+  std::vector<std::size_t> first = front;
+  const auto couple = [&](std::size_t a, std::size_t b) {
+    const std::size_t at = std::min(front[a], front[b]);
+    first[a] = std::min(first[a], at);
+    first[b] = std::min(first[b], at);
+  };
+  for (const auto& place : p.hessian)
+    if (!p.fixed[place.row] && !p.fixed[place.col]) couple(place.row, place.col);
+  for (const auto& entry : p.jacobian)
+    if (!p.fixed[entry.variable]) couple(p.variables + entry.equation, entry.variable);
+  return first;
+}
+
+/// Appends to each front what it touches of later ones, and what those before it handed on: from
+/// the first front with an entry of it, an id goes along to its own.
+void carry(const std::vector<std::size_t>& first, std::vector<FrontPlan>& plans) {
+  for (std::size_t k = 0; k < plans.size(); ++k)
+    for (std::size_t i = 0; i < plans[k].own; ++i)
+      for (std::size_t to = first[plans[k].ids[i]]; to < k; ++to)
+        plans[to].ids.push_back(plans[k].ids[i]);
 }
 
 }  // namespace
@@ -48,9 +57,9 @@ std::vector<FrontPlan> plan_chain(const Pattern& p) {
   std::vector<std::size_t> front(p.variable_stage.begin(), p.variable_stage.end());
   front.insert(front.end(), p.equation_stage.begin(), p.equation_stage.end());
   std::vector<FrontPlan> plans(p.stages + 1);
-  std::vector<std::size_t> variables;
   for (std::size_t i = 0; i < p.variables; ++i)
     if (!p.fixed[i]) plans[front[i]].ids.push_back(narrow(i));
+  std::vector<std::size_t> variables;
   for (auto& plan : plans) variables.push_back(plan.ids.size());
   for (std::size_t e = 0; e < p.equations; ++e)
     plans[front[p.variables + e]].ids.push_back(narrow(p.variables + e));
@@ -60,21 +69,7 @@ std::vector<FrontPlan> plan_chain(const Pattern& p) {
     plans[k].equations_so_far = equations += plans[k].own - variables[k];
     if (k < p.stages) plans[k].parent = k + 1;
   }
-  const auto border = plans.back().ids;
-  for (std::size_t k = 0; k < p.stages; ++k) {
-    auto& ids = plans[k].ids;
-    if (k + 1 < p.stages) {
-      const auto& next = plans[k + 1].ids;
-      ids.insert(ids.end(), next.begin(),
-                 next.begin() + static_cast<std::ptrdiff_t>(variables[k + 1]));
-    }
-    ids.insert(ids.end(), border.begin(), border.end());
-  }
-  for (const auto& place : p.hessian)
-    if (!p.fixed[place.row] && !p.fixed[place.col]) check_coupling(p, front, place.row, place.col);
-  for (const auto& entry : p.jacobian)
-    if (!p.fixed[entry.variable])
-      check_coupling(p, front, p.variables + entry.equation, entry.variable);
+  carry(first_touch(p, front), plans);
   distribute(p, front, plans);
   return plans;
 }

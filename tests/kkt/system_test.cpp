@@ -248,11 +248,55 @@ TEST(StageLdlt, AsksDuringALongFactorisationWhetherToStop) {
   EXPECT_EQ(backend->factorize(system.values()), whole);
 }
 
-TEST(StageLdlt, RefusesARowAcrossDistantStages) {
-  Maker maker(9);
-  System s = maker.make({{2, 2, 2}, {1, 1}, 0, 0, 0});
-  s.pattern.jacobian[1].variable = 5;  // the first defect now reaches the third stage
-  EXPECT_ANY_THROW(make_stage_ldlt(s.pattern));
+TEST(StageLdlt, CarriesWhatCouplesDistantStages) {
+  const std::vector<Shape> shapes = {{{3, 3, 3, 3, 3, 3}, {2, 2, 2, 2, 2}, 0, 3, 2},
+                                     {{30, 2, 17, 5}, {2, 2, 5}, 1, 4, 1}};
+  unsigned seed = 100;
+  for (const auto& shape : shapes)
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      Maker maker(seed++);
+      System s = maker.make(shape);
+      const auto stages = static_cast<std::uint32_t>(s.pattern.stages);
+      std::uint32_t to = static_cast<std::uint32_t>(repeat) % stages;
+      for (auto* list : {&s.pattern.variable_stage, &s.pattern.equation_stage})
+        for (auto& stage : *list)  // what was the border's, to one stage after the other
+          if (stage == stages) stage = to++ % stages;
+      expect_solved(s, maker);
+    }
+}
+
+/// Four phases of `length` stages, each with a final time of its own that all its defects know,
+/// chained by their interfaces.
+System phases(std::size_t length, Maker& maker) {
+  Shape shape;
+  shape.variables.assign(4 * length, 6);
+  shape.defects.assign(4 * length - 1, 4);
+  shape.globals = 4;
+  System s = maker.make(shape);
+  Pattern& p = s.pattern;
+  const auto phase_of = [&](std::size_t id) {
+    return (id < p.variables ? p.variable_stage[id] : p.equation_stage[id - p.variables]) / length;
+  };
+  const std::size_t first = s.begin[p.stages];
+  const auto foreign = [&](std::size_t id, std::size_t variable) {
+    return variable >= first && id != variable && phase_of(id) != variable - first;
+  };
+  for (std::size_t e = p.hessian.size(); e-- > 0;)
+    if (foreign(p.hessian[e].col, p.hessian[e].row)) {
+      p.hessian.erase(p.hessian.begin() + static_cast<std::ptrdiff_t>(e));
+      s.hessian.erase(s.hessian.begin() + static_cast<std::ptrdiff_t>(e));
+    }
+  std::erase_if(p.jacobian, [&](const Pattern::JacobianEntry& entry) {
+    return foreign(p.variables + entry.equation, entry.variable);
+  });
+  for (std::size_t k = 0; k < 4; ++k)
+    p.variable_stage[first + k] = static_cast<std::uint32_t>((k + 1) * length - 1);
+  return s;
+}
+
+TEST(StageLdlt, EliminatesAPhasesFinalTimeAtItsEnd) {
+  Maker maker(31);
+  for (const std::size_t length : {2, 3, 8}) expect_solved(phases(length, maker), maker);
 }
 
 }  // namespace

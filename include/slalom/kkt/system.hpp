@@ -16,8 +16,9 @@ namespace slalom::kkt {
 ///
 /// W the Hessian with all inequalities condensed onto it (CondensedHessian), E the equations' rows
 /// of the Jacobian. A variable or equation belongs to a stage or, with stage number `stages`, to
-/// the border, which couples to everything. Apart from the border, entries couple a stage with
-/// itself or its neighbours. Entries may come in any order, each place once.
+/// the border. What couples stages that are no neighbours is carried along from the first of them
+/// to the stage it belongs to: a final time of one phase best belongs to that phase's last stage,
+/// and is carried through no other. Entries may come in any order, each place once.
 struct Pattern {
   std::size_t variables = 0, equations = 0, stages = 0;
   std::vector<std::uint32_t> variable_stage, equation_stage;
