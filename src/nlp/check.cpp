@@ -58,32 +58,62 @@ double violation(const Item& item) {
   return std::max({0.0, item.lower - item.value, item.value - item.upper});
 }
 
-/// Keeps the largest value and its name; NaN is larger than any number.
-template <class Name>
-void keep_worst(double value, Name name, double& worst, std::string& worst_name) {
-  if (!(value > worst || (std::isnan(value) && !std::isnan(worst)))) return;
-  worst = value;
-  worst_name = name();
-}
+/// The largest value so far and which it was; NaN is larger than any number.
+struct Worst {
+  double value = 0;
+  std::size_t which = kNone;
 
-class Judge {
- public:
-  Judge(Residuals& result, const Options& options) : result_(result), options_(options) {}
-
-  template <class Name>
-  void add(const Item& item, Name name) {
-    keep_worst(violation(item), name, result_.violation, result_.worst_constraint);
-    if (item.lower == item.upper) return;  // an equation has no barrier
-    keep_worst(complementarity(item, options_), name, result_.complementarity, result_.worst_pair);
-    if (std::isfinite(item.lower)) log_sum_ += std::log(item.value - item.lower);
-    if (std::isfinite(item.upper)) log_sum_ += std::log(item.upper - item.value);
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  void keep(double other, std::size_t id) {
+    if (!(other > value || (std::isnan(other) && !std::isnan(value)))) return;
+    value = other;
+    which = id;
   }
-  double log_sum() const { return log_sum_; }
+};
+
+/// Sum of logarithms, by products of as many numbers as stay in range.
+class LogSum {
+ public:
+  void add(double number) {
+    if (!(number > kSmall && number < kLarge)) {
+      sum_ += std::log(number);
+      return;
+    }
+    product_ *= number;
+    if (product_ < kSmall || product_ > kLarge) flush();
+  }
+  double total() {
+    flush();
+    return sum_;
+  }
 
  private:
-  Residuals& result_;
+  static constexpr double kSmall = 1e-100, kLarge = 1e100;
+  void flush() {
+    sum_ += std::log(product_);
+    product_ = 1;
+  }
+  double product_ = 1, sum_ = 0;
+};
+
+/// Rows count from 0, variables on from the last row.
+class Judge {
+ public:
+  explicit Judge(const Options& options) : options_(options) {}
+
+  void add(const Item& item, std::size_t id) {
+    violation.keep(nlp::violation(item), id);
+    if (item.lower == item.upper) return;  // an equation has no barrier
+    complementarity.keep(nlp::complementarity(item, options_), id);
+    if (std::isfinite(item.lower)) logs.add(item.value - item.lower);
+    if (std::isfinite(item.upper)) logs.add(item.upper - item.value);
+  }
+
+  Worst violation, complementarity, stationarity;
+  LogSum logs;
+
+ private:
   const Options& options_;
-  double log_sum_ = 0;
 };
 
 }  // namespace
@@ -110,7 +140,7 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
     return result;
   }
   result.objective = at.objective;
-  Judge judge(result, options);
+  Judge judge(options);
   std::vector<double> lagrangian = at.gradient;
   for (std::size_t e = 0; e < at.jacobian.size(); ++e)
     lagrangian[shape.jacobian_col[e]] += point.y[shape.jacobian_row[e]] * at.jacobian[e];
@@ -118,20 +148,28 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
     const double scale = shape.row_scale[r], y = point.y[r] * scale;
     judge.add({at.rows[r] / scale, limits.gl[r] / scale, limits.gu[r] / scale, std::max(-y, 0.0),
                std::max(y, 0.0), true},
-              [&] { return problem.row_name(r); });
+              r);
   }
   for (std::size_t i = 0; i < shape.variables; ++i) {
     const double scale = shape.variable_scale[i];
-    const auto name = [&] { return problem.variable_name(i); };
     judge.add({point.x[i] * scale, limits.xl[i] * scale, limits.xu[i] * scale, point.zl[i] / scale,
                point.zu[i] / scale, false},
-              name);
+              shape.rows + i);
     if (limits.xl[i] == limits.xu[i]) continue;  // fixed: its multiplier is free
-    keep_worst(std::fabs(lagrangian[i] - point.zl[i] + point.zu[i]) / scale, name,
-               result.stationarity, result.worst_variable);
+    judge.stationarity.keep(std::fabs(lagrangian[i] - point.zl[i] + point.zu[i]) / scale,
+                            shape.rows + i);
   }
+  const auto tell = [&](const Worst& worst, double& value, std::string& name) {
+    value = worst.value;
+    if (worst.which == Worst::kNone) return;
+    name = worst.which < shape.rows ? problem.row_name(worst.which)
+                                    : problem.variable_name(worst.which - shape.rows);
+  };
+  tell(judge.violation, result.violation, result.worst_constraint);
+  tell(judge.stationarity, result.stationarity, result.worst_variable);
+  tell(judge.complementarity, result.complementarity, result.worst_pair);
   result.phi = at.objective;
-  if (options.floor > 0) result.phi -= options.floor * judge.log_sum();
+  if (options.floor > 0) result.phi -= options.floor * judge.logs.total();
   return result;
 }
 
