@@ -23,11 +23,12 @@ struct Output {
 
 class Builder {
  public:
-  Builder(const Problem& problem, const Mesh& mesh, const Scheme& scheme)
-      : problem_(problem), mesh_(mesh), scheme_(scheme), symbols_(problem) {
+  Builder(const Problem& problem, const Mesh& mesh, const Schemes& schemes)
+      : problem_(problem), mesh_(mesh), schemes_(schemes), symbols_(problem) {
+    schemes.check(mesh);
     check_dynamics();
     sort_terms();
-    out_.layout = make_layout(problem, mesh, scheme, symbols_.find_lifts());
+    out_.layout = make_layout(problem, mesh, schemes, symbols_.find_lifts());
     out_.structure.variable_scale = variable_scales(problem, out_.layout);
   }
 
@@ -249,6 +250,7 @@ class Builder {
       }
     const auto batch = add_batch(outputs, points(Points::all), kNone, nullptr);
     add_defects(batch);
+    hold_controls();
     add_quadrature(batch, terms);
     for (std::size_t i = 0; i < paths.size(); ++i)
       for (std::size_t point = 0; point < out_.layout.points(); ++point)
@@ -266,41 +268,72 @@ class Builder {
 
   void add_defects(std::size_t batch) {
     const Layout& layout = out_.layout;
-    const auto& breaks = mesh_.breakpoints();
+    const std::size_t intervals = layout.intervals(), most = schemes_.most_points() - 1;
     out_.defect_begin = rows_.size();
-    out_.defects = scheme_.defects();
-    for (std::size_t d = 0; d < scheme_.defects(); ++d)
+    out_.defect_rows.assign(most * layout.nx * intervals, kNone);
+    for (std::size_t d = 0; d < most; ++d)
       for (std::size_t i = 0; i < layout.nx; ++i) {
         const auto& state = problem_.states()[i];
-        for (std::size_t k = 0; k < layout.intervals(); ++k)
-          add_row({fmt::format("defect {} of {} in interval {}", d, state.name, k)}, k,
-                  nlp::Coupling::neighbour, Bounds::equal(0), 1 / state.scale);
-        for (std::size_t j = 0; j < scheme_.points.size(); ++j)
-          for (std::size_t k = 0; k < layout.intervals(); ++k) {
-            const std::size_t row = defect_row(out_, d, i, k), point = layout.node_point[k] + j;
-            if (scheme_.state[d][j] != 0)
-              linear_.push_back({row, layout.state(point, i), scheme_.state[d][j]});
-            if (scheme_.rate[d][j] != 0)
-              use(batch, i, point, row, kNone, -(breaks[k + 1] - breaks[k]) * scheme_.rate[d][j]);
-          }
+        for (std::size_t k = 0; k < intervals; ++k)
+          if (d < schemes_.of(k).defects())
+            out_.defect_rows[(d * layout.nx + i) * intervals + k] =
+                add_row({fmt::format("defect {} of {} in interval {}", d, state.name, k)}, k,
+                        nlp::Coupling::neighbour, Bounds::equal(0), 1 / state.scale);
+        for (std::size_t j = 0; j <= most; ++j)
+          for (std::size_t k = 0; k < intervals; ++k)
+            if (defect_row(out_, d, i, k) != kNone && j < schemes_.of(k).points.size())
+              add_defect_terms(batch, d, i, j, k);
       }
+    out_.defect_end = rows_.size();
+  }
+  void add_defect_terms(std::size_t batch, std::size_t d, std::size_t i, std::size_t j,
+                        std::size_t k) {
+    const Scheme& scheme = schemes_.of(k);
+    const std::size_t row = defect_row(out_, d, i, k), point = out_.layout.node_point[k] + j;
+    if (scheme.state[d][j] != 0)
+      linear_.push_back({row, out_.layout.state(point, i), scheme.state[d][j]});
+    if (scheme.rate[d][j] != 0) use(batch, i, point, row, kNone, -length(k) * scheme.rate[d][j]);
+  }
+  double length(std::size_t k) const { return mesh_.breakpoints()[k + 1] - mesh_.breakpoints()[k]; }
+
+  /// A control at a point that no interval collocates would hang in the air: it is held.
+  void hold_controls() {
+    const Layout& layout = out_.layout;
+    std::vector<char> collocated(layout.points(), 0);
+    for (std::size_t k = 0; k < layout.intervals(); ++k)
+      for (std::size_t j = 0; j < schemes_.of(k).points.size(); ++j)
+        if (schemes_.of(k).collocates(j)) collocated[layout.node_point[k] + j] = 1;
+    for (std::size_t point = 0; point < layout.points(); ++point) {
+      if (collocated[point]) continue;
+      std::size_t from = point;
+      while (from > 0 && !collocated[from]) --from;
+      while (!collocated[from]) ++from;
+      for (std::size_t i = 0; i < layout.nu; ++i) {
+        const auto& control = problem_.controls()[i];
+        const auto row = add_row({control.name + " held at " + layout.point_name(point)},
+                                 std::min(layout.point_stage[point], layout.point_stage[from]),
+                                 nlp::Coupling::neighbour, Bounds::equal(0), 1 / control.scale);
+        linear_.push_back({row, layout.control(point, i), 1});
+        linear_.push_back({row, layout.control(from, i), -1});
+      }
+    }
   }
 
   void add_quadrature(std::size_t batch, const std::vector<std::size_t>& terms) {
     const Layout& layout = out_.layout;
-    const auto& breaks = mesh_.breakpoints();
     std::vector<double> weight(layout.points(), 0.0);
     for (std::size_t k = 0; k < layout.intervals(); ++k)
-      for (std::size_t j = 0; j < scheme_.points.size(); ++j)
-        weight[layout.node_point[k] + j] += (breaks[k + 1] - breaks[k]) * scheme_.weight[j];
-    for (std::size_t k = 0; k < breaks.size(); ++k)
-      out_.share_after.push_back(k + 1 == breaks.size()
+      for (std::size_t j = 0; j < schemes_.of(k).points.size(); ++j)
+        weight[layout.node_point[k] + j] += length(k) * schemes_.of(k).weight[j];
+    for (std::size_t k = 0; k <= layout.intervals(); ++k) {
+      const double whole = weight[layout.node_point[k]];
+      out_.share_after.push_back(k == layout.intervals() || whole == 0
                                      ? 0
-                                     : (breaks[k + 1] - breaks[k]) * scheme_.weight.front() /
-                                           weight[layout.node_point[k]]);
+                                     : length(k) * schemes_.of(k).weight.front() / whole);
+    }
     for (std::size_t t = 0; t < terms.size(); ++t)
       for (std::size_t point = 0; point < layout.points(); ++point)
-        use(batch, layout.nx + t, point, kNone, terms[t], weight[point]);
+        if (weight[point] != 0) use(batch, layout.nx + t, point, kNone, terms[t], weight[point]);
   }
 
   void add_path_rows(Points which) {
@@ -383,7 +416,7 @@ class Builder {
 
   const Problem& problem_;
   const Mesh& mesh_;
-  const Scheme& scheme_;
+  const Schemes& schemes_;
   const Symbols symbols_;
   std::vector<RowInfo> rows_;
   std::vector<RowTerm> linear_;
@@ -393,8 +426,8 @@ class Builder {
 
 }  // namespace
 
-Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Scheme& scheme) {
-  return Builder(problem, mesh, scheme).build();
+Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Schemes& schemes) {
+  return Builder(problem, mesh, schemes).build();
 }
 
 std::string RowName::in(const Problem& problem) const {

@@ -42,18 +42,20 @@ struct Transcribed {
   nlp::Structure structure;
   nlp::Limits limits;
   std::vector<RowName> row_names;
-  std::size_t defect_begin = 0;     ///< row of the first defect of state 0 in interval 0
-  std::size_t defects = 0;          ///< of an interval and state
+  /// [(defect * states + state) * intervals + interval]: its row; kNone where the interval's scheme
+  /// has not so many defects.
+  std::vector<std::size_t> defect_rows;
+  std::size_t defect_begin = 0, defect_end = 0;  ///< all rows of defects
   std::vector<double> share_after;  ///< of each node's quadrature weight: the next interval's
 };
 
-/// Row of a defect: for each defect of the scheme and each state, interval by interval.
 inline std::size_t defect_row(const Transcribed& t, std::size_t defect, std::size_t state,
                               std::size_t interval) {
-  return t.defect_begin + (defect * t.layout.nx + state) * t.layout.intervals() + interval;
+  return t.defect_rows[(defect * t.layout.nx + state) * t.layout.intervals() + interval];
 }
 
-Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Scheme& scheme);
+/// Throws InvalidValue for what Transcription's constructor names.
+Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Schemes& schemes);
 
 /// Refills the batches' data from the problem's parameters and members.
 void fill_data(const Problem& problem, Transcribed& transcribed);

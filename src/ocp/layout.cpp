@@ -16,7 +16,7 @@ std::string Layout::point_name(std::size_t point) const {
                      : fmt::format("point {} of interval {}", offset, node);
 }
 
-Layout make_layout(const Problem& problem, const Mesh& mesh, const Scheme& scheme,
+Layout make_layout(const Problem& problem, const Mesh& mesh, const Schemes& schemes,
                    const Lifts& lifts) {
   Layout layout;
   layout.nx = problem.states().size();
@@ -27,6 +27,7 @@ Layout make_layout(const Problem& problem, const Mesh& mesh, const Scheme& schem
     layout.tau.push_back(breaks[k]);
     layout.point_stage.push_back(k);
     if (k + 1 == breaks.size()) break;
+    const Scheme& scheme = schemes.of(k);
     for (std::size_t j = 1; j <= scheme.interior(); ++j) {
       layout.tau.push_back(breaks[k] + scheme.points[j] * (breaks[k + 1] - breaks[k]));
       layout.point_stage.push_back(k);

@@ -42,7 +42,7 @@ struct Lifts {
   std::vector<char> initial, final;
 };
 
-Layout make_layout(const Problem& problem, const Mesh& mesh, const Scheme& scheme,
+Layout make_layout(const Problem& problem, const Mesh& mesh, const Schemes& schemes,
                    const Lifts& lifts);
 
 /// Bounds and scales of all variables (in the NLP's scaled units), as `problem` has them now.

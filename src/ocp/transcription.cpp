@@ -82,8 +82,8 @@ void check_guess(const Trajectory& guess, const Problem& problem) {
 
 class Transcription::Impl {
  public:
-  Impl(const ocp::Problem& p, const Mesh& mesh, const Scheme& scheme)
-      : problem(p), data(transcribe(p, mesh, scheme)) {
+  Impl(const ocp::Problem& p, const Mesh& mesh, const Schemes& schemes)
+      : problem(p), data(transcribe(p, mesh, schemes)) {
     terms.resize(data.terms.size());
   }
 
@@ -135,11 +135,11 @@ class Transcription::Impl {
                          std::vector<std::vector<double>>& after) const {
     const auto& shape = data.structure;
     const Layout& layout = data.layout;
-    const std::size_t end = ocp::defect_row(data, data.defects, 0, 0);
     for (std::size_t e = 0; e < at.jacobian.size(); ++e) {
       const std::size_t row = shape.jacobian_row[e], col = shape.jacobian_col[e];
-      if (row < data.defect_begin || row >= end || col >= layout.nx * layout.points()) continue;
-      const std::size_t k = (row - data.defect_begin) % layout.intervals();
+      if (row < data.defect_begin || row >= data.defect_end || col >= layout.nx * layout.points())
+        continue;
+      const std::size_t k = shape.row_stage[row];
       const std::size_t i = col / layout.points(), point = col % layout.points();
       if (point == layout.node_point[k]) after[k][i] += y[row] * at.jacobian[e];
       if (point == layout.node_point[k + 1]) before[k + 1][i] += y[row] * at.jacobian[e];
@@ -191,8 +191,8 @@ class Transcription::Impl {
   std::vector<double> terms;
 };
 
-Transcription::Transcription(const ocp::Problem& problem, const Mesh& mesh, const Scheme& scheme)
-    : impl_(std::make_unique<Impl>(problem, mesh, scheme)) {}
+Transcription::Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes)
+    : impl_(std::make_unique<Impl>(problem, mesh, schemes)) {}
 Transcription::~Transcription() = default;
 
 void Transcription::update(const ocp::Problem& problem) {
@@ -294,7 +294,9 @@ std::vector<std::vector<double>> Transcription::costates(std::span<const double>
 }
 
 std::size_t Transcription::defect_row(std::size_t state, std::size_t interval) const {
-  return ocp::defect_row(impl_->data, impl_->data.defects - 1, state, interval);
+  const Layout& layout = impl_->data.layout;
+  const std::size_t points = layout.node_point[interval + 1] - layout.node_point[interval];
+  return ocp::defect_row(impl_->data, points - 1, state, interval);
 }
 
 const nlp::Structure& Transcription::structure() const {

@@ -15,15 +15,18 @@ namespace {
 TEST(ClosedForms, EverySchemeAndBackEndFindsThem) {
   for (const auto& backend : nlp::backends())
     for (const auto& form : closed_forms())
-      for (const Scheme* scheme : {&trapezoidal(), &hermite_simpson()}) {
-        SCOPED_TRACE(form.name + " by " + scheme->name + " with " + backend);
-        const Solution solution = solve(form.problem, {.mesh = Mesh::uniform(30),
-                                                       .scheme = *scheme,
-                                                       .backend = backend,
-                                                       .guess = form.guess});
+      for (const Scheme& scheme : {trapezoidal(), hermite_simpson(), backward_euler(), lgr(3),
+                                   lgr_differential(3), lgl(4)}) {
+        SCOPED_TRACE(form.name + " by " + scheme.name + " with " + backend);
+        const Solution solution = solve(
+            form.problem,
+            {.mesh = Mesh::uniform(30), .scheme = scheme, .backend = backend, .guess = form.guess});
         EXPECT_TRUE(solution.solved())
             << to_string(solution.status) << ", " << solution.residuals.worst_constraint;
-        const double share = scheme == &trapezoidal() ? 2e-2 : form.limit.empty() ? 1e-7 : 2e-3;
+        const double share = scheme.order == 1    ? 0.1
+                             : scheme.order == 2  ? 2e-2
+                             : form.limit.empty() ? 1e-7
+                                                  : 1e-2;
         EXPECT_NEAR(solution.objective, form.objective, share * form.objective);
       }
 }
@@ -101,7 +104,7 @@ TEST(Orders, AreTheSchemesOnesWhereTheSolutionIsSmoothAndTheCommittedTableHolds)
     if (!row.limit.empty()) continue;
     for (const Order* order : {&row.objective, &row.states, &row.costates}) {
       if (!order->known || order->exact) continue;
-      EXPECT_NEAR(order->value, row.expected, 0.4)
+      EXPECT_GE(order->value, row.expected - 0.4)
           << row.problem << ", " << row.scheme << ", " << row.mesh;
     }
   }

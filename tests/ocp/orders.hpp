@@ -31,7 +31,7 @@ inline Mesh graded(int n) {
 inline constexpr double kNoise = 2e-8;
 
 /// Largest error of the objective and of states and costates at the mesh nodes; negative: not
-/// known.
+/// known. A mesh too coarse for a scheme to meet the ends within the bounds is infeasible.
 struct Errors {
   double objective = -1, states = -1, costates = -1;
 };
@@ -40,6 +40,7 @@ inline Errors errors_of(const ClosedForm& form, const Scheme& scheme, const Mesh
   SolveSettings settings{.mesh = mesh, .scheme = scheme, .guess = form.guess};
   settings.options.tol = 1e-11;
   const Solution solution = solve(form.problem, settings);
+  if (solution.status == nlp::Status::infeasible) return {};
   if (!solution.solved())
     throw std::runtime_error(form.name + ": " + to_string(solution.status) + " with " +
                              std::to_string(mesh.intervals()) + " intervals");
@@ -67,7 +68,7 @@ struct Order {
   bool known = true, exact = false;
 
   static Order fit(const std::vector<double>& errors, double noise) {
-    if (errors.front() < 0) return {0, false, false};
+    if (*std::min_element(errors.begin(), errors.end()) < 0) return {0, false, false};
     if (*std::max_element(errors.begin(), errors.end()) < noise) return {0, true, true};
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -88,22 +89,31 @@ struct OrderRow {
   Order objective, states, costates;
 };
 
+/// Name, and of schemes of any number of points how many.
+inline std::string label(const Scheme& scheme) {
+  if (scheme.name == "lgl") return fmt::format("lgl {}", scheme.points.size());
+  return scheme.name.starts_with("lgr")
+             ? fmt::format("{} {}", scheme.name, scheme.points.size() - 1)
+             : scheme.name;
+}
+
 inline std::vector<OrderRow> measure_orders() {
   std::vector<OrderRow> table;
   for (const auto& form : closed_forms())
-    for (const Scheme* scheme : {&trapezoidal(), &hermite_simpson()})
+    for (const Scheme& scheme : {backward_euler(), trapezoidal(), lgr(2), lgr_differential(2),
+                                 hermite_simpson(), lgr(3), lgl(4)})
       for (const bool uniform : {true, false}) {
         std::vector<double> objective, states, costates;
         for (int n : kIntervals) {
-          const auto e = errors_of(form, *scheme, uniform ? Mesh::uniform(n) : graded(n));
+          const auto e = errors_of(form, scheme, uniform ? Mesh::uniform(n) : graded(n));
           objective.push_back(e.objective);
           states.push_back(e.states);
           costates.push_back(e.costates);
         }
         const Order order = Order::fit(objective, kNoise);
         const double noise = (order.exact ? 500 : 50) * kNoise;
-        table.push_back({form.name, scheme->name, uniform ? "uniform" : "graded", form.limit,
-                         scheme->order, objective, order, Order::fit(states, noise),
+        table.push_back({form.name, label(scheme), uniform ? "uniform" : "graded", form.limit,
+                         scheme.order, objective, order, Order::fit(states, noise),
                          Order::fit(costates, noise)});
       }
   return table;
@@ -120,10 +130,10 @@ inline std::string order_page(const std::vector<OrderRow>& table) {
       "squares,\n"
       "for the objective, and for states and costates at the mesh nodes (largest error). "
       "\"exact\":\n"
-      "no error above the solver's own; a blank: no closed form compared. Trapezoidal collocation\n"
-      "has order 2, Hermite-Simpson 4. The graded meshes are 1.9 times coarser at the start than "
-      "at\n"
-      "the end.\n\n"
+      "no error above the solver's own; a blank: no closed form compared. Backward Euler has order "
+      "1,\n"
+      "trapezoidal collocation 2, LGR of n points 2 n - 1, LGL 2 n - 2, Hermite-Simpson 4.\n"
+      "The graded meshes are 1.9 times coarser at the start than at the end.\n\n"
       "| problem | scheme | mesh | error of J: N = 6 | 12 | 24 | 48 | order: J | x | costates |\n"
       "|---|---|---|---|---|---|---|---|---|---|\n";
   std::string limits;
@@ -131,7 +141,9 @@ inline std::string order_page(const std::vector<OrderRow>& table) {
   for (const auto& row : table) {
     text += fmt::format("| {} | {} | {} |", row.problem, row.scheme, row.mesh);
     for (double error : row.objective_errors)
-      text += error < kNoise ? " <2e-8 |" : fmt::format(" {:.1e} |", error);
+      text += error < 0        ? " infeasible |"
+              : error < kNoise ? " <2e-8 |"
+                               : fmt::format(" {:.1e} |", error);
     text += fmt::format(" {} | {} | {} |\n", row.objective.text(), row.states.text(),
                         row.costates.text());
     if (!row.limit.empty() && told.insert(row.problem).second)

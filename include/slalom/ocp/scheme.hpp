@@ -38,6 +38,8 @@ struct Scheme {
 
   std::size_t interior() const { return points.size() - 2; }
   std::size_t defects() const { return state.size(); }
+  /// Whether the rates at point j count: there the polynomial of the states satisfies the dynamics.
+  bool collocates(std::size_t j) const;
 };
 
 /// Trapezoidal rule, order 2 (Betts 2010, section 4.5; the paper's scheme).
@@ -45,5 +47,42 @@ const Scheme& trapezoidal();
 /// Hermite-Simpson in separated form, order 4 (Betts 2010, section 4.5; Kelly 2017, eq. 4.3 and
 /// 4.4): the midpoint's state is a variable tied by Hermite's interpolant.
 const Scheme& hermite_simpson();
+/// Implicit Euler, order 1: x_1 - x_0 - h f_1.
+Scheme backward_euler();
+/// Legendre-Gauss-Radau collocation at n >= 1 points, the interval's begin among them and its end
+/// not, in integration form: x_i - x_0 - h sum_j A_ij f_j (Garg et al., Automatica 46(11), 2010,
+/// section 4.2). Order 2 n - 1.
+Scheme lgr(int n);
+/// The same points and polynomial in differentiation form: sum_j D_ij x_j - h f_i (ibid., section
+/// 4.1).
+Scheme lgr_differential(int n);
+/// Legendre-Gauss-Lobatto collocation at n >= 2 points, both ends among them, in integration form
+/// (Lobatto IIIA; Hairer, Norsett & Wanner 1993, section II.7). Order 2 n - 2; n = 2 is the
+/// trapezoidal rule, n = 3 Hermite-Simpson's.
+Scheme lgl(int n);
+
+/// The names scheme() knows.
+const std::vector<std::string>& scheme_names();
+/// By name; `points` is for lgr, lgr_differential and lgl. Throws InvalidValue for another name,
+/// naming the nearest.
+Scheme scheme(const std::string& name, int points = 4);
+
+/// The scheme of each interval of a mesh: one for all, or one each, such as LGR of other degrees.
+class Schemes {
+ public:
+  Schemes(const Scheme& scheme) : list_{scheme} {}  // NOLINT(google-explicit-constructor)
+  /// Throws InvalidValue for none.
+  explicit Schemes(std::vector<Scheme> list);
+
+  /// Throws InvalidValue unless it has one scheme, or as many as the mesh has intervals.
+  void check(const Mesh& mesh) const;
+  const Scheme& of(std::size_t interval) const {
+    return list_.size() == 1 ? list_.front() : list_[interval];
+  }
+  std::size_t most_points() const;
+
+ private:
+  std::vector<Scheme> list_;
+};
 
 }  // namespace slalom::ocp

@@ -15,7 +15,7 @@ namespace slalom::ocp {
 /// How to solve a problem; the defaults suit a smooth one.
 struct SolveSettings {
   Mesh mesh = Mesh::uniform(40);
-  Scheme scheme = hermite_simpson();
+  Schemes scheme = hermite_simpson();
   nlp::Options options = {};   ///< tol, floor, limits, ...
   std::string backend = {};    ///< of nlp::make_solver; empty: the default one
   Trajectory guess = {};       ///< empty: straight lines between the bounds at both ends

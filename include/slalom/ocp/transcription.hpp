@@ -16,14 +16,15 @@ namespace slalom::ocp {
 /// A problem made into a stage-structured NLP on a mesh by a collocation scheme.
 ///
 /// Stage k holds node k (slacks of that end, states, controls) and the interior points of interval
-/// k; the globals are t0, tf, static parameters and one copy of every end value that a function at
-/// another point uses (lifted, tied by an equation at its own stage). Everything nonlinear is
-/// evaluated in batches: one pass over all points for each function.
+/// k (a control that the scheme leaves out, such as the last one of LGR, is held from the point
+/// beside it); the globals are t0, tf, static parameters and one copy of every end value that a
+/// function at another point uses (lifted, tied by an equation at its own stage). Everything
+/// nonlinear is evaluated in batches: one pass over all points for each function.
 class Transcription final : public nlp::Problem {
  public:
   /// Throws InvalidValue for what no single declaration shows: a state without dynamics, no states,
   /// a function of a foreign symbol, more equations than unknowns.
-  Transcription(const ocp::Problem& problem, const Mesh& mesh, const Scheme& scheme);
+  Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes);
   ~Transcription() override;
 
   /// Takes over changed run-time parameters, family numbers, guesses and bounds. The problem must
