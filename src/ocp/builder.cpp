@@ -58,9 +58,8 @@ class Builder {
   }
 
   // --- rows --------------------------------------------------------------------------------
-  std::size_t add_row(RowName name, std::size_t stage, nlp::Coupling coupling, Bounds bounds,
-                      double scale) {
-    rows_.push_back({std::move(name), stage, coupling, bounds, scale});
+  std::size_t add_row(RowName name, std::size_t stage, Bounds bounds, double scale) {
+    rows_.push_back({std::move(name), stage, bounds, scale});
     return rows_.size() - 1;
   }
 
@@ -80,7 +79,7 @@ class Builder {
             std::tuple{layout.lifted_final[i], last, problem_.states()[i].final_symbol}}) {
         if (lifted == kNone) continue;
         const auto row = add_row({"copy of " + symbol.name()}, layout.point_stage[point],
-                                 nlp::Coupling::local, Bounds::equal(0), scale);
+                                 Bounds::equal(0), scale);
         linear_.push_back({row, layout.state(point, i), 1});
         linear_.push_back({row, lifted, -1});
       }
@@ -203,6 +202,8 @@ class Builder {
           return layout.t0;
         case Kind::tf:
           return layout.tf;
+        case Kind::integral:
+          return layout.integrals + meaning.index;
         default:
           return layout.static_parameters + meaning.index;
       }
@@ -241,6 +242,9 @@ class Builder {
       terms.push_back(term_index(cost.name));
       outputs.push_back({cost.name, duration * cost.value});
     }
+    const std::size_t first_integral = outputs.size();
+    for (const auto& integral : problem_.integrals())
+      outputs.push_back({"integrand of " + integral.name, duration * integral.integrand});
     const std::size_t first_path = outputs.size();
     std::vector<const Problem::Constraint*> paths;
     for (const auto& row : problem_.constraints())
@@ -251,7 +255,7 @@ class Builder {
     const auto batch = add_batch(outputs, points(Points::all), kNone, nullptr);
     add_defects(batch);
     hold_controls();
-    add_quadrature(batch, terms);
+    add_quadrature(batch, terms, first_integral);
     for (std::size_t i = 0; i < paths.size(); ++i)
       for (std::size_t point = 0; point < out_.layout.points(); ++point)
         use_as_row(batch, first_path + i, point, {paths[i]->name}, point, paths[i]->bounds);
@@ -261,8 +265,7 @@ class Builder {
                   std::size_t point, Bounds bounds) {
     const Layout& layout = out_.layout;
     name.text += " at " + layout.point_name(point);
-    const auto row =
-        add_row(std::move(name), layout.point_stage[point], nlp::Coupling::local, bounds, 1);
+    const auto row = add_row(std::move(name), layout.point_stage[point], bounds, 1);
     use(batch, output, lane, row, kNone, 1);
   }
 
@@ -278,7 +281,7 @@ class Builder {
           if (d < schemes_.of(k).defects())
             out_.defect_rows[(d * layout.nx + i) * intervals + k] =
                 add_row({fmt::format("defect {} of {} in interval {}", d, state.name, k)}, k,
-                        nlp::Coupling::neighbour, Bounds::equal(0), 1 / state.scale);
+                        Bounds::equal(0), 1 / state.scale);
         for (std::size_t j = 0; j <= most; ++j)
           for (std::size_t k = 0; k < intervals; ++k)
             if (defect_row(out_, d, i, k) != kNone && j < schemes_.of(k).points.size())
@@ -312,14 +315,15 @@ class Builder {
         const auto& control = problem_.controls()[i];
         const auto row = add_row({control.name + " held at " + layout.point_name(point)},
                                  std::min(layout.point_stage[point], layout.point_stage[from]),
-                                 nlp::Coupling::neighbour, Bounds::equal(0), 1 / control.scale);
+                                 Bounds::equal(0), 1 / control.scale);
         linear_.push_back({row, layout.control(point, i), 1});
         linear_.push_back({row, layout.control(from, i), -1});
       }
     }
   }
 
-  void add_quadrature(std::size_t batch, const std::vector<std::size_t>& terms) {
+  void add_quadrature(std::size_t batch, const std::vector<std::size_t>& terms,
+                      std::size_t first_integral) {
     const Layout& layout = out_.layout;
     std::vector<double> weight(layout.points(), 0.0);
     for (std::size_t k = 0; k < layout.intervals(); ++k)
@@ -334,6 +338,14 @@ class Builder {
     for (std::size_t t = 0; t < terms.size(); ++t)
       for (std::size_t point = 0; point < layout.points(); ++point)
         if (weight[point] != 0) use(batch, layout.nx + t, point, kNone, terms[t], weight[point]);
+    for (std::size_t i = 0; i < problem_.integrals().size(); ++i) {
+      const auto& integral = problem_.integrals()[i];
+      const auto row = add_row({"integral " + integral.name}, layout.intervals() + 1,
+                               Bounds::equal(0), 1 / integral.scale);
+      linear_.push_back({row, layout.integrals + i, -1});
+      for (std::size_t point = 0; point < layout.points(); ++point)
+        if (weight[point] != 0) use(batch, first_integral + i, point, row, kNone, weight[point]);
+    }
   }
 
   void add_path_rows(Points which) {
@@ -383,8 +395,8 @@ class Builder {
       const std::size_t point = end == End::initial ? 0 : out_.layout.points() - 1;
       const auto batch = add_batch(outputs, {point}, kNone, &end);
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        const auto row = add_row({rows[i]->name}, out_.layout.point_stage[point],
-                                 nlp::Coupling::local, rows[i]->bounds, 1);
+        const auto row =
+            add_row({rows[i]->name}, out_.layout.point_stage[point], rows[i]->bounds, 1);
         use(batch, i, 0, row, kNone, 1);
       }
       for (std::size_t i = 0; i < terms.size(); ++i)

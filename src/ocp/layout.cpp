@@ -46,6 +46,8 @@ Layout make_layout(const Problem& problem, const Mesh& mesh, const Schemes& sche
   layout.tf = next++;
   layout.static_parameters = next;
   next += problem.static_parameters().size();
+  layout.integrals = next;
+  next += problem.integrals().size();
   for (const auto& [used, where] : {std::pair{&lifts.initial, &layout.lifted_initial},
                                     std::pair{&lifts.final, &layout.lifted_final}}) {
     where->assign(layout.nx, kNone);
@@ -67,6 +69,8 @@ std::vector<double> variable_scales(const Problem& problem, const Layout& layout
   }
   for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
     scale[layout.static_parameters + i] = problem.static_parameters()[i].scale;
+  for (std::size_t i = 0; i < problem.integrals().size(); ++i)
+    scale[layout.integrals + i] = problem.integrals()[i].scale;
   for (std::size_t i = 0; i < layout.nx; ++i)
     for (const auto* lifted : {&layout.lifted_initial, &layout.lifted_final})
       if ((*lifted)[i] != kNone) scale[(*lifted)[i]] = problem.states()[i].scale;
@@ -105,6 +109,8 @@ void fill_variable_limits(const Problem& problem, const Layout& layout,
   for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
     set(layout.static_parameters + i, problem.static_parameters()[i].bounds,
         problem.static_parameters()[i].name);
+  for (std::size_t i = 0; i < problem.integrals().size(); ++i)
+    set(layout.integrals + i, problem.integrals()[i].bounds, problem.integrals()[i].name);
 }
 
 std::string variable_name(const Problem& problem, const Layout& layout, std::size_t index) {
@@ -114,6 +120,8 @@ std::string variable_name(const Problem& problem, const Layout& layout, std::siz
   if (index == layout.tf) return "tf";
   for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
     if (layout.static_parameters + i == index) return problem.static_parameters()[i].name;
+  for (std::size_t i = 0; i < problem.integrals().size(); ++i)
+    if (layout.integrals + i == index) return problem.integrals()[i].name;
   for (std::size_t i = 0; i < layout.nx; ++i) {
     if (layout.lifted_initial[i] == index) return problem.states()[i].initial_symbol.name();
     if (layout.lifted_final[i] == index) return problem.states()[i].final_symbol.name();

@@ -20,9 +20,9 @@ struct Layout {
   std::size_t nx = 0, nu = 0;
   std::vector<double> tau;  ///< of each point, in order of time
   std::vector<std::size_t> point_stage;
-  std::vector<std::size_t> node_point;  ///< point of each mesh node
-  std::vector<std::size_t> slack;       ///< variable of each slack
-  std::size_t t0 = 0, tf = 0, static_parameters = 0;
+  std::vector<std::size_t> node_point;                               ///< point of each mesh node
+  std::vector<std::size_t> slack;                                    ///< variable of each slack
+  std::size_t t0 = 0, tf = 0, static_parameters = 0, integrals = 0;  ///< the first of each
   std::vector<std::size_t> lifted_initial, lifted_final;  ///< by state; kNone where not used
   std::vector<std::uint32_t> variable_stage;
   std::size_t variables = 0;

@@ -99,6 +99,20 @@ Expr Problem::slack(const std::string& name, End end, Bounds bounds, double gues
   return slack.symbol;
 }
 
+Expr Problem::integral(const std::string& name, const Expr& integrand, Bounds bounds,
+                       double scale) {
+  claim_name(name);
+  Integral integral;
+  integral.symbol = Expr::symbol(name);
+  integral.name = name;
+  integral.bounds = bounds;
+  integral.scale = scale;
+  integral.integrand = integrand;
+  check_variable(name_ + ": integral " + name, integral);
+  integrals_.push_back(integral);
+  return integral.symbol;
+}
+
 Expr Problem::parameter(const std::string& name, double value) {
   check_parameter(name_, name, value);
   claim_name(name);

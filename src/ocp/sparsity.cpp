@@ -140,7 +140,6 @@ void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out) {
   structure.variable_stage = out.layout.variable_stage;
   for (const auto& row : rows) {
     structure.row_stage.push_back(narrow(row.stage));
-    structure.coupling.push_back(row.coupling);
     structure.row_scale.push_back(row.scale);
     out.limits.gl.push_back(row.bounds.lower * row.scale);
     out.limits.gu.push_back(row.bounds.upper * row.scale);

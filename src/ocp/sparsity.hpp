@@ -11,7 +11,6 @@ namespace slalom::ocp {
 struct RowInfo {
   RowName name;
   std::size_t stage;
-  nlp::Coupling coupling;
   Bounds bounds;  ///< user's unit
   double scale;   ///< row in the NLP = scale * the user's
 };

@@ -22,6 +22,8 @@ Symbols::Symbols(const Problem& problem) : problem_(problem) {
     learn(problem_.slacks()[i].symbol, {Kind::slack, i});
   for (std::size_t i = 0; i < problem_.static_parameters().size(); ++i)
     learn(problem_.static_parameters()[i].symbol, {Kind::static_parameter, i});
+  for (std::size_t i = 0; i < problem_.integrals().size(); ++i)
+    learn(problem_.integrals()[i].symbol, {Kind::integral, i});
   for (std::size_t i = 0; i < problem_.parameters().size(); ++i)
     learn(problem_.parameters()[i].symbol, {Kind::parameter, i});
   learn(problem_.initial_time(), {Kind::t0, 0});
@@ -81,6 +83,7 @@ Lifts Symbols::find_lifts() const {
     note(value, end == End::initial, end == End::final);
   };
   for (const auto& state : problem_.states()) note(state.rate, false, false);
+  for (const auto& integral : problem_.integrals()) note(integral.integrand, false, false);
   for (const auto& cost : problem_.costs()) {
     if (!cost.enabled) continue;
     cost.lagrange ? note(cost.value, false, false) : note_boundary(cost.value, cost.name);

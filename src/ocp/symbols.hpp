@@ -19,6 +19,7 @@ struct Meaning {
     t0,
     tf,
     static_parameter,
+    integral,
     tau,
     time,
     parameter,

@@ -39,9 +39,9 @@ Bounds intersection(Bounds a, Bounds b) {
 /// Throws unless `now` is `before` with other numbers.
 void check_same(const Problem& before, const Problem& now) {
   const auto sizes = [](const Problem& p) {
-    return std::array{p.states().size(),     p.controls().size(),   p.static_parameters().size(),
-                      p.slacks().size(),     p.parameters().size(), p.costs().size(),
-                      p.constraints().size()};
+    return std::array{p.states().size(), p.controls().size(),   p.static_parameters().size(),
+                      p.slacks().size(), p.integrals().size(),  p.parameters().size(),
+                      p.costs().size(),  p.constraints().size()};
   };
   if (now.name() != before.name() || sizes(now) != sizes(before))
     throw InvalidValue(before.name() + ": update", "another problem " + now.name(),
@@ -231,6 +231,8 @@ std::vector<double> Transcription::point(const Trajectory& guess) const {
     x[layout.static_parameters + i] = i < guess.static_parameters.size()
                                           ? guess.static_parameters[i]
                                           : problem.static_parameters()[i].guess;
+  for (std::size_t i = 0; i < guess.integrals.size() && i < problem.integrals().size(); ++i)
+    x[layout.integrals + i] = guess.integrals[i];
   for (std::size_t i = 0; i < layout.nx; ++i) {
     if (layout.lifted_initial[i] != kNone) x[layout.lifted_initial[i]] = x[layout.state(0, i)];
     if (layout.lifted_final[i] != kNone)
@@ -273,6 +275,8 @@ Trajectory Transcription::trajectory(std::span<const double> x) const {
   }
   for (std::size_t i = 0; i < impl_->problem.static_parameters().size(); ++i)
     result.static_parameters.push_back(value(layout.static_parameters + i));
+  for (std::size_t i = 0; i < impl_->problem.integrals().size(); ++i)
+    result.integrals.push_back(value(layout.integrals + i));
   for (std::size_t index : layout.slack) result.slacks.push_back(value(index));
   return result;
 }

@@ -43,7 +43,6 @@ class SmallProblem : public Problem {
     shape_.stages = 1;
     shape_.variable_stage.assign(n, 0);
     shape_.row_stage.assign(m, 0);
-    shape_.coupling.assign(m, Coupling::local);
     for (std::size_t e = 0; e < m * n; ++e) {
       shape_.jacobian_row.push_back(static_cast<std::uint32_t>(e / n));
       shape_.jacobian_col.push_back(static_cast<std::uint32_t>(e % n));

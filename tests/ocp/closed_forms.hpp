@@ -152,10 +152,27 @@ inline ClosedForm regulator() {
           [](double t) -> std::vector<double> { return {std::sinh(1 - t) / std::cosh(1)}; }};
 }
 
+/// x' = u from 0 to 0 over a given area under x, least half of the integral of u^2: x = 6 A t (1 -
+/// t).
+inline ClosedForm isoperimetric() {
+  Problem p("given area");
+  const double area = 0.5;
+  const Expr x = p.state("x"), u = p.control("u");
+  p.dynamics(x, u);
+  p.integral("area", x, Bounds::equal(area));
+  p.lagrange("effort", square(u) / 2);
+  fix(p, x, 0, 0);
+  return {p.name(),
+          p,
+          6 * area * area,
+          [=](double t) -> std::vector<double> { return {6 * area * t * (1 - t)}; },
+          {}};
+}
+
 inline std::vector<ClosedForm> closed_forms() {
-  return {regulator(),        brachistochrone(),      least_energy(),
-          bryson_denham(0.5), bryson_denham(1.0 / 5), bryson_denham(1.0 / 9),
-          least_time(),       moon_lander()};
+  return {regulator(),        brachistochrone(),      least_energy(),         isoperimetric(),
+          bryson_denham(0.5), bryson_denham(1.0 / 5), bryson_denham(1.0 / 9), least_time(),
+          moon_lander()};
 }
 
 }  // namespace slalom::ocp

@@ -68,6 +68,26 @@ TEST(ClosedForms, CostatesHaveTheDocumentedSign) {
   EXPECT_NEAR(cost_from(1).costate("x").front(), slope, 1e-6);
 }
 
+TEST(ClosedForms, IntegralsMayBeBoundedAndUsed) {
+  const auto form = isoperimetric();
+  // As an inequality, and with the cost itself an integral that a Mayer term uses.
+  Problem p("area at least");
+  const Expr x = p.state("x"), u = p.control("u");
+  p.dynamics(x, u);
+  const Expr area = p.integral("area", x, Bounds::at_least(0.5));
+  const Expr effort = p.integral("effort", square(u) / 2);
+  p.mayer("cost", effort + square(area - 0.5));
+  fix(p, x, 0, 0);
+  for (const Scheme& scheme : {trapezoidal(), hermite_simpson(), lgr(4), lgl(4)}) {
+    const Solution solution = solve(p, {.mesh = Mesh::uniform(24), .scheme = scheme});
+    SCOPED_TRACE(scheme.name);
+    ASSERT_TRUE(solution.solved()) << solution.residuals.worst_constraint;
+    EXPECT_NEAR(solution.objective, form.objective, scheme.order == 2 ? 2e-2 : 1e-6);
+    EXPECT_NEAR(solution.trajectory.integrals.at(0), 0.5, 1e-6);
+    EXPECT_NEAR(solution.trajectory.integrals.at(1), solution.objective, 1e-6);
+  }
+}
+
 TEST(ClosedForms, WarmStartFromTheSolution) {
   const auto form = brachistochrone();
   SolveSettings settings{.guess = form.guess};
@@ -104,7 +124,7 @@ TEST(Orders, AreTheSchemesOnesWhereTheSolutionIsSmoothAndTheCommittedTableHolds)
     if (!row.limit.empty()) continue;
     for (const Order* order : {&row.objective, &row.states, &row.costates}) {
       if (!order->known || order->exact) continue;
-      EXPECT_GE(order->value, row.expected - 0.4)
+      EXPECT_GE(order->value, row.expected - 0.5)
           << row.problem << ", " << row.scheme << ", " << row.mesh;
     }
   }

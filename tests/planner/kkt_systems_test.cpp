@@ -81,9 +81,7 @@ class PlannerSystem {
     for (std::size_t r = 0; r < shape.rows; ++r) {
       if (inequality_[r]) continue;
       number[r] = static_cast<std::uint32_t>(pattern_.equations++);
-      pattern_.equation_stage.push_back(shape.coupling[r] == nlp::Coupling::border
-                                            ? static_cast<std::uint32_t>(shape.stages)
-                                            : shape.row_stage[r]);
+      pattern_.equation_stage.push_back(shape.row_stage[r]);
     }
     pattern_.hessian = condensed_->places();
     for (std::uint32_t t = 0; t < shape.jacobian_row.size(); ++t)

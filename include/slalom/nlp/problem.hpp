@@ -8,13 +8,6 @@
 
 namespace slalom::nlp {
 
-/// Which variables a row touches besides the globals.
-enum class Coupling {
-  local,      ///< its own stage
-  neighbour,  ///< its own stage and the next
-  border,     ///< none, or stages that are no neighbours
-};
-
 /// Shape of a stage-structured nonlinear program
 ///
 ///   min f(x)   subject to   gl <= g(x) <= gu,   xl <= x <= xu
@@ -31,8 +24,8 @@ struct Structure {
   std::size_t rows = 0;
   std::size_t stages = 0;
   std::vector<std::uint32_t> variable_stage;
-  std::vector<std::uint32_t> row_stage;  ///< stage of each row (of the first, when coupling)
-  std::vector<Coupling> coupling;        ///< one a row
+  /// Of each row: the first stage it touches; `stages` for one that spans many.
+  std::vector<std::uint32_t> row_stage;
   std::vector<std::uint32_t> jacobian_row, jacobian_col;  ///< one an entry, each place once
   std::vector<std::uint32_t> hessian_row, hessian_col;    ///< lower triangle, each place once
   std::vector<double> variable_scale;                     ///< user's value = scale * x

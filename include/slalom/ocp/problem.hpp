@@ -54,6 +54,11 @@ class Problem {
   /// An extra variable at one end of the horizon, for softened boundary conditions.
   Expr slack(const std::string& name, End end, Bounds bounds, double guess = 0);
 
+  /// The integral over time of `integrand`, with bounds: an isoperimetric constraint, and a number
+  /// to use wherever a static parameter may stand.
+  Expr integral(const std::string& name, const Expr& integrand, Bounds bounds = {},
+                double scale = 1);
+
   // --- given quantities --------------------------------------------------------------------
   /// A run-time parameter: a number that set_parameter changes between solves without a rebuild.
   Expr parameter(const std::string& name, double value);
@@ -69,7 +74,7 @@ class Problem {
 
   // --- dynamics, cost, constraints ---------------------------------------------------------
   void dynamics(const Expr& state, const Expr& rate);
-  /// A cost term at the ends: of initial(), final(), slacks, t0, tf, static parameters.
+  /// A cost term at the ends: of initial(), final(), slacks, t0, tf, static parameters, integrals.
   void mayer(const std::string& name, const Expr& term);
   /// A cost term under the integral over time.
   void lagrange(const std::string& name, const Expr& integrand);
@@ -115,6 +120,9 @@ class Problem {
   struct Slack : Variable {
     End end = End::initial;
   };
+  struct Integral : Variable {
+    Expr integrand;
+  };
   struct Parameter {
     Expr symbol;
     std::string name;
@@ -144,6 +152,7 @@ class Problem {
   const std::vector<Variable>& controls() const { return controls_; }
   const std::vector<Variable>& static_parameters() const { return static_parameters_; }
   const std::vector<Slack>& slacks() const { return slacks_; }
+  const std::vector<Integral>& integrals() const { return integrals_; }
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<CostTerm>& costs() const { return costs_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
@@ -161,6 +170,7 @@ class Problem {
   std::vector<State> states_;
   std::vector<Variable> controls_, static_parameters_;
   std::vector<Slack> slacks_;
+  std::vector<Integral> integrals_;
   std::vector<Parameter> parameters_;
   std::vector<CostTerm> costs_;
   std::vector<Constraint> constraints_;

@@ -14,7 +14,8 @@ struct Trajectory {
   std::vector<std::vector<double>> states;    ///< [point][state]
   std::vector<std::vector<double>> controls;  ///< [point][control]
   std::vector<double> static_parameters;
-  std::vector<double> slacks;  ///< in the order the problem declared them
+  std::vector<double> slacks;          ///< in the order the problem declared them
+  std::vector<double> integrals = {};  ///< likewise; left out of a guess, 0
 
   double time(std::size_t point) const { return t0 + tau[point] * (tf - t0); }
 };

@@ -102,9 +102,7 @@ kkt::Pattern Model::pattern() const {
   for (std::size_t e = 0; e < equations_.size(); ++e) {
     const std::size_t r = equations_[e];
     number[r] = static_cast<std::uint32_t>(e);
-    pattern.equation_stage.push_back(shape_->coupling[r] == Coupling::border
-                                         ? static_cast<std::uint32_t>(shape_->stages)
-                                         : shape_->row_stage[r]);
+    pattern.equation_stage.push_back(shape_->row_stage[r]);
   }
   for (std::size_t t = 0; t < shape_->jacobian_row.size(); ++t) {
     const std::size_t r = shape_->jacobian_row[t];
