@@ -38,6 +38,7 @@ class Builder {
     add_path_rows(Points::after_first);
     add_families();
     add_ends();
+    run_time_forward();
     finish();
     return std::move(out_);
   }
@@ -84,6 +85,14 @@ class Builder {
         linear_.push_back({row, lifted, -1});
       }
     }
+  }
+
+  /// Where the bounds of t0 and tf leave it open.
+  void run_time_forward() {
+    if (problem_.t0().bounds.upper <= problem_.tf().bounds.lower) return;
+    const auto row = add_row({"tf after t0"}, out_.layout.intervals() + 1, Bounds::at_least(0), 1);
+    linear_.push_back({row, out_.layout.tf, 1});
+    linear_.push_back({row, out_.layout.t0, -1});
   }
 
   // --- functions ---------------------------------------------------------------------------

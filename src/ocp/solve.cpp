@@ -64,32 +64,86 @@ std::vector<double> Solution::costate(const std::string& state_name) const {
   return column(costates, index_of(state_name, state_names, "state"));
 }
 
-Solution solve(const Problem& problem, const SolveSettings& settings) {
-  Transcription transcription(problem, settings.mesh, settings.scheme);
-  nlp::Options options = settings.options;
-  nlp::Start start = settings.warm_start;
-  options.warm_start = !start.x.empty();
-  if (start.x.empty())
-    start.x = transcription.point(settings.guess.tau.empty() ? transcription.straight_guess()
-                                                             : settings.guess);
-  nlp::Answer answer = nlp::make_solver(settings.backend)->solve(transcription, start, options);
+namespace {
 
-  Solution solution;
-  solution.status = answer.status;
-  solution.fault = answer.fault;
-  solution.objective = answer.objective;
-  solution.cost_terms = transcription.cost_terms(answer.point.x);
-  solution.trajectory = transcription.trajectory(answer.point.x);
-  solution.costates = transcription.costates(answer.point.x, answer.point.y);
-  solution.residuals = nlp::check(transcription, answer.point, options);
-  solution.options = options;
-  solution.point = std::move(answer.point);
-  solution.iterations = answer.iterations;
-  solution.wall_s = answer.wall_s;
+/// What a point says of one phase.
+void describe(const Problem& problem, Transcription& transcription, std::span<const double> x,
+              std::span<const double> y, Solution& solution) {
+  solution.cost_terms = transcription.cost_terms(x);
+  solution.trajectory = transcription.trajectory(x);
+  solution.costates = transcription.costates(x, y);
   solution.state_names = names_of(problem.states());
   solution.control_names = names_of(problem.controls());
   solution.static_parameter_names = names_of(problem.static_parameters());
   solution.slack_names = names_of(problem.slacks());
+}
+
+/// Solves and checks; `solution` is of one phase or of several.
+template <class Result>
+void run(nlp::Problem& problem, const std::string& backend, nlp::Options options,
+         const nlp::Start& warm_start, const std::vector<double>& guess, Result& solution) {
+  nlp::Start start = warm_start;
+  options.warm_start = !start.x.empty();
+  if (start.x.empty()) start.x = guess;
+  nlp::Answer answer = nlp::make_solver(backend)->solve(problem, start, options);
+  solution.status = answer.status;
+  solution.fault = answer.fault;
+  solution.objective = answer.objective;
+  solution.residuals = nlp::check(problem, answer.point, options);
+  solution.options = options;
+  solution.backend = answer.backend;
+  solution.iterations = answer.iterations;
+  solution.wall_s = answer.wall_s;
+  solution.point = std::move(answer.point);
+}
+
+std::vector<double> guess_of(const Transcription& transcription, const Trajectory& guess) {
+  return transcription.point(guess.tau.empty() ? transcription.straight_guess() : guess);
+}
+
+}  // namespace
+
+Solution solve(const Problem& problem, const SolveSettings& settings) {
+  Transcription transcription(problem, settings.mesh, settings.scheme);
+  Solution solution;
+  run(transcription, settings.backend, settings.options, settings.warm_start,
+      guess_of(transcription, settings.guess), solution);
+  describe(problem, transcription, solution.point.x, solution.point.y, solution);
+  return solution;
+}
+
+PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& settings) {
+  const std::size_t phases = problem.phases().size();
+  auto grids = settings.grids;
+  if (grids.empty()) grids.resize(phases);
+  PhasedTranscription transcription(problem, grids);
+  if (!settings.guesses.empty() && settings.guesses.size() != phases)
+    throw InvalidValue(problem.name() + ": guesses", std::to_string(settings.guesses.size()),
+                       std::to_string(phases) + ", one a phase, or none");
+  std::vector<double> guess;
+  for (std::size_t p = 0; p < phases; ++p) {
+    const auto part = guess_of(transcription.phase(p),
+                               settings.guesses.empty() ? Trajectory{} : settings.guesses[p]);
+    guess.insert(guess.end(), part.begin(), part.end());
+  }
+  PhasedSolution solution;
+  run(transcription, settings.backend, settings.options, settings.warm_start, guess, solution);
+  for (std::size_t p = 0; p < phases; ++p) {
+    Solution& part = solution.phases.emplace_back();
+    describe(problem.phases()[p], transcription.phase(p),
+             transcription.variables_of(p, solution.point.x),
+             transcription.rows_of(p, solution.point.y), part);
+    part.status = solution.status;
+    part.residuals = solution.residuals;
+    part.options = solution.options;
+    part.backend = solution.backend;
+    part.iterations = solution.iterations;
+    part.wall_s = solution.wall_s;
+    for (const auto& term : part.cost_terms) part.objective += term.second;
+  }
+  for (std::size_t l = 0; l < problem.links().size(); ++l)
+    solution.link_multipliers.emplace_back(problem.links()[l].name,
+                                           solution.point.y[transcription.first_link() + l]);
   return solution;
 }
 

@@ -83,7 +83,7 @@ void check_guess(const Trajectory& guess, const Problem& problem) {
 class Transcription::Impl {
  public:
   Impl(const ocp::Problem& p, const Mesh& mesh, const Schemes& schemes)
-      : problem(p), data(transcribe(p, mesh, schemes)) {
+      : problem(p), symbols(problem), data(transcribe(p, mesh, schemes)) {
     terms.resize(data.terms.size());
   }
 
@@ -187,6 +187,7 @@ class Transcription::Impl {
   }
 
   ocp::Problem problem;
+  Symbols symbols;  ///< of `problem`
   Transcribed data;
   std::vector<double> terms;
 };
@@ -301,6 +302,29 @@ std::size_t Transcription::defect_row(std::size_t state, std::size_t interval) c
   const Layout& layout = impl_->data.layout;
   const std::size_t points = layout.node_point[interval + 1] - layout.node_point[interval];
   return ocp::defect_row(impl_->data, points - 1, state, interval);
+}
+
+std::optional<std::size_t> Transcription::end_variable(const Expr& symbol) const {
+  const Layout& layout = impl_->data.layout;
+  const Meaning* meaning = impl_->symbols.find(symbol);
+  if (meaning == nullptr) return std::nullopt;
+  using Kind = Meaning::Kind;
+  switch (meaning->kind) {
+    case Kind::initial:
+      return layout.state(0, meaning->index);
+    case Kind::final:
+      return layout.state(layout.points() - 1, meaning->index);
+    case Kind::t0:
+      return layout.t0;
+    case Kind::tf:
+      return layout.tf;
+    case Kind::static_parameter:
+      return layout.static_parameters + meaning->index;
+    case Kind::integral:
+      return layout.integrals + meaning->index;
+    default:
+      return std::nullopt;
+  }
 }
 
 const nlp::Structure& Transcription::structure() const {

@@ -97,6 +97,8 @@ class Problem {
   void enable_cost(const std::string& name, bool enabled);
 
   // --- ends --------------------------------------------------------------------------------
+  /// Time runs forward: tf >= t0, whatever their bounds.
+  // --------------------------------------------------------------------------------
   void initial_time(Bounds bounds, double guess);
   void final_time(Bounds bounds, double guess);
   /// Extra bounds of a state at one end; Bounds::equal fixes it.

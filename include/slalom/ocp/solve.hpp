@@ -6,6 +6,7 @@
 
 #include "slalom/nlp/check.hpp"
 #include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/phases.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "slalom/ocp/trajectory.hpp"
@@ -34,6 +35,7 @@ struct Solution {
   std::vector<std::vector<double>> costates;
   nlp::Residuals residuals;  ///< recomputed from the point; names the worst constraint
   nlp::Options options;      ///< those it was solved with
+  std::string backend;       ///< that solved it, with its factorisation
   nlp::Start point;          ///< of the NLP, for warm starts
   int iterations = 0;
   double wall_s = 0;
@@ -58,5 +60,37 @@ struct Solution {
 /// Transcribes, solves and checks. Throws InvalidValue for set-up errors only; how the solve ended
 /// is in the Solution.
 [[nodiscard]] Solution solve(const Problem& problem, const SolveSettings& settings = {});
+
+/// How to solve a phased problem; lists have one entry a phase, or none for defaults.
+struct PhasedSettings {
+  std::vector<PhasedTranscription::Grid> grids = {};
+  nlp::Options options = {};
+  std::string backend = {};
+  std::vector<Trajectory> guesses = {};
+  nlp::Start warm_start = {};  ///< a PhasedSolution's `point`, of the same grids; beats guesses
+};
+
+/// A solved phased problem.
+struct PhasedSolution {
+  nlp::Status status = nlp::Status::numerical_failure;
+  nlp::Fault fault;
+  double objective = 0;
+  std::vector<Solution> phases;  ///< each with its own share of the objective
+  /// By link: dJ* over a change of its bounds, with the sign of nlp::Start.
+  std::vector<std::pair<std::string, double>> link_multipliers;
+  nlp::Residuals residuals;
+  nlp::Options options;
+  std::string backend;
+  nlp::Start point;
+  int iterations = 0;
+  double wall_s = 0;
+
+  [[nodiscard]] bool solved() const {
+    return status == nlp::Status::solved && residuals.solved(options);
+  }
+};
+
+[[nodiscard]] PhasedSolution solve(const PhasedProblem& problem,
+                                   const PhasedSettings& settings = {});
 
 }  // namespace slalom::ocp

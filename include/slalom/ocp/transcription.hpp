@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -48,6 +49,10 @@ class Transcription final : public nlp::Problem {
   std::vector<std::vector<double>> costates(std::span<const double> x, std::span<const double> y);
   /// Row of interval k's last defect of a state.
   std::size_t defect_row(std::size_t state, std::size_t interval) const;
+
+  /// The variable behind an end value, t0, tf, a static parameter or an integral; none for another
+  /// symbol.
+  std::optional<std::size_t> end_variable(const Expr& symbol) const;
 
   const nlp::Structure& structure() const override;
   const nlp::Limits& limits() const override;

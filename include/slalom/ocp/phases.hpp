@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "slalom/nlp/problem.hpp"
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/transcription.hpp"
+
+namespace slalom::ocp {
+
+/// Several phases, each an optimal-control problem with states, controls, times and parameters of
+/// its own, and what links their ends. The objective is the sum of theirs. All set-up errors are
+/// exceptions that name the phase and the offending item.
+class PhasedProblem {
+ public:
+  explicit PhasedProblem(std::string name);
+
+  /// Appends a phase; their names must differ. Returns its number, from 0.
+  std::size_t add(Problem phase);
+  /// A constraint between phases: an expression of initial(), final(), initial_time(),
+  /// final_time(), static parameters and integrals of any of them.
+  void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));
+  /// The states that both phases have by name are continuous from the end of `from` to the begin of
+  /// `to`, and so is time. Throws InvalidValue when they have none.
+  void connect(std::size_t from, std::size_t to);
+
+  struct Link {
+    std::string name;
+    Expr value;
+    Bounds bounds;
+  };
+  const std::string& name() const { return name_; }
+  const std::vector<Problem>& phases() const { return phases_; }
+  const std::vector<Link>& links() const { return links_; }
+
+ private:
+  const Problem& phase(std::size_t number, const char* what) const;
+
+  std::string name_;
+  std::vector<Problem> phases_;
+  std::vector<Link> links_;
+};
+
+/// A phased problem made into one stage-structured NLP: the phases' stages one after the other,
+/// each phase's own times, parameters and integrals at its last stage, where they are eliminated.
+class PhasedTranscription final : public nlp::Problem {
+ public:
+  /// How a phase is discretised.
+  struct Grid {
+    Mesh mesh = Mesh::uniform(40);
+    Schemes schemes = hermite_simpson();
+  };
+  /// One grid a phase. Throws InvalidValue for another number, for a phase that no link touches
+  /// (of several), and for a link of a foreign symbol.
+  PhasedTranscription(const PhasedProblem& problem, const std::vector<Grid>& grids);
+  ~PhasedTranscription() override;
+
+  std::size_t phases() const;
+  Transcription& phase(std::size_t number);
+  /// The part of a point's variables or of its rows' multipliers that belongs to a phase.
+  std::span<const double> variables_of(std::size_t phase, std::span<const double> x) const;
+  std::span<const double> rows_of(std::size_t phase, std::span<const double> y) const;
+  /// First row of the links, in their order.
+  std::size_t first_link() const;
+
+  const nlp::Structure& structure() const override;
+  const nlp::Limits& limits() const override;
+  nlp::Fault evaluate(std::span<const double> x, double sigma, std::span<const double> y,
+                      nlp::Parts parts, nlp::Evaluation& out) override;
+  std::string variable_name(std::size_t index) const override;
+  std::string row_name(std::size_t index) const override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace slalom::ocp

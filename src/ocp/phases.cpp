@@ -1,0 +1,376 @@
+#include "slalom/ocp/phases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "slalom/base/error.hpp"
+#include "slalom/expr/evaluator.hpp"
+#include "slalom/expr/function.hpp"
+
+namespace slalom::ocp {
+
+PhasedProblem::PhasedProblem(std::string name) : name_(std::move(name)) {}
+
+std::size_t PhasedProblem::add(Problem phase) {
+  for (const auto& known : phases_)
+    if (known.name() == phase.name())
+      throw InvalidValue(name_, "the phase '" + phase.name() + "' twice", "names that differ");
+  phases_.push_back(std::move(phase));
+  return phases_.size() - 1;
+}
+
+void PhasedProblem::link(const std::string& name, const Expr& value, Bounds bounds) {
+  for (const auto& known : links_)
+    if (known.name == name)
+      throw InvalidValue(name_, "the link '" + name + "' twice", "names that differ");
+  if (!(bounds.lower <= bounds.upper))
+    throw InvalidValue(name_ + ": link " + name,
+                       fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
+                       "a lower bound not above the upper one");
+  links_.push_back({name, value, bounds});
+}
+
+const Problem& PhasedProblem::phase(std::size_t number, const char* what) const {
+  if (number >= phases_.size())
+    throw InvalidValue(name_ + ": " + what, fmt::format("phase {}", number),
+                       fmt::format("one of the {} phases, from 0", phases_.size()));
+  return phases_[number];
+}
+
+void PhasedProblem::connect(std::size_t from, std::size_t to) {
+  const Problem &a = phase(from, "connect"), &b = phase(to, "connect");
+  std::size_t common = 0;
+  for (const auto& state : a.states())
+    for (const auto& other : b.states()) {
+      if (state.name != other.name) continue;
+      link(fmt::format("{} from {} to {}", state.name, a.name(), b.name()),
+           state.final_symbol - other.initial_symbol);
+      ++common;
+    }
+  if (common == 0)
+    throw InvalidValue(name_ + ": connect",
+                       fmt::format("no state of {} that {} has too", a.name(), b.name()),
+                       "states of the same name, or links of their own");
+  link(fmt::format("time from {} to {}", a.name(), b.name()), a.final_time() - b.initial_time());
+}
+
+namespace {
+
+std::uint32_t narrow(std::size_t n) {
+  return static_cast<std::uint32_t>(n);
+}
+
+/// Where a phase's part of each list begins.
+struct Offsets {
+  std::size_t variables = 0, rows = 0, stages = 0, jacobian = 0, hessian = 0;
+};
+
+/// All links as one function of the ends' variables.
+class Links {
+ public:
+  Links(const PhasedProblem& problem, const std::vector<std::unique_ptr<Transcription>>& parts,
+        const std::vector<Offsets>& offsets) {
+    std::vector<Expr> values, symbols;
+    for (const auto& link : problem.links()) values.push_back(link.value);
+    std::vector<char> touched(parts.size(), parts.size() == 1);
+    for (const auto& symbol : expr::symbols_of(values)) {
+      symbols.push_back(symbol);
+      const std::size_t p = find(problem, parts, symbol);
+      touched[p] = 1;
+      const std::size_t at = *parts[p]->end_variable(symbol);
+      variables_.push_back(offsets[p].variables + at);
+      scales_.push_back(parts[p]->structure().variable_scale[at]);
+    }
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (!touched[p])
+        throw InvalidValue(problem.name() + ": phase " + problem.phases()[p].name(), "no link",
+                           "a link with another phase");
+    function_ = expr::Function(symbols, {}, values);
+    evaluator_.emplace(function_, 1);
+    evaluator_->prepare({.values = true, .jacobian = true, .hessian = true});
+    inputs_.resize(symbols.size());
+    for (std::size_t i = 0; i < inputs_.size(); ++i) evaluator_->set_variable(i, &inputs_[i], true);
+  }
+
+  const expr::Function& function() const { return function_; }
+  std::size_t variable(std::size_t i) const { return variables_[i]; }
+  double scale(std::size_t i) const { return scales_[i]; }
+
+  void evaluate(std::span<const double> x, std::span<const double> y, nlp::Parts parts) {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i] = scales_[i] * x[variables_[i]];
+    if (parts.hessian) std::copy(y.begin(), y.end(), evaluator_->weights().begin());
+    evaluator_->evaluate({parts.values, parts.derivatives, parts.hessian});
+  }
+  const expr::Evaluator& results() const { return *evaluator_; }
+
+ private:
+  static std::size_t find(const PhasedProblem& problem,
+                          const std::vector<std::unique_ptr<Transcription>>& parts,
+                          const Expr& symbol) {
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (parts[p]->end_variable(symbol)) return p;
+    throw InvalidValue(problem.name() + ": links", "the symbol '" + symbol.name() + "'",
+                       "end values, times, static parameters and integrals of its phases");
+  }
+
+  expr::Function function_;
+  std::optional<expr::Evaluator> evaluator_;
+  std::vector<std::size_t> variables_;
+  std::vector<double> scales_, inputs_;
+};
+
+}  // namespace
+
+class PhasedTranscription::Impl {
+ public:
+  Impl(const PhasedProblem& problem, const std::vector<Grid>& grids) : problem_(problem) {
+    if (problem.phases().empty()) throw InvalidValue(problem.name(), "no phases", "at least one");
+    if (grids.size() != problem.phases().size())
+      throw InvalidValue(problem.name() + ": grids", fmt::format("{}", grids.size()),
+                         fmt::format("{}, one a phase", problem.phases().size()));
+    for (std::size_t p = 0; p < grids.size(); ++p)
+      parts_.push_back(
+          std::make_unique<Transcription>(problem.phases()[p], grids[p].mesh, grids[p].schemes));
+    at_.resize(parts_.size());
+    join();
+    links_.emplace(problem, parts_, offsets_);
+    add_links();
+    structure.id = nlp::Structure::next_id();
+  }
+
+  nlp::Fault evaluate(std::span<const double> x, double sigma, std::span<const double> y,
+                      nlp::Parts parts, nlp::Evaluation& out) {
+    resize(parts, out);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const auto rows = y.empty() ? y : rows_of(p, y);
+      if (auto fault = parts_[p]->evaluate(variables_of(p, x), sigma, rows, parts, at_[p]))
+        return {problem_.phases()[p].name() + ": " + fault.function, fault.where, fault.variable};
+      take_over(p, parts, out);
+    }
+    const auto links = y.empty() ? y : y.subspan(first_link);
+    links_->evaluate(x, links, parts);
+    add_results(parts, out);
+    return check_links(parts, out);
+  }
+
+  std::span<const double> variables_of(std::size_t p, std::span<const double> x) const {
+    return x.subspan(offsets_[p].variables, parts_[p]->structure().variables);
+  }
+  std::span<const double> rows_of(std::size_t p, std::span<const double> y) const {
+    return y.subspan(offsets_[p].rows, parts_[p]->structure().rows);
+  }
+
+  std::string variable_name(std::size_t index) const {
+    const std::size_t p = phase_of(index, &Offsets::variables);
+    return problem_.phases()[p].name() + ": " +
+           parts_[p]->variable_name(index - offsets_[p].variables);
+  }
+  std::string row_name(std::size_t index) const {
+    if (index >= first_link) return problem_.links().at(index - first_link).name;
+    const std::size_t p = phase_of(index, &Offsets::rows);
+    return problem_.phases()[p].name() + ": " + parts_[p]->row_name(index - offsets_[p].rows);
+  }
+
+  const PhasedProblem problem_;
+  std::vector<std::unique_ptr<Transcription>> parts_;
+  nlp::Structure structure;
+  nlp::Limits limits;
+  std::size_t first_link = 0;
+
+ private:
+  // --- set-up ------------------------------------------------------------------------------
+  template <class T>
+  static void append(std::vector<T>& to, const std::vector<T>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  static void append(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from,
+                     std::size_t offset) {
+    for (const auto index : from) to.push_back(narrow(index + offset));
+  }
+
+  /// What is global to a phase belongs to its last stage.
+  void join() {
+    Offsets next;
+    for (const auto& part : parts_) {
+      const nlp::Structure& s = part->structure();
+      offsets_.push_back(next);
+      const auto stages = [&](const std::vector<std::uint32_t>& from,
+                              std::vector<std::uint32_t>& to) {
+        for (const std::size_t stage : from)
+          to.push_back(narrow(next.stages + std::min(stage, s.stages - 1)));
+      };
+      stages(s.variable_stage, structure.variable_stage);
+      stages(s.row_stage, structure.row_stage);
+      append(structure.jacobian_row, s.jacobian_row, next.rows);
+      append(structure.jacobian_col, s.jacobian_col, next.variables);
+      append(structure.hessian_row, s.hessian_row, next.variables);
+      append(structure.hessian_col, s.hessian_col, next.variables);
+      append(structure.variable_scale, s.variable_scale);
+      append(structure.row_scale, s.row_scale);
+      append(limits.xl, part->limits().xl);
+      append(limits.xu, part->limits().xu);
+      append(limits.gl, part->limits().gl);
+      append(limits.gu, part->limits().gu);
+      next.variables += s.variables;
+      next.rows += s.rows;
+      next.stages += s.stages;
+      next.jacobian += s.jacobian_row.size();
+      next.hessian += s.hessian_row.size();
+    }
+    structure.variables = next.variables;
+    structure.stages = next.stages;
+    first_link = next.rows;
+    links_jacobian_ = next.jacobian;
+  }
+
+  void add_links() {
+    const expr::Function& f = links_->function();
+    structure.rows = first_link + problem_.links().size();
+    std::vector<std::size_t> stage(problem_.links().size(), structure.stages);
+    for (const auto& entry : f.jacobian_pattern()) {
+      const std::size_t variable = links_->variable(entry.col);
+      stage[entry.row] =
+          std::min<std::size_t>(stage[entry.row], structure.variable_stage[variable]);
+      structure.jacobian_row.push_back(narrow(first_link + entry.row));
+      structure.jacobian_col.push_back(narrow(variable));
+    }
+    for (std::size_t l = 0; l < problem_.links().size(); ++l) {
+      structure.row_stage.push_back(narrow(stage[l]));
+      structure.row_scale.push_back(1);
+      limits.gl.push_back(problem_.links()[l].bounds.lower);
+      limits.gu.push_back(problem_.links()[l].bounds.upper);
+    }
+    std::unordered_map<std::uint64_t, std::size_t> known;
+    const auto key = [](std::size_t row, std::size_t col) {
+      return (std::uint64_t{row} << 32) | col;
+    };
+    for (std::size_t e = 0; e < structure.hessian_row.size(); ++e)
+      known.emplace(key(structure.hessian_row[e], structure.hessian_col[e]), e);
+    for (const auto& entry : f.hessian_pattern()) {
+      const std::size_t a = links_->variable(entry.row), b = links_->variable(entry.col);
+      const std::size_t row = std::max(a, b), col = std::min(a, b);
+      const auto [place, fresh] = known.emplace(key(row, col), structure.hessian_row.size());
+      if (fresh) {
+        structure.hessian_row.push_back(narrow(row));
+        structure.hessian_col.push_back(narrow(col));
+      }
+      links_hessian_.push_back(place->second);
+    }
+  }
+
+  // --- evaluation --------------------------------------------------------------------------
+  void resize(nlp::Parts parts, nlp::Evaluation& out) const {
+    if (parts.values) {
+      out.objective = 0;
+      out.rows.resize(structure.rows);
+    }
+    if (parts.derivatives) {
+      out.gradient.resize(structure.variables);
+      out.jacobian.resize(structure.jacobian_row.size());
+    }
+    if (parts.hessian) out.hessian.assign(structure.hessian_row.size(), 0.0);
+  }
+  void take_over(std::size_t p, nlp::Parts parts, nlp::Evaluation& out) const {
+    const nlp::Evaluation& from = at_[p];
+    const auto copy = [](const std::vector<double>& list, std::vector<double>& to,
+                         std::size_t offset) {
+      std::copy(list.begin(), list.end(), to.begin() + static_cast<std::ptrdiff_t>(offset));
+    };
+    if (parts.values) {
+      out.objective += from.objective;
+      copy(from.rows, out.rows, offsets_[p].rows);
+    }
+    if (parts.derivatives) {
+      copy(from.gradient, out.gradient, offsets_[p].variables);
+      copy(from.jacobian, out.jacobian, offsets_[p].jacobian);
+    }
+    if (parts.hessian) copy(from.hessian, out.hessian, offsets_[p].hessian);
+  }
+  void add_results(nlp::Parts parts, nlp::Evaluation& out) const {
+    const expr::Evaluator& at = links_->results();
+    const expr::Function& f = links_->function();
+    if (parts.values)
+      std::copy(at.values().begin(), at.values().end(),
+                out.rows.begin() + static_cast<std::ptrdiff_t>(first_link));
+    if (parts.derivatives)
+      for (std::size_t e = 0; e < f.jacobian_pattern().size(); ++e)
+        out.jacobian[links_jacobian_ + e] =
+            at.jacobian()[e] * links_->scale(f.jacobian_pattern()[e].col);
+    if (parts.hessian)
+      for (std::size_t e = 0; e < f.hessian_pattern().size(); ++e) {
+        const auto& entry = f.hessian_pattern()[e];
+        out.hessian[links_hessian_[e]] +=
+            at.hessian()[e] * links_->scale(entry.row) * links_->scale(entry.col);
+      }
+  }
+  nlp::Fault check_links(nlp::Parts parts, const nlp::Evaluation& out) const {
+    if (parts.values)
+      for (std::size_t r = first_link; r < structure.rows; ++r)
+        if (!std::isfinite(out.rows[r])) return {"link " + row_name(r), "the phases' ends", ""};
+    if (parts.derivatives)
+      for (std::size_t e = links_jacobian_; e < out.jacobian.size(); ++e)
+        if (!std::isfinite(out.jacobian[e]))
+          return {"link " + row_name(structure.jacobian_row[e]), "the phases' ends",
+                  variable_name(structure.jacobian_col[e])};
+    return {};
+  }
+
+  std::size_t phase_of(std::size_t index, std::size_t Offsets::*what) const {
+    std::size_t p = parts_.size() - 1;
+    while (offsets_[p].*what > index) --p;
+    return p;
+  }
+
+  std::vector<Offsets> offsets_;
+  std::optional<Links> links_;
+  std::size_t links_jacobian_ = 0;          ///< first entry of the links' Jacobian
+  std::vector<std::size_t> links_hessian_;  ///< place of each entry of the links' Hessian
+  std::vector<nlp::Evaluation> at_;         ///< of each phase
+};
+
+PhasedTranscription::PhasedTranscription(const PhasedProblem& problem,
+                                         const std::vector<Grid>& grids)
+    : impl_(std::make_unique<Impl>(problem, grids)) {}
+PhasedTranscription::~PhasedTranscription() = default;
+
+std::size_t PhasedTranscription::phases() const {
+  return impl_->parts_.size();
+}
+Transcription& PhasedTranscription::phase(std::size_t number) {
+  return *impl_->parts_.at(number);
+}
+std::span<const double> PhasedTranscription::variables_of(std::size_t phase,
+                                                          std::span<const double> x) const {
+  return impl_->variables_of(phase, x);
+}
+std::span<const double> PhasedTranscription::rows_of(std::size_t phase,
+                                                     std::span<const double> y) const {
+  return impl_->rows_of(phase, y);
+}
+std::size_t PhasedTranscription::first_link() const {
+  return impl_->first_link;
+}
+const nlp::Structure& PhasedTranscription::structure() const {
+  return impl_->structure;
+}
+const nlp::Limits& PhasedTranscription::limits() const {
+  return impl_->limits;
+}
+nlp::Fault PhasedTranscription::evaluate(std::span<const double> x, double sigma,
+                                         std::span<const double> y, nlp::Parts parts,
+                                         nlp::Evaluation& out) {
+  return impl_->evaluate(x, sigma, y, parts, out);
+}
+std::string PhasedTranscription::variable_name(std::size_t index) const {
+  return impl_->variable_name(index);
+}
+std::string PhasedTranscription::row_name(std::size_t index) const {
+  return impl_->row_name(index);
+}
+
+}  // namespace slalom::ocp

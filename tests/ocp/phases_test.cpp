@@ -1,0 +1,222 @@
+#include "slalom/ocp/phases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "ocp/closed_forms.hpp"
+#include "ocp/messages.hpp"
+#include "slalom/ocp/solve.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+using test::refusal;
+
+/// A stretch of the double integrator with |u| <= 1.
+struct Stretch {
+  Problem problem;
+  Expr x, v, u;
+
+  Stretch(const std::string& name, Bounds push)
+      : problem(name), x(problem.state("x")), v(problem.state("v")), u(problem.control("u", push)) {
+    problem.dynamics(x, v);
+    problem.dynamics(v, u);
+  }
+};
+
+/// Least time from rest to rest over 1, the switch of the control an end between two phases whose
+/// times are free: the control of each is constant.
+PhasedProblem least_time_in_two() {
+  Stretch ahead("ahead", {-1, 1}), back("back", {-1, 1});
+  ahead.problem.initial_bounds(ahead.x, Bounds::equal(0));
+  ahead.problem.initial_bounds(ahead.v, Bounds::equal(0));
+  ahead.problem.final_time({0.1, 5}, 0.7);
+  back.problem.initial_time({0.1, 5}, 0.7);
+  back.problem.final_time({0.1, 10}, 1.5);
+  back.problem.final_bounds(back.x, Bounds::equal(1));
+  back.problem.final_bounds(back.v, Bounds::equal(0));
+  back.problem.mayer("arrival", back.problem.final_time());
+  PhasedProblem both("least time in two phases");
+  both.add(ahead.problem);
+  both.add(back.problem);
+  both.connect(0, 1);
+  return both;
+}
+
+TEST(Phases, TheSwitchOfABangBangControlIsAnEndOfTheirs) {
+  for (const std::string& backend : nlp::backends())
+    for (const Scheme& scheme : {backward_euler(), trapezoidal(), hermite_simpson(), lgr(3)}) {
+      SCOPED_TRACE(scheme.name + " by " + backend);
+      PhasedSettings settings;
+      settings.grids = {{Mesh::uniform(3), scheme}, {Mesh::uniform(4), scheme}};
+      settings.backend = backend;
+      const PhasedSolution solution = solve(least_time_in_two(), settings);
+      ASSERT_TRUE(solution.solved()) << solution.residuals.worst_constraint;
+      // Schemes of higher order keep u within its bounds at their points alone, and gain a little.
+      if (scheme.order > 2) EXPECT_NEAR(solution.objective, 2, 1e-2);
+      if (scheme.order == 2) {
+        EXPECT_NEAR(solution.objective, 2, 1e-6);
+        EXPECT_NEAR(solution.phases[0].tf(), 1, 1e-5);
+        EXPECT_NEAR(solution.phases[1].state("x").front(), 0.5, 1e-5);
+      }
+      EXPECT_NEAR(solution.phases[0].tf(), solution.phases[1].trajectory.t0, 1e-8);
+      EXPECT_EQ(solution.phases[0].state("x").size(), 3 * (scheme.interior() + 1) + 1);
+    }
+}
+
+/// The regulator cut in `count` equal phases: with Hermite-Simpson the same NLP solution as in one.
+PhasedProblem cut_regulator(int count) {
+  PhasedProblem all("regulator in pieces");
+  for (int k = 0; k < count; ++k) {
+    Problem p("piece " + std::to_string(k));
+    const Expr x = p.state("x"), u = p.control("u");
+    p.dynamics(x, u);
+    p.lagrange("cost", (square(x) + square(u)) / 2);
+    p.initial_time(Bounds::equal(static_cast<double>(k) / count), 0);
+    p.final_time(Bounds::equal((k + 1.0) / count), 1);
+    if (k == 0) p.initial_bounds(x, Bounds::equal(1));
+    all.add(p);
+    if (k > 0)
+      all.link("x into piece " + std::to_string(k),
+               all.phases()[k - 1].states()[0].final_symbol - p.states()[0].initial_symbol);
+  }
+  return all;
+}
+
+TEST(Phases, PiecesOfAProblemAddUp) {
+  const auto whole = regulator();
+  for (const int count : {1, 2, 5}) {
+    PhasedSettings settings;
+    settings.grids.assign(static_cast<std::size_t>(count), {Mesh::uniform(8), hermite_simpson()});
+    const PhasedSolution solution = solve(cut_regulator(count), settings);
+    ASSERT_TRUE(solution.solved()) << count;
+    EXPECT_NEAR(solution.objective, whole.objective, 1e-5);
+    double sum = 0;
+    for (const auto& phase : solution.phases) sum += phase.objective;
+    EXPECT_NEAR(sum, solution.objective, 1e-12);
+    for (const auto& phase : solution.phases)
+      EXPECT_NEAR(phase.costate("x").front(), whole.costates(phase.trajectory.t0)[0], 1e-4);
+    // Raising the link by d takes d off the next phase's begin: -(dJ/dx) there, sign of Start.
+    for (std::size_t l = 0; l < solution.link_multipliers.size(); ++l)
+      EXPECT_NEAR(std::fabs(solution.link_multipliers[l].second),
+                  std::fabs(whole.costates((l + 1.0) / count)[0]), 1e-4);
+  }
+}
+
+TEST(Phases, LinksMayBeNonlinearAndInequalities) {
+  // Two half turns of a unit circle's point at free speeds; the product of both durations is held.
+  PhasedProblem both("products");
+  Problem a("a"), b("b");
+  for (Problem* p : {&a, &b}) {
+    const Expr x = p->state("x"), u = p->control("u", {0.1, 10});
+    p->dynamics(x, u);
+    p->lagrange("effort", square(u) / 2);
+    p->initial_bounds(x, Bounds::equal(0));
+    p->final_bounds(x, Bounds::equal(1));
+    p->final_time({0.1, 10}, 1);
+  }
+  both.add(a);
+  both.add(b);
+  both.link("product of durations", a.final_time() * b.final_time(), Bounds::at_most(4));
+  both.link("sum of squares", square(a.final_time()) + square(b.final_time()), Bounds::at_most(10));
+  const PhasedSolution solution = solve(both);
+  ASSERT_TRUE(solution.solved()) << solution.residuals.worst_constraint;
+  // Effort 1 / (2 T): least for T1 T2 = 4 with T1 = T2, by convexity.
+  EXPECT_NEAR(solution.phases[0].tf(), 2, 1e-3);
+  EXPECT_NEAR(solution.phases[1].tf(), 2, 1e-3);
+  EXPECT_NEAR(solution.objective, 0.5, 1e-6);
+}
+
+TEST(Phases, DerivativesOfLinksMatchDifferences) {
+  PhasedProblem problem = cut_regulator(3);
+  const auto& phases = problem.phases();
+  problem.link("odd", sin(phases[0].states()[0].final_symbol * phases[2].states()[0].final_symbol),
+               {-2, 2});
+  problem.link("same phase", square(phases[1].states()[0].final_symbol), {-2, 9});
+  PhasedTranscription t(problem, {{Mesh::uniform(2)}, {Mesh::uniform(3)}, {Mesh::uniform(1)}});
+  const auto& shape = t.structure();
+  std::vector<double> x(shape.variables), y(shape.rows);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = 0.3 + 0.1 * std::sin(1.0 + 3 * double(i));
+  for (std::size_t r = 0; r < y.size(); ++r) y[r] = std::cos(2.0 * double(r));
+  const auto gradient = [&](const std::vector<double>& at) {
+    nlp::Evaluation e;
+    EXPECT_FALSE(t.evaluate(at, 1, y, {true, true, false}, e));
+    auto g = e.gradient;
+    for (std::size_t k = 0; k < e.jacobian.size(); ++k)
+      g[shape.jacobian_col[k]] += y[shape.jacobian_row[k]] * e.jacobian[k];
+    return g;
+  };
+  nlp::Evaluation e;
+  ASSERT_FALSE(t.evaluate(x, 1, y, {true, true, true}, e));
+  std::vector<double> dense(x.size() * x.size(), 0.0);
+  for (std::size_t k = 0; k < e.hessian.size(); ++k) {
+    const std::size_t i = shape.hessian_row[k], j = shape.hessian_col[k];
+    EXPECT_GE(i, j);
+    dense[i * x.size() + j] += e.hessian[k];
+    if (i != j) dense[j * x.size() + i] += e.hessian[k];
+  }
+  const double h = 1e-6;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    auto up = x, down = x;
+    up[j] += h;
+    down[j] -= h;
+    const auto a = gradient(up), b = gradient(down);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      EXPECT_NEAR(dense[i * x.size() + j], (a[i] - b[i]) / (2 * h), 1e-7)
+          << t.variable_name(i) << ", " << t.variable_name(j);
+  }
+}
+
+TEST(Phases, GlobalsOfAPhaseAreAtItsLastStage) {
+  PhasedTranscription t(least_time_in_two(), {{Mesh::uniform(3)}, {Mesh::uniform(4)}});
+  const auto& shape = t.structure();
+  EXPECT_EQ(shape.stages, 4u + 5u);
+  for (std::size_t i = 0; i < shape.variables; ++i) {
+    EXPECT_LT(shape.variable_stage[i], shape.stages) << "the border is empty";
+    const std::string name = t.variable_name(i);
+    if (name == "ahead: tf") EXPECT_EQ(shape.variable_stage[i], 3u);
+    if (name == "back: tf") EXPECT_EQ(shape.variable_stage[i], 8u);
+  }
+}
+
+TEST(Phases, ErrorsSayWhatAndTheRule) {
+  Stretch a("a", {-1, 1}), b("b", {-1, 1});
+  PhasedProblem both("both");
+  EXPECT_EQ(refusal([&] { PhasedTranscription(both, {}); }),
+            "both: found no phases, expected at least one");
+  both.add(a.problem);
+  EXPECT_EQ(refusal([&] { both.add(a.problem); }),
+            "both: found the phase 'a' twice, expected names that differ");
+  both.add(b.problem);
+  EXPECT_EQ(refusal([&] {
+              PhasedTranscription(both, {{}, {}});
+            }),
+            "both: phase a: found no link, expected a link with another phase");
+  EXPECT_EQ(refusal([&] { both.connect(0, 2); }),
+            "both: connect: found phase 2, expected one of the 2 phases, from 0");
+  both.connect(0, 1);
+  EXPECT_EQ(refusal([&] { PhasedTranscription(both, {{}}); }),
+            "both: grids: found 1, expected 2, one a phase");
+  EXPECT_EQ(refusal([&] { both.link("x from a to b", a.x); }),
+            "both: found the link 'x from a to b' twice, expected names that differ");
+  both.link("inside", a.x - 1);
+  EXPECT_EQ(refusal([&] {
+              PhasedTranscription(both, {{}, {}});
+            }),
+            "both: links: found the symbol 'x', expected end values, times, static parameters and "
+            "integrals of its phases");
+  Problem other("other");
+  (void)other.state("z");
+  PhasedProblem strangers("strangers");
+  strangers.add(a.problem);
+  strangers.add(other);
+  EXPECT_EQ(refusal([&] { strangers.connect(0, 1); }),
+            "strangers: connect: found no state of a that other has too, expected states of the "
+            "same name, or links of their own");
+}
+
+}  // namespace
+}  // namespace slalom::ocp
