@@ -5,7 +5,7 @@ Steps, all of them by default, each of which may be run by itself:
   setup      build our programs, install the peers, generate and compile their C
   record     begin a run: drive, and write its cycles
   measure    each contestant on each environment, level and start, chunk by chunk, in turn
-  growth     other meshes and numbers of obstacles
+  growth     other meshes, schemes, numbers of obstacles and of phases
   functions  one evaluation of the functions beside CasADi's
   report     tables of the run, on standard output and in docs/benchmarks.md
 
@@ -65,7 +65,7 @@ def build_ours():
     quiet = {"check": True, "stdout": subprocess.DEVNULL}
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), "-DCMAKE_BUILD_TYPE=Release",
                     "-DSLALOM_BENCHMARKS=ON", "-DSLALOM_TESTS=OFF"], **quiet)  # fmt: skip
-    targets = ["bench_" + name for name in ("record", "solve", "judge", "functions", "perturb", "generated")]
+    targets = ["bench_" + name for name in ("record", "solve", "judge", "functions", "growth", "perturb", "generated")]
     subprocess.run(["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count()), "--target",
                     *targets], **quiet)  # fmt: skip
 
@@ -159,6 +159,9 @@ def growth(args):
     command = [program("bench_solve"), "--growth", "--cycles", str(folder / "E_C.cycles"),
                "--backend", "interior_point", "--floor", str(LEVELS["floor"].floor), *GROWTH]  # fmt: skip
     write_result(folder, "growth", {}, lambda: json.loads(run_command(command)))
+    for scheme in ("trapezoidal", "hermite_simpson", "lgr"):
+        write_result(folder, f"phases_{scheme}", {}, lambda: {"phases": json.loads(
+            run_command([program("bench_growth"), "--scheme", scheme]))})  # fmt: skip
 
 
 def functions(args):

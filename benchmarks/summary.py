@@ -139,7 +139,9 @@ def summarise(about, results):
     summary = {"about": about, "errors": measured.errors, "limit_ms": LIMIT_MS,
                "versions": sorted({r["version"] for r in results.values()}),
                "load": max((r["load"] for r in results.values()), default=0),
-               "environments": {}, "growth": growth(results), "functions": functions(results)}  # fmt: skip
+               "environments": {}, "growth": growth(results),
+               "phases": [row for name, r in sorted(results.items()) if name.startswith("phases_")
+                          for row in r.get("phases", [])], "functions": functions(results)}  # fmt: skip
     kernels = {r["kernels"] for r in results.values() if "kernels" in r}
     summary["kernels"] = ", ".join(sorted(kernels))
     for environment in ENVIRONMENTS:

@@ -99,6 +99,20 @@ def growth_markdown(rows):
                   "× the first row's", "solved", "set-up [ms]"], lines) + marginal(rows)  # fmt: skip
 
 
+def phases_markdown(rows):
+    if not rows:
+        return "Not measured in this run."
+    lines = []
+    for r in rows:
+        quarter = [q["iteration_s"] for q in rows if q["scheme"] == r["scheme"]
+                   and q["phases"] == r["phases"] and 4 * q["N"] == r["N"]]  # fmt: skip
+        lines.append([r["scheme"], str(r["phases"]), str(r["N"]), str(r["variables"]),
+                      number(1e6 * r["iteration_s"]),
+                      number(r["iteration_s"] / quarter[0]) if quarter else ""])  # fmt: skip
+    return table(["scheme", "phases", "N of each", "variables", "µs an iteration",
+                  "× that of N / 4"], lines)  # fmt: skip
+
+
 def marginal(rows):
     """Cost of an obstacle's row in an iteration, between two numbers of obstacles."""
     found = {r["obstacles"]: r for r in rows if r.get("us_per_iteration") and r["N"] <= 15}
@@ -146,6 +160,7 @@ def markdown(summary):
     return PAGE.format(about=about, warnings="\n".join(f"- {w}" for w in warnings),
                        limit=number(summary["limit_ms"]), levels=levels_markdown(),
                        environments=environments, growth=growth_markdown(summary["growth"]),
+                       phases=phases_markdown(summary["phases"]),
                        functions=functions_markdown(summary["functions"]),
                        machine=table(["", ""], [[k, v] for k, v in machine.items()]))  # fmt: skip
 
@@ -178,10 +193,15 @@ CasADi's wheel carries BLASFEO's generic kernels: fatrop would gain from others.
 
 ## Growth
 In E_C at the floor, the first cycles of a drive, each from the last one's plan, the first from straight
-on; obstacles beyond the environment's own stand beside the road and count like any other. More phases:
-not measured.
+on; obstacles beyond the environment's own stand beside the road and count like any other.
 
 {growth}
+
+More phases, on a chain of driven oscillators (`benchmarks/growth.cpp`): each phase has a free final time,
+an integral constraint and 15 static parameters that all phases share by links; the last phase's end is
+linked to the first one's begin. Least of five solves.
+
+{phases}
 
 ## One evaluation of the functions
 In E_C. CasADi's C is called from C, its virtual machine through its own buffers. *One function* gives

@@ -1,0 +1,128 @@
+// Time of an iteration against the number of intervals and of phases, on a problem that has all a
+// structured solver may stumble over; a line of JSON each.
+//
+//   bench_growth [--N 10,20,40,80] [--phases 1,2,4,8] [--scheme hermite_simpson]
+//
+// Each phase is a chain of four oscillators driven by two forces, with a free final time, static
+// parameters that all phases share by links, an integral constraint, and, from the last phase to
+// the first, a periodic link of the states.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/phases.hpp"
+
+namespace {
+
+using namespace slalom;
+using ocp::Bounds;
+using ocp::Expr;
+
+constexpr std::size_t kParameters = 15, kMasses = 4;
+
+ocp::Problem phase(std::size_t number) {
+  ocp::Problem p("phase " + std::to_string(number));
+  std::vector<Expr> x, v, k;
+  for (std::size_t i = 0; i < kMasses; ++i) {
+    x.push_back(p.state("x" + std::to_string(i), {-3, 3}));
+    v.push_back(p.state("v" + std::to_string(i), {-5, 5}));
+  }
+  const Expr a = p.control("a", {-1, 1}), b = p.control("b", {-1, 1});
+  for (std::size_t i = 0; i < kParameters; ++i)
+    k.push_back(p.static_parameter("k" + std::to_string(i), {0.5, 1.5}, 1));
+  for (std::size_t i = 0; i < kMasses; ++i) {
+    const Expr left = i == 0 ? x[i] : x[i] - x[i - 1];
+    Expr force = i == 0 ? a : i + 1 == kMasses ? b : Expr(0);
+    force = force - k[3 * i] * sin(left) - 0.1 * k[3 * i + 1] * v[i] * square(v[i]);
+    if (i + 1 < kMasses) force = force + k[3 * i + 2] * sin(x[i + 1] - x[i]);
+    p.dynamics(x[i], v[i]);
+    p.dynamics(v[i], force);
+  }
+  const double begin = static_cast<double>(number);
+  p.initial_time(number == 0 ? Bounds::equal(0) : Bounds{begin - 0.4, begin + 0.4}, begin);
+  p.final_time({begin + 0.6, begin + 1.4}, begin + 1);
+  Expr effort = square(a) + square(b), away = Expr(0), tuning = Expr(0);
+  for (const auto& each : x) away = away + square(each - 0.3);
+  for (const auto& each : k) tuning = tuning + square(each - 1);
+  p.lagrange("cost", effort + away + exp(-v[0]));
+  p.mayer("tuning", tuning);
+  p.integral("work", a * v[0] + b * v[kMasses - 1], {-2, 2});
+  return p;
+}
+
+ocp::PhasedProblem problem(std::size_t phases) {
+  ocp::PhasedProblem all("oscillators");
+  for (std::size_t p = 0; p < phases; ++p) all.add(phase(p));
+  for (std::size_t p = 1; p < phases; ++p) {
+    all.connect(p - 1, p);
+    for (std::size_t i = 0; i < kParameters; ++i)
+      all.link("k" + std::to_string(i) + " of phase " + std::to_string(p),
+               all.phases()[p - 1].static_parameters()[i].symbol -
+                   all.phases()[p].static_parameters()[i].symbol);
+  }
+  for (std::size_t i = 0; i < 2 * kMasses; ++i) {
+    const auto &first = all.phases().front().states()[i], &last = all.phases().back().states()[i];
+    all.link("periodic " + first.name, last.final_symbol - first.initial_symbol);
+  }
+  return all;
+}
+
+/// Least thread time of an iteration, of five solves of up to 25.
+nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme) {
+  ocp::PhasedTranscription transcription(
+      problem(phases), {phases, ocp::PhasedTranscription::Grid{ocp::Mesh::uniform(N), scheme}});
+  nlp::Start start;
+  for (std::size_t p = 0; p < phases; ++p) {
+    const auto& part = transcription.phase(p);
+    const auto x = part.point(part.straight_guess());
+    start.x.insert(start.x.end(), x.begin(), x.end());
+  }
+  nlp::Options options;
+  options.max_iterations = 25;
+  options.floor = 1e-2;
+  const auto solver = nlp::make_solver("interior_point");
+  nlp::Answer answer;
+  double least = 1e9;
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    solver->solve(transcription, start, options, answer);
+    least = std::min(least, answer.cpu_s / std::max(1, answer.iterations));
+  }
+  const auto& shape = transcription.structure();
+  return {{"phases", phases},
+          {"N", N},
+          {"scheme", scheme.name},
+          {"stages", shape.stages},
+          {"variables", shape.variables},
+          {"rows", shape.rows},
+          {"iterations", answer.iterations},
+          {"status", nlp::to_string(answer.status)},
+          {"backend", answer.backend},
+          {"iteration_s", least}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  std::vector<int> N = {10, 20, 40, 80};
+  std::vector<std::size_t> phases = {1, 2, 4, 8};
+  std::string scheme = "hermite_simpson";
+  CLI::App app("Times an iteration against intervals and phases.");
+  app.add_option("--N", N, "numbers of intervals of each of four phases")->delimiter(',');
+  app.add_option("--phases", phases, "numbers of phases of 20 intervals")->delimiter(',');
+  app.add_option("--scheme", scheme, "collocation scheme");
+  CLI11_PARSE(app, argc, argv);
+  nlohmann::json all = nlohmann::json::array();
+  for (const int n : N) all.push_back(measure(4, n, ocp::scheme(scheme)));
+  for (const std::size_t p : phases) all.push_back(measure(p, 20, ocp::scheme(scheme)));
+  std::cout << all.dump() << "\n";
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << "bench_growth: " << error.what() << "\n";
+  return 1;
+}
