@@ -7,8 +7,7 @@ namespace slalom::planner {
 
 using namespace vehicle;
 
-const ocp::Trajectory& Guess::operator()(const Request& request, bool in_range,
-                                         const LastPlan* last) {
+ocp::Trajectory& Guess::operator()(const Request& request, bool in_range, const LastPlan* last) {
   last != nullptr ? shift(request, *last) : straight_on(request);
   guess_.slacks.clear();
   place_initial_slacks(request, last);

@@ -23,8 +23,8 @@ class Guess {
  public:
   Guess(const Settings& settings, const Goal& goal) : settings_(settings), goal_(goal) {}
 
-  /// `last` may be null. The result lives until the next call.
-  const ocp::Trajectory& operator()(const Request& request, bool in_range, const LastPlan* last);
+  /// `last` may be null. The result, of full states and controls, lives until the next call.
+  ocp::Trajectory& operator()(const Request& request, bool in_range, const LastPlan* last);
 
  private:
   void straight_on(const Request& request);

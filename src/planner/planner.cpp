@@ -77,7 +77,7 @@ class Planner::Impl {
     form(in_range).update(request);
     ocp::Transcription& transcription = form(in_range).transcription;
     nlp::Options options = solver_options(settings_, request);
-    start_.x = transcription.point(guess_(request, in_range, last_ ? &*last_ : nullptr));
+    start_.x = start_point(request, in_range);
     options.warm_start = last_ && last_->in_range == in_range;
     options.time_limit = std::max(0.0, request.time_limit - timer.cpu() - longest_reading_s_);
     solver_->solve(transcription, start_, options, answer_);
@@ -103,12 +103,19 @@ class Planner::Impl {
  private:
   Form& form(bool in_range) { return in_range ? in_range_ : out_of_range_; }
 
+  /// The guess, as a point of the NLP.
+  std::vector<double> start_point(const Request& request, bool in_range) {
+    ocp::Trajectory& guess = guess_(request, in_range, last_ ? &*last_ : nullptr);
+    form(in_range).problem.map().to_planner(guess);
+    return form(in_range).transcription.point(guess);
+  }
+
   /// One solve without an iteration of either form, so that all memory is there before the first
   /// cycle and when the goal comes into range.
   void prepare() {
     for (const bool in_range : {true, false}) {
       ocp::Transcription& transcription = form(in_range).transcription;
-      start_.x = transcription.point(guess_({}, in_range, nullptr));
+      start_.x = start_point({}, in_range);
       nlp::Options options = solver_options(settings_, {});
       options.max_iterations = 0;
       solver_->solve(transcription, start_, options, answer_);
@@ -133,6 +140,7 @@ class Planner::Impl {
     Plan plan;
     plan.goal_in_range = in_range;
     auto trajectory = transcription.trajectory(answer_.point.x);
+    form(in_range).problem.map().to_plant(request.X0p, trajectory);
     plan.t_start = request.t0 + request.tex;
     plan.tf = trajectory.tf;
     plan.obstacle_time_held = settings_.moving_avoidance ? -1 : request.t0;

@@ -37,7 +37,13 @@ void add_what_tells_planners_apart(Table& table) {
       .boolean("moving_avoidance", &S::moving_avoidance,
                "true: obstacles move over the horizon (paper Eqn. 7); false: they are held where "
                "they are at the moment of planning (paper Eqn. 21). Only P_D has it.",
-               kTable);
+               kTable)
+      .choice(
+          "model", &S::model, vehicle::model_names(),
+          "The vehicle as the planner has it; the one that drives is always pacejka, the 3DoF "
+          "vehicle of the paper. linear_tyre: tyre forces linear in the slip angle; "
+          "constant_speed: ux stays as it is, steering alone is planned; kinematic: the bicycle "
+          "without slip. See docs/planner-models.md.");
 }
 
 void add_weights(Table& table) {

@@ -41,19 +41,20 @@ TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters&
       vehicle_(vehicle),
       goal_(goal),
       goal_in_range_(goal_in_range),
+      map_(vehicle, settings.model),
       problem_("trajectory") {
-  const Model model = make_model(vehicle);
-  add_variables(region);
+  const Model& model = map_.model();
+  add_variables(model, region);
   add_dynamics(model);
   add_cost(model);
-  add_initial_state();
+  add_initial_state(model);
   add_vehicle_limits(model);
   add_obstacles(obstacles);
   add_lidar_region();
   add_goal();
 }
 
-void TrajectoryProblem::add_variables(const Region& region) {
+void TrajectoryProblem::add_variables(const Model& model, const Region& region) {
   std::array<Bounds, kStates> bounds;
   bounds[X] = {region.x_min, region.x_max};
   bounds[Y] = {region.y_min, region.y_max};
@@ -62,12 +63,18 @@ void TrajectoryProblem::add_variables(const Region& region) {
   bounds[UX] = {vehicle_.ux_min, vehicle_.ux_max};
   for (std::size_t i = 0; i < kStates; ++i) {
     const std::string name = kStateNames[i];
-    X_[i] = problem_.state(name, bounds[i]);
-    X0p_[i] = problem_.parameter("X0p_" + name, 0);
-    x0s_[i] = problem_.slack("x0s_" + name, End::initial, Bounds::at_most(settings_.X0_tol[i]));
+    const Part part = model.part[i];
+    if (part == Part::state) X_[i] = problem_.state(name, bounds[i]);
+    if (part != Part::derived) X0p_[i] = problem_.parameter("X0p_" + name, 0);
+    if (part == Part::held) X_[i] = X0p_[i];
+    if (part == Part::state)
+      x0s_[i] = problem_.slack("x0s_" + name, End::initial, Bounds::at_most(settings_.X0_tol[i]));
   }
   U_[SR] = problem_.control("sr", {-vehicle_.sr_max(), vehicle_.sr_max()});
-  U_[JX] = problem_.control("jx", {-vehicle_.jx_max, vehicle_.jx_max});
+  if (model.used[JX]) U_[JX] = problem_.control("jx", {-vehicle_.jx_max, vehicle_.jx_max});
+  const auto derived = in_terms_of(model.value, model, X_, U_);
+  for (std::size_t i = 0; i < kStates; ++i)
+    if (model.part[i] == Part::derived) X_[i] = derived[i];
   t_start_ = problem_.parameter("t_start", 0);
   t_planning_ = problem_.parameter("t_planning", 0);
   problem_.initial_time(Bounds::equal(0), 0);
@@ -80,7 +87,8 @@ void TrajectoryProblem::add_variables(const Region& region) {
 
 void TrajectoryProblem::add_dynamics(const Model& model) {
   const auto rate = in_terms_of(model.derivative, model, X_, U_);
-  for (std::size_t i = 0; i < kStates; ++i) problem_.dynamics(X_[i], rate[i]);
+  for (std::size_t i = 0; i < kStates; ++i)
+    if (model.part[i] == Part::state) problem_.dynamics(X_[i], rate[i]);
 }
 
 /// The cost functional J, term by term; a term of weight zero is absent.
@@ -109,19 +117,22 @@ void TrajectoryProblem::add_cost(const Model& model) {
   if (s.w_haf != 0)
     problem_.lagrange("heading_area", s.w_haf * square(std::sin(goal_.psi) * (X_[X] - goal_.x) -
                                                        std::cos(goal_.psi) * (X_[Y] - goal_.y)));
-  if (s.w_ax != 0) problem_.lagrange("acceleration", s.w_ax * square(X_[AX]));
+  if (s.w_ax != 0 && model.part[AX] == Part::state)
+    problem_.lagrange("acceleration", s.w_ax * square(X_[AX]));
   if (s.w_psi != 0) problem_.lagrange("heading", s.w_psi * square(X_[PSI] - goal_.psi));
 
   Expr initial_slacks;
-  for (std::size_t i = 0; i < kStates; ++i) initial_slacks += s.w_s0[i] * x0s_[i];
+  for (std::size_t i = 0; i < kStates; ++i)
+    if (model.part[i] == Part::state) initial_slacks += s.w_s0[i] * x0s_[i];
   problem_.mayer("initial_slack", s.w_ic * initial_slacks);
   if (goal_in_range_) problem_.mayer("final_slack", s.w_xf * (xfs_[0] + xfs_[1]));
 }
 
 /// |X0p - X(0)| <= x0s, two rows a state (the paper's soft constraints on the initial state, signs
 /// as section 3 settles them).
-void TrajectoryProblem::add_initial_state() {
+void TrajectoryProblem::add_initial_state(const Model& model) {
   for (std::size_t i = 0; i < kStates; ++i) {
+    if (model.part[i] != Part::state) continue;
     const std::string name = kStateNames[i];
     const Expr gap = problem_.initial(X_[i]) - X0p_[i];
     problem_.boundary("initial " + name + " from below", gap + x0s_[i], Bounds::at_least(0));
@@ -131,13 +142,15 @@ void TrajectoryProblem::add_initial_state() {
 
 void TrajectoryProblem::add_vehicle_limits(const Model& model) {
   const auto limits = in_terms_of(std::array{model.ax_min, model.ax_max}, model, X_, U_);
-  problem_.path("ax above ax_min", X_[AX] - limits[0], Bounds::at_least(0));
-  problem_.path("ax below ax_max", limits[1] - X_[AX], Bounds::at_least(0));
+  if (model.part[AX] == Part::state) {
+    problem_.path("ax above ax_min", X_[AX] - limits[0], Bounds::at_least(0));
+    problem_.path("ax below ax_max", limits[1] - X_[AX], Bounds::at_least(0));
+  }
   const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
   for (std::size_t w = 0; w < kWheels; ++w)
     problem_.path(std::string("wheel load ") + kWheelNames[w], Fz[w] - vehicle_.Fz_min,
                   Bounds::at_least(0));
-  if (settings_.tyre_force_limit > 0) {
+  if (settings_.tyre_force_limit > 0 && settings_.model != ModelKind::kinematic) {
     const auto linear = in_terms_of(std::array{model.Fyf_linear, model.Fyr_linear}, model, X_, U_);
     const Bounds both{-settings_.tyre_force_limit, settings_.tyre_force_limit};
     problem_.path("linear tyre force, front", linear[0], both);
@@ -194,7 +207,8 @@ void TrajectoryProblem::add_goal() {
 }
 
 void TrajectoryProblem::update(const Request& request) {
-  for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], request.X0p[i]);
+  for (std::size_t i = 0; i < kStates; ++i)
+    if (map_.model().part[i] != Part::derived) problem_.set_parameter(X0p_[i], request.X0p[i]);
   problem_.set_parameter(t_start_, request.t0 + request.tex);
   problem_.set_parameter(t_planning_, request.t0);
 }

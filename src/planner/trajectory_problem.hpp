@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "model_map.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "slalom/planner/goal.hpp"
@@ -30,14 +31,15 @@ class TrajectoryProblem {
   void update(const Request& request);
 
   const ocp::Problem& problem() const { return problem_; }
+  const ModelMap& map() const { return map_; }
 
  private:
   using Expr = ocp::Expr;
 
-  void add_variables(const Region& region);
+  void add_variables(const vehicle::Model& model, const Region& region);
   void add_dynamics(const vehicle::Model& model);
   void add_cost(const vehicle::Model& model);
-  void add_initial_state();
+  void add_initial_state(const vehicle::Model& model);
   void add_vehicle_limits(const vehicle::Model& model);
   void add_obstacles(const std::vector<Obstacle>& obstacles);
   void add_lidar_region();
@@ -47,10 +49,11 @@ class TrajectoryProblem {
   const vehicle::Parameters vehicle_;
   const Goal goal_;
   const bool goal_in_range_;
+  const ModelMap map_;
 
   ocp::Problem problem_;
-  std::array<Expr, vehicle::kStates> X_;    ///< states
-  std::array<Expr, vehicle::kControls> U_;  ///< controls
+  std::array<Expr, vehicle::kStates> X_;    ///< states, and what the model derives from them
+  std::array<Expr, vehicle::kControls> U_;  ///< controls; zero where the model has none
   std::array<Expr, vehicle::kStates> X0p_;  ///< predicted state (run-time parameters)
   std::array<Expr, vehicle::kStates> x0s_;  ///< slacks on the initial state
   std::array<Expr, 2> xfs_;                 ///< slacks on the final position

@@ -155,6 +155,11 @@ void check(const Scenario& scenario, const std::string& where) {
   check_goal_and_region(scenario, where);
   check_obstacles(scenario, where);
   check_start_bounds(scenario, where);
+  if (scenario.planner.model == vehicle::ModelKind::constant_speed &&
+      scenario.start[vehicle::AX] != 0)
+    throw InvalidValue(fmt::format("{}: start ax", where),
+                       fmt::format("{:.9g}", scenario.start[vehicle::AX]),
+                       "0, for planner model constant_speed holds the speed");
   check_start_clear(scenario, where);
 }
 

@@ -64,12 +64,52 @@ std::vector<Expr> state_and_control(const Model& model) {
   return inputs;
 }
 
-}  // namespace
-
-Model make_model(const Parameters& p) {
+/// Symbols and parts of a model, and the axle loads [N] of its accelerations.
+struct Frame {
   Model model;
+  Expr FzF, FzR;
+};
+
+Frame make_frame(const Parameters& p) {
+  Frame frame;
+  Model& model = frame.model;
   for (std::size_t i = 0; i < kStates; ++i) model.state[i] = Expr::symbol(kStateNames[i]);
   for (std::size_t i = 0; i < kControls; ++i) model.control[i] = Expr::symbol(kControlNames[i]);
+  model.part.fill(Part::state);
+  model.value = model.state;
+  model.used.fill(true);
+  return frame;
+}
+
+/// Axle loads, formulation section 2 (the paper's equations of vertical load, which lost a
+/// bracket):
+///   FzF = FzF0 - KZX (ax - v r)        FzR = FzR0 + KZX (ax - v r)
+void add_axle_loads(const Parameters& p, Frame& frame) {
+  const auto& X = frame.model.state;
+  const Expr transfer = p.KZX * (X[AX] - X[V] * X[R]);
+  frame.FzF = p.FzF0 - transfer;
+  frame.FzR = p.FzR0 + transfer;
+}
+
+/// Limits of acceleration, formulation section 2: ax_min(ux) <= ax <= ax_max(ux).
+void add_acceleration_limits(const Parameters& p, Model& model) {
+  model.ax_max = cubic(p.ax_max, model.state[UX]);
+  model.ax_min = cubic(p.ax_min, model.state[UX]);
+}
+
+/// Wheel loads, formulation section 2, for `lateral` = (Fyf + Fyr)/m [m/s²]:
+///   rl, rr = FzR/2 -+ KZYR (Fyf + Fyr)/m         fl, fr = FzF/2 -+ KZYF (Fyf + Fyr)/m
+void add_wheel_loads(const Parameters& p, const Expr& lateral, Frame& frame) {
+  auto& loads = frame.model.wheel_loads;
+  loads[RL] = frame.FzR / 2 - p.KZYR * lateral;
+  loads[RR] = frame.FzR / 2 + p.KZYR * lateral;
+  loads[FL] = frame.FzF / 2 - p.KZYF * lateral;
+  loads[FR] = frame.FzF / 2 + p.KZYF * lateral;
+}
+
+Model make_dynamic(const Parameters& p, ModelKind kind) {
+  Frame frame = make_frame(p);
+  Model& model = frame.model;
   const Expr &v = model.state[V], &r = model.state[R], &psi = model.state[PSI],
              &sa = model.state[SA], &ux = model.state[UX], &ax = model.state[AX];
   const Expr &sr = model.control[SR], &jx = model.control[JX];
@@ -79,24 +119,21 @@ Model make_model(const Parameters& p) {
   model.alpha_f = atan((v + p.la * r) / (ux + p.EP)) - sa;
   model.alpha_r = atan((v - p.lb * r) / (ux + p.EP));
 
-  // Axle loads, formulation section 2 (the paper's equations of vertical load, which lost a
-  // bracket):   FzF = FzF0 - KZX (ax - v r)        FzR = FzR0 + KZX (ax - v r)
-  const Expr transfer = p.KZX * (ax - v * r);
-  const Expr FzF = p.FzF0 - transfer, FzR = p.FzR0 + transfer;
-
+  add_axle_loads(p, frame);
   const TyreCoefficients tyre(p);
-  model.Fyf = lateral_force(tyre, model.alpha_f, FzF, p.tyre_asymmetry ? p.F_offset_front : 0);
-  model.Fyr = lateral_force(tyre, model.alpha_r, FzR, p.tyre_asymmetry ? p.F_offset_rear : 0);
-  model.Fyf_linear = linear_force(tyre, model.alpha_f, FzF);
-  model.Fyr_linear = linear_force(tyre, model.alpha_r, FzR);
-
-  // Wheel loads, formulation section 2:
-  //   rl, rr = FzR/2 -+ KZYR (Fyf + Fyr)/m         fl, fr = FzF/2 -+ KZYF (Fyf + Fyr)/m
+  if (kind != ModelKind::linear_tyre) {
+    const auto offset = [&](double F) { return p.tyre_asymmetry ? F : 0; };
+    model.Fyf = lateral_force(tyre, model.alpha_f, frame.FzF, offset(p.F_offset_front));
+    model.Fyr = lateral_force(tyre, model.alpha_r, frame.FzR, offset(p.F_offset_rear));
+  }
+  model.Fyf_linear = linear_force(tyre, model.alpha_f, frame.FzF);
+  model.Fyr_linear = linear_force(tyre, model.alpha_r, frame.FzR);
+  if (kind == ModelKind::linear_tyre) {
+    model.Fyf = model.Fyf_linear;
+    model.Fyr = model.Fyr_linear;
+  }
   const Expr lateral = (model.Fyf + model.Fyr) / p.m;
-  model.wheel_loads[RL] = FzR / 2 - p.KZYR * lateral;
-  model.wheel_loads[RR] = FzR / 2 + p.KZYR * lateral;
-  model.wheel_loads[FL] = FzF / 2 - p.KZYF * lateral;
-  model.wheel_loads[FR] = FzF / 2 + p.KZYF * lateral;
+  add_wheel_loads(p, lateral, frame);
 
   // Equations of motion, paper Eqn. (6), formulation section 1; x, y of the front axle's centre:
   //   x' = ux cos(psi) - (v + la r) sin(psi)       y' = ux sin(psi) + (v + la r) cos(psi)
@@ -111,11 +148,64 @@ Model make_model(const Parameters& p) {
   model.derivative[SA] = sr;
   model.derivative[UX] = ax;
   model.derivative[AX] = jx;
-
-  // Limits of acceleration, formulation section 2: ax_min(ux) <= ax <= ax_max(ux).
-  model.ax_max = cubic(p.ax_max, ux);
-  model.ax_min = cubic(p.ax_min, ux);
+  add_acceleration_limits(p, model);
   return model;
+}
+
+/// The 3DoF vehicle whose speed is held: ax and jx are zero, ux is a number.
+Model make_constant_speed(const Parameters& p) {
+  Model model = make_dynamic(p, ModelKind::pacejka);
+  model.part[UX] = Part::held;
+  model.part[AX] = Part::derived;
+  model.value[AX] = Expr(0.0);
+  model.derivative[UX] = model.derivative[AX] = Expr(0.0);
+  model.used[JX] = false;
+  return model;
+}
+
+/// The kinematic bicycle (R. Rajamani, Vehicle Dynamics and Control, section 2.2; J. Kong et al.,
+/// "Kinematic and dynamic vehicle models for autonomous driving control design", IEEE IV 2015),
+/// steered in front and without slip at either axle:
+///   rear   v - lb r = 0        front   v + la r = ux tan(sa)
+/// hence r = ux tan(sa)/(la + lb), v = lb r, and the lateral acceleration v' + ux r.
+Model make_kinematic(const Parameters& p) {
+  Frame frame = make_frame(p);
+  Model& model = frame.model;
+  add_axle_loads(p, frame);
+  add_acceleration_limits(p, model);
+  const auto& X = model.state;
+  const Expr tangent = tan(X[SA]);
+  const Expr r = X[UX] * tangent / (p.la + p.lb);
+  const Expr r_dot =
+      (X[AX] * tangent + X[UX] * model.control[SR] * (1 + square(tangent))) / (p.la + p.lb);
+  model.part[V] = model.part[R] = Part::derived;
+  model.value[V] = p.lb * r;
+  model.value[R] = r;
+
+  const Expr front = X[UX] * tangent;
+  model.derivative[slalom::vehicle::X] = X[UX] * cos(X[PSI]) - front * sin(X[PSI]);
+  model.derivative[Y] = X[UX] * sin(X[PSI]) + front * cos(X[PSI]);
+  model.derivative[V] = model.derivative[R] = Expr(0.0);
+  model.derivative[PSI] = r;
+  model.derivative[SA] = model.control[SR];
+  model.derivative[UX] = X[AX];
+  model.derivative[AX] = model.control[JX];
+  add_wheel_loads(p, p.lb * r_dot + X[UX] * r, frame);
+  return model;
+}
+
+}  // namespace
+
+const std::vector<std::string>& model_names() {
+  static const std::vector<std::string> names = {"pacejka", "linear_tyre", "constant_speed",
+                                                 "kinematic"};
+  return names;
+}
+
+Model make_model(const Parameters& parameters, ModelKind kind) {
+  if (kind == ModelKind::kinematic) return make_kinematic(parameters);
+  if (kind == ModelKind::constant_speed) return make_constant_speed(parameters);
+  return make_dynamic(parameters, kind);
 }
 
 Dynamics::Dynamics(const Parameters& parameters) {

@@ -55,9 +55,10 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "tol",
                            "max_iterations",
                            "solver",
+                           "model",
                            "tyre_force_limit"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 33u);
+  EXPECT_EQ(names.size(), 34u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

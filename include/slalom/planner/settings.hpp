@@ -4,6 +4,7 @@
 #include <string>
 
 #include "slalom/base/options.hpp"
+#include "slalom/vehicle/model.hpp"
 
 namespace slalom::planner {
 
@@ -23,6 +24,9 @@ struct Settings {
   double w_t = 100;              ///< weight of final time [1/s]
   double w_ce = 1;               ///< weight of control effort [1]
   bool moving_avoidance = true;  ///< predict obstacle motion over the horizon
+
+  /// The vehicle as the planner has it, whatever drives.
+  vehicle::ModelKind model = vehicle::ModelKind::pacejka;
 
   // The other weights.
   double w_g = 10;

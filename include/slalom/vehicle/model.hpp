@@ -2,6 +2,8 @@
 
 #include <array>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "slalom/expr/expr.hpp"
 #include "slalom/expr/function.hpp"
@@ -10,21 +12,38 @@
 
 namespace slalom::vehicle {
 
-/// The 3DoF dynamic vehicle as expressions: what OCP, prediction and plant all evaluate.
+/// The models there are. `pacejka`: the 3DoF vehicle of sections 1 and 2 of docs/formulation.md,
+/// which plant and prediction always are. The others are for planners: `linear_tyre`, with tyre
+/// forces linear in the slip angle; `constant_speed`, the 3DoF vehicle whose speed stays what it
+/// is; `kinematic`, the bicycle whose wheels do not slip.
+enum class ModelKind { pacejka, linear_tyre, constant_speed, kinematic };
+
+/// What an entry of the state is to a model: a state with a derivative of its own, a number held
+/// over the horizon, or a function of the states.
+enum class Part { state, held, derived };
+
+/// A vehicle as expressions: what OCP, prediction and plant evaluate.
 struct Model {
   std::array<expr::Expr, kStates> state;       ///< symbols
   std::array<expr::Expr, kControls> control;   ///< symbols
-  std::array<expr::Expr, kStates> derivative;  ///< state'
-  expr::Expr Fyf, Fyr;                         ///< lateral axle forces [N], left positive
-  /// Linear part of the tyre forces, cornering stiffness times slip angle [N].
+  std::array<expr::Expr, kStates> derivative;  ///< state'; 0 for what is held or derived
+  std::array<Part, kStates> part{};            ///< what each entry of the state is
+  std::array<expr::Expr, kStates> value;       ///< of what is derived, in the states' symbols
+  std::array<bool, kControls> used{};          ///< a control that the model lacks is zero
+  expr::Expr Fyf, Fyr;  ///< lateral axle forces [N], left positive; none of a kinematic model
+  /// Linear part of the tyre forces, cornering stiffness times slip angle [N]; likewise.
   expr::Expr Fyf_linear, Fyr_linear;
   expr::Expr alpha_f, alpha_r;                  ///< slip angles as in section 2 [rad]
   std::array<expr::Expr, kWheels> wheel_loads;  ///< rl, rr, fl, fr [N]
   expr::Expr ax_min, ax_max;                    ///< acceleration limits at ux [m/s^2]
 };
 
-/// Builds the model of `parameters` (sections 1 and 2 of docs/formulation.md; the paper's Eqn. 6).
-Model make_model(const Parameters& parameters);
+/// Builds a model of `parameters` (sections 1 and 2 of docs/formulation.md; the paper's Eqn. 6;
+/// docs/planner-models.md). Wheel loads are those of the accelerations the model itself has.
+Model make_model(const Parameters& parameters, ModelKind kind = ModelKind::pacejka);
+
+/// Names of the kinds, in the enum's order, as files have them.
+const std::vector<std::string>& model_names();
 
 /// The model compiled for numbers: one state at a time. SI units, frame and signs as in state.hpp.
 /// Thread-safe after construction; copies share the compiled code. Outside the model's domain
