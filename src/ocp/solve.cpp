@@ -67,8 +67,11 @@ std::vector<double> Solution::costate(const std::string& state_name) const {
 namespace {
 
 /// What a point says of one phase.
-void describe(const Problem& problem, Transcription& transcription, std::span<const double> x,
-              std::span<const double> y, Solution& solution) {
+void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
+              Transcription& transcription, std::span<const double> x, std::span<const double> y,
+              Solution& solution) {
+  solution.mesh = grid.mesh;
+  solution.scheme = grid.schemes;
   solution.cost_terms = transcription.cost_terms(x);
   solution.trajectory = transcription.trajectory(x);
   solution.costates = transcription.costates(x, y);
@@ -108,7 +111,8 @@ Solution solve(const Problem& problem, const SolveSettings& settings) {
   Solution solution;
   run(transcription, settings.backend, settings.options, settings.warm_start,
       guess_of(transcription, settings.guess), solution);
-  describe(problem, transcription, solution.point.x, solution.point.y, solution);
+  describe(problem, {settings.mesh, settings.scheme}, transcription, solution.point.x,
+           solution.point.y, solution);
   return solution;
 }
 
@@ -130,7 +134,7 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
   run(transcription, settings.backend, settings.options, settings.warm_start, guess, solution);
   for (std::size_t p = 0; p < phases; ++p) {
     Solution& part = solution.phases.emplace_back();
-    describe(problem.phases()[p], transcription.phase(p),
+    describe(problem.phases()[p], grids[p], transcription.phase(p),
              transcription.variables_of(p, solution.point.x),
              transcription.rows_of(p, solution.point.y), part);
     part.status = solution.status;

@@ -30,6 +30,8 @@ struct Solution {
   double objective = 0;
   std::vector<std::pair<std::string, double>> cost_terms;  ///< they sum to the objective
   Trajectory trajectory;
+  Mesh mesh = Mesh::uniform(1);  ///< and scheme, of the trajectory's points
+  Schemes scheme = trapezoidal();
   /// dJ*/dx at the mesh nodes, [node][state]: positive where more of a state costs more. Read off
   /// the defects' multipliers; second order accurate at least where no path row is active.
   std::vector<std::vector<double>> costates;

@@ -17,7 +17,8 @@ struct Trajectory {
   std::vector<double> slacks;          ///< in the order the problem declared them
   std::vector<double> integrals = {};  ///< likewise; left out of a guess, 0
 
-  double time(std::size_t point) const { return t0 + tau[point] * (tf - t0); }
+  double time(std::size_t point) const { return time_at(tau[point]); }
+  double time_at(double at_tau) const { return t0 + at_tau * (tf - t0); }
 };
 
 }  // namespace slalom::ocp

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/solve.hpp"
+
+namespace slalom::ocp {
+
+/// How far a solution's states are from the dynamics, found by integrating these anew (Runge,
+/// Kutta & Fehlberg's method of order 8) with the solution's own controls. Errors are relative:
+/// |error of state i| / (scale_i + largest |state i|), the measure of Patterson, Hager & Rao,
+/// Optim. Control Appl. Meth. 36(4), 2015, eq. 27, with the state's scale for 1.
+struct ErrorEstimate {
+  std::vector<double> interval;      ///< of each, from its own begin: largest over the states
+  std::vector<std::string> state;    ///< the state where it stands
+  double largest = 0;                ///< over the intervals
+  std::size_t worst = 0;             ///< that interval
+  double horizon = 0;                ///< largest at a node, integrated from t0 on without a restart
+  /// `horizon` over the sum of the intervals' errors: about 1 where dynamics are neutral, large
+  /// where they are unstable and so no open-loop control can reproduce the states.
+  double amplification = 0;
+};
+
+/// `tolerance` is of the integrator, absolute in units of each state's scale and relative. What
+/// cannot be integrated to an interval's end (blow-up, NaN) has an infinite error.
+ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution,
+                              double tolerance = 1e-12);
+
+/// The largest violation of a bound of a state or control or of a path constraint.
+struct Violation {
+  double value = 0;  ///< in the constraint's unit; 0: none is violated
+  std::string constraint;
+  double time = 0;
+};
+
+/// Looks at `samples` equal steps of each interval, the nodes included, on the scheme's
+/// polynomials.
+Violation largest_violation(const Problem& problem, const Solution& solution, int samples = 20);
+
+/// H = L + costate' f at the mesh nodes [cost per time unit], with the sign of Solution::costates:
+/// constant along an optimum of a problem that does not mention time, and 0 there if tf is free and
+/// costs nothing.
+std::vector<double> hamiltonian(const Problem& problem, const Solution& solution);
+
+}  // namespace slalom::ocp

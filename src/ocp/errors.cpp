@@ -1,0 +1,191 @@
+#include "slalom/ocp/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "model.hpp"
+#include "slalom/base/error.hpp"
+#include "slalom/ocp/interpolant.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+using Vector = std::vector<double>;
+
+/// Attempts an interval may take before its error counts as infinite.
+constexpr int kMaxAttempts = 20000;
+
+bool finite(const Vector& x) {
+  return std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Integrates a problem's dynamics over one interval after another, states in units of their
+/// scales, local time 0 ... 1.
+class Integrator {
+ public:
+  Integrator(const Problem& problem, const Trajectory& trajectory, const Interpolant& between,
+             const Mesh& mesh, double tolerance)
+      : model_(problem, trajectory),
+        trajectory_(trajectory),
+        between_(between),
+        breaks_(mesh.breakpoints()),
+        tolerance_(tolerance) {
+    for (const auto& state : problem.states()) scale_.push_back(state.scale);
+  }
+
+  /// The states at the end of interval k, from `x` at its begin; empty where there is no getting
+  /// there.
+  Vector across(std::size_t k, Vector x) const {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] /= scale_[i];
+    auto stepper = odeint::make_controlled(tolerance_, tolerance_,
+                                           odeint::runge_kutta_fehlberg78<Vector>());
+    Vector states(x.size());
+    const double duration =
+        (breaks_[k + 1] - breaks_[k]) * (trajectory_.tf - trajectory_.t0);
+    const double begin = trajectory_.time_at(breaks_[k]);
+    const auto rates = [&](const Vector& at, Vector& out, double c) {
+      for (std::size_t i = 0; i < at.size(); ++i) states[i] = at[i] * scale_[i];
+      model_.rates(begin + c * duration, states, between_.controls(k, c), out);
+      for (std::size_t i = 0; i < at.size(); ++i) out[i] *= duration / scale_[i];
+    };
+    double c = 0, step = 1;
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
+      const bool last = step >= 1 - c;
+      step = std::min(step, 1 - c);
+      const Vector before = x;
+      const double c_before = c, tried = step;
+      const auto result = stepper.try_step(rates, x, c, step);
+      if (!finite(x)) {
+        x = before;
+        c = c_before;
+        step = tried / 4;
+      } else if (result == odeint::success && last) {
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale_[i];
+        return x;
+      }
+      if (step < 1e-14) break;
+    }
+    return {};
+  }
+
+ private:
+  Model model_;
+  const Trajectory& trajectory_;
+  const Interpolant& between_;
+  const Vector& breaks_;
+  double tolerance_;
+  Vector scale_;
+};
+
+/// Relative error of `found` and the state with the largest.
+std::pair<double, std::size_t> error_of(const Vector& found, const Vector& expected,
+                                        const Vector& size) {
+  if (found.empty()) return {kInfinity, 0};
+  std::pair<double, std::size_t> worst{0, 0};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double error = std::fabs(found[i] - expected[i]) / size[i];
+    if (error > worst.first) worst = {error, i};
+  }
+  return worst;
+}
+
+Interpolant between(const Problem& problem, const Solution& solution) {
+  return {problem, solution.trajectory, solution.mesh, solution.scheme};
+}
+
+/// The point of each mesh node.
+std::vector<std::size_t> nodes(const Solution& solution) {
+  std::vector<std::size_t> list{0};
+  for (std::size_t k = 0; k < solution.mesh.intervals(); ++k)
+    list.push_back(list.back() + solution.scheme.of(k).points.size() - 1);
+  return list;
+}
+
+}  // namespace
+
+ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, double tolerance) {
+  if (!(tolerance > 0 && tolerance < 1))
+    throw InvalidValue(problem.name() + ": integrator's tolerance", fmt::format("{}", tolerance),
+                       "a number > 0 and < 1");
+  const Trajectory& trajectory = solution.trajectory;
+  const Interpolant polynomials = between(problem, solution);
+  const Integrator integrator(problem, trajectory, polynomials, solution.mesh, tolerance);
+  Vector size;
+  for (std::size_t i = 0; i < problem.states().size(); ++i) {
+    double largest = 0;
+    for (const auto& x : trajectory.states) largest = std::max(largest, std::fabs(x[i]));
+    size.push_back(problem.states()[i].scale + largest);
+  }
+  ErrorEstimate estimate;
+  const auto node = nodes(solution);
+  Vector running = trajectory.states.front();
+  for (std::size_t k = 0; k < solution.mesh.intervals(); ++k) {
+    const Vector& expected = trajectory.states[node[k + 1]];
+    const auto [error, state] =
+        error_of(integrator.across(k, trajectory.states[node[k]]), expected, size);
+    estimate.interval.push_back(error);
+    estimate.state.push_back(problem.states()[state].name);
+    if (error > estimate.largest) {
+      estimate.largest = error;
+      estimate.worst = k;
+    }
+    if (!running.empty()) running = integrator.across(k, running);
+    estimate.horizon = std::max(estimate.horizon, error_of(running, expected, size).first);
+  }
+  const double sum = std::accumulate(estimate.interval.begin(), estimate.interval.end(), 0.0);
+  estimate.amplification = sum > 0 && std::isfinite(sum) ? estimate.horizon / sum : 0;
+  return estimate;
+}
+
+Violation largest_violation(const Problem& problem, const Solution& solution, int samples) {
+  if (samples < 1)
+    throw InvalidValue(problem.name() + ": samples", std::to_string(samples), "at least 1");
+  const Trajectory& trajectory = solution.trajectory;
+  const Interpolant polynomials = between(problem, solution);
+  const Model model(problem, trajectory);
+  const auto& breaks = solution.mesh.breakpoints();
+  Vector values(model.rows().size());
+  Violation worst;
+  for (std::size_t k = 0; k < solution.mesh.intervals(); ++k)
+    for (int s = 0; s <= samples; ++s) {
+      const double c = static_cast<double>(s) / samples;
+      const double t = trajectory.time_at(breaks[k] + c * (breaks[k + 1] - breaks[k]));
+      model.row_values(t, polynomials.states(k, c), polynomials.controls(k, c), values);
+      for (std::size_t r = 0; r < values.size(); ++r) {
+        const auto& row = model.rows()[r];
+        if (k == 0 && s == 0 && row.points == Points::after_first) continue;
+        const double excess = std::max(row.bounds.lower - values[r], values[r] - row.bounds.upper);
+        if (excess > worst.value) worst = {excess, row.name, t};
+      }
+    }
+  return worst;
+}
+
+std::vector<double> hamiltonian(const Problem& problem, const Solution& solution) {
+  const Trajectory& trajectory = solution.trajectory;
+  const Interpolant polynomials = between(problem, solution);
+  const Model model(problem, trajectory);
+  const auto node = nodes(solution);
+  const std::size_t last = solution.mesh.intervals();
+  Vector rates(problem.states().size()), values;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const double t = trajectory.time(node[k]);
+    const Vector u = k == last ? polynomials.controls(last - 1, 1) : polynomials.controls(k, 0);
+    model.rates(t, trajectory.states[node[k]], u, rates);
+    double h = model.integrand(t, trajectory.states[node[k]], u);
+    for (std::size_t i = 0; i < rates.size(); ++i) h += solution.costates[k][i] * rates[i];
+    values.push_back(h);
+  }
+  return values;
+}
+
+}  // namespace slalom::ocp
