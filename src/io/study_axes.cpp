@@ -4,33 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <optional>
-#include <random>
 
+#include "axis_values.hpp"
 #include "section.hpp"
+#include "slalom/base/options.hpp"
+#include "study_draws.hpp"
 
 namespace slalom::io {
 namespace {
-
-/// The number a scalar states, or nothing.
-std::optional<double> number_of(const Value& value) {
-  if (value.kind != Value::Kind::scalar || value.quoted) return std::nullopt;
-  const char* end = value.text.data() + value.text.size();
-  double number = 0;
-  const auto read = std::from_chars(value.text.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
-double finite(const Value& value) {
-  const auto number = number_of(value);
-  if (!number) throw InvalidValue(value.place.to_string(), value.describe(), "a finite number");
-  return *number;
-}
 
 int count_of(const Value& value, int least) {
   const auto number = number_of(value);
@@ -38,14 +20,6 @@ int count_of(const Value& value, int least) {
     throw InvalidValue(value.place.to_string(), value.describe(),
                        fmt::format("an integer from {} to {}", least, kMaxTrials));
   return static_cast<int>(*number);
-}
-
-Value scalar(double number, const Place& place) {
-  Value value;
-  value.kind = Value::Kind::scalar;
-  value.place = place;
-  value.text = fmt::format("{}", number);
-  return value;
 }
 
 /// A value as it stands in tables and identities: numbers in their shortest form.
@@ -69,20 +43,6 @@ const Value& required(const Value& map, const std::string& key, const std::strin
   return *value;
 }
 
-void only(const Value& map, const std::string& path, const std::vector<std::string>& known) {
-  require_map(map, fmt::format("the map of {}", path));
-  for (const auto& member : map.members)
-    if (std::find(known.begin(), known.end(), member.key) == known.end())
-      unknown_key(member.key, member.place, path, known);
-}
-
-/// The items of a list that must have some.
-const std::vector<Value>& some_items(const Value& value, const std::string& content) {
-  const auto& items = items_of(value, content);
-  if (items.empty()) throw InvalidValue(value.place.to_string(), "an empty list", content);
-  return items;
-}
-
 /// {from, to, count}: evenly spaced, both ends included and met exactly.
 void read_range(const Value& map, PlacedAxis& axis) {
   only(map, "range", {"from", "to", "count"});
@@ -97,59 +57,41 @@ void read_range(const Value& map, PlacedAxis& axis) {
         {scalar(k == count - 1 ? to : from + (to - from) * k / (count - 1), map.place)});
 }
 
-/// One drawn key: {key, uniform: [low, high]} or {key, normal: [mean, standard deviation]}.
-struct Distribution {
-  bool normal = false;
-  double first = 0, second = 0;
-
-  /// The draws are spelt out, for those of the standard library differ from one to another.
-  double operator()(std::mt19937_64& generator) const {
-    const auto unit = [&] { return (static_cast<double>(generator() >> 11U) + 0.5) * 0x1p-53; };
-    const double u = unit();
-    if (!normal) return first + (second - first) * u;
-    // Box and Muller.
-    return first + second * std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * unit());
+Sampling read_sampling(const Value& map) {
+  const Value* method = map.find("method");
+  if (method == nullptr) return Sampling::random;
+  static const std::vector<std::string> names = {"random", "latin_hypercube", "sobol"};
+  const auto& name = to_text(*method, "the name of a method");
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    const auto nearest = nearest_name(name, names);
+    throw InvalidValue(
+        method->place.to_string(), fmt::format("method '{}'", name),
+        fmt::format("one of {}{}", fmt::join(names, ", "),
+                    nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
   }
-};
-
-Distribution read_distribution(const Value& map) {
-  only(map, "a draw", {"key", "uniform", "normal"});
-  const Value *uniform = map.find("uniform"), *normal = map.find("normal");
-  if ((uniform == nullptr) == (normal == nullptr))
-    throw InvalidValue(map.place.to_string(), uniform != nullptr ? "two distributions" : "none",
-                       "either uniform: [low, high] or normal: [mean, standard deviation]");
-  const Value& value = uniform != nullptr ? *uniform : *normal;
-  const auto& items = some_items(value, "a list of two numbers");
-  if (items.size() != 2)
-    throw InvalidValue(value.place.to_string(), fmt::format("{} numbers", items.size()), "two");
-  const Distribution d{normal != nullptr, finite(items[0]), finite(items[1])};
-  if (!d.normal && !(d.first < d.second))
-    throw InvalidValue(items[1].place.to_string(), items[1].describe(), "low < high");
-  if (d.normal && !(d.second > 0))
-    throw InvalidValue(items[1].place.to_string(), items[1].describe(), "a standard deviation > 0");
-  return d;
+  return static_cast<Sampling>(found - names.begin());
 }
 
-/// {count, of: [...]}: points drawn from the distributions of all keys together.
+/// {count, of: [...], method}: points drawn from the distributions of all keys together.
 void read_draw(const Value& map, int seed, std::size_t stream, PlacedAxis& axis) {
-  only(map, "draw", {"count", "of"});
+  only(map, "draw", {"count", "of", "method"});
   const int count = count_of(required(map, "count", "a draw"), 1);
   const auto& of = some_items(required(map, "of", "a draw"), "a list of keys and distributions");
-  std::vector<Distribution> distributions;
+  std::vector<Quantile> quantiles;
   for (const auto& item : of) {
-    distributions.push_back(read_distribution(item));
+    quantiles.push_back(read_distribution(item));
     const Value& key = required(item, "key", "a draw");
     axis.axis.keys.push_back(to_text(key, "a key path"));
     axis.keys.push_back(key.place);
   }
-  // Each point of each axis has draws of its own: more points leave the first ones as they were.
-  for (int k = 0; k < count; ++k) {
-    std::seed_seq mix{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(stream),
-                      static_cast<std::uint32_t>(k)};
-    std::mt19937_64 generator(mix);
+  const auto sampling = read_sampling(map);
+  if (sampling == Sampling::sobol && of.size() > max_sobol_dimension())
+    throw InvalidValue(map.place.to_string(), fmt::format("{} keys", of.size()),
+                       fmt::format("at most {} for sobol", max_sobol_dimension()));
+  for (const auto& u : unit_points(sampling, count, of.size(), seed, stream)) {
     auto& point = axis.values.emplace_back();
-    for (std::size_t i = 0; i < of.size(); ++i)
-      point.push_back(scalar(distributions[i](generator), of[i].place));
+    for (std::size_t i = 0; i < of.size(); ++i) point.push_back(quantiles[i](u[i]));
   }
 }
 

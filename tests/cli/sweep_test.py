@@ -298,6 +298,10 @@ class Refused(SweepTest):
                  ["s.yaml:3:", "1 values", "2 values"]),
                 (head + "axes:\n  - draw: {count: 3, of: [{key: start.x, uniform: [2, 1]}]}\n",
                  ["s.yaml:3:", "low < high"]),
+                (head + "axes:\n  - draw: {count: 3, method: sobl, of: [{key: start.x, normal: [2, 1]}]}\n",
+                 ["s.yaml:3:29", "did you mean 'sobol'?"]),
+                (head + "axes:\n  - draw: {count: 3, of: [{key: start.x, gauss: [2, 1]}]}\n",
+                 ["s.yaml:3:41", "unknown key 'gauss'"]),
         ):
             with self.subTest(text):
                 study = self.write("s.yaml", text)
