@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -56,6 +56,11 @@ realtime: ## planning times beside the execution horizon into docs/realtime.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/realtime.py --program build/slalom
+
+obstacle-choice: ## what leaving out obstacles does, into docs/obstacle-choice.md
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/obstacle_choice.py --program build/slalom
 
 format: ## format the C++ sources
 	tools/format.sh

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "guess.hpp"
+#include "obstacle_choice.hpp"
 #include "slalom/base/timer.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/nlp/solver.hpp"
@@ -63,8 +65,10 @@ class Planner::Impl {
        const std::vector<Obstacle>& obstacles)
       : settings_(checked(settings)),
         goal_(goal),
-        out_of_range_({settings, vehicle, goal, region, obstacles, false}, settings),
-        in_range_({settings, vehicle, goal, region, obstacles, true}, settings),
+        vehicle_(vehicle),
+        region_(region),
+        obstacles_(group_obstacles(settings, obstacles)),
+        chosen_(choose_obstacles(settings, {}, obstacles_)),
         guess_(settings, goal),
         solver_(nlp::make_solver(to_string(settings.solver))) {
     prepare();
@@ -74,11 +78,12 @@ class Planner::Impl {
     const Timer timer;
     const bool in_range =
         std::hypot(request.X0p[X] - goal_.x, request.X0p[Y] - goal_.y) < settings_.L_range;
+    choose(request);
     form(in_range).update(request);
     ocp::Transcription& transcription = form(in_range).transcription;
     nlp::Options options = solver_options(settings_, request);
     start_.x = start_point(request, in_range);
-    options.warm_start = last_ && last_->in_range == in_range;
+    options.warm_start = last_ && last_->in_range == in_range && same_obstacles_;
     options.time_limit = std::max(0.0, request.time_limit - timer.cpu() - longest_reading_s_);
     solver_->solve(transcription, start_, options, answer_);
     const double solved_at = timer.cpu();
@@ -101,7 +106,27 @@ class Planner::Impl {
   }
 
  private:
-  Form& form(bool in_range) { return in_range ? in_range_ : out_of_range_; }
+  /// The form for the goal in or out of range and for as many obstacles as are chosen, transcribed
+  /// when it is first wanted.
+  Form& form(bool in_range) {
+    const auto key = std::pair(in_range, chosen_.size());
+    const auto found = forms_.find(key);
+    if (found != forms_.end()) return found->second;
+    TrajectoryProblem problem(settings_, vehicle_, goal_, region_, chosen_, in_range);
+    return forms_.try_emplace(key, std::move(problem), settings_).first->second;
+  }
+
+  /// Chooses this cycle's obstacles. Multipliers carry over only where the last solve had the same.
+  void choose(const Request& request) {
+    if (settings_.obstacle_choice == ObstacleChoice::all) return;
+    auto now = choose_obstacles(settings_, request, obstacles_);
+    same_obstacles_ = same_names(now, chosen_);
+    chosen_ = std::move(now);
+    for (const bool in_range : {false, true}) {
+      const auto found = forms_.find(std::pair(in_range, chosen_.size()));
+      if (found != forms_.end()) found->second.problem.set_obstacles(chosen_);
+    }
+  }
 
   /// The guess, as a point of the NLP.
   std::vector<double> start_point(const Request& request, bool in_range) {
@@ -187,7 +212,12 @@ class Planner::Impl {
 
   const Settings settings_;
   const Goal goal_;
-  Form out_of_range_, in_range_;  ///< of the goal
+  const Parameters vehicle_;
+  const Region region_;
+  const std::vector<Obstacle> obstacles_;               ///< grouped
+  std::vector<Obstacle> chosen_;                        ///< of these, in this cycle
+  bool same_obstacles_ = true;                          ///< as in the last solve
+  std::map<std::pair<bool, std::size_t>, Form> forms_;  ///< goal in range, number of obstacles
   Guess guess_;
   std::optional<Recorder> recorder_;
   std::unique_ptr<nlp::Solver> solver_;

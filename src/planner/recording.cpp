@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "obstacle_choice.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/ocp/transcription.hpp"
@@ -35,11 +36,14 @@ Replayed replay(const Recording& recording, const Settings& settings,
                 const vehicle::Parameters& vehicle, const Goal& goal, const Region& region,
                 const std::vector<Obstacle>& obstacles) {
   select_kernels(recording.kernels);
-  TrajectoryProblem problem(settings, vehicle, goal, region, obstacles, recording.goal_in_range);
   Request request;
   request.X0p = recording.X0p;
   request.t0 = recording.t0;
   request.tex = recording.tex;
+  TrajectoryProblem problem(
+      settings, vehicle, goal, region,
+      choose_obstacles(settings, request, group_obstacles(settings, obstacles)),
+      recording.goal_in_range);
   problem.update(request);
   ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
                                    scheme_of(settings));

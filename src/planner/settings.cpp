@@ -43,7 +43,17 @@ void add_what_tells_planners_apart(Table& table) {
           "The vehicle as the planner has it; the one that drives is always pacejka, the 3DoF "
           "vehicle of the paper. linear_tyre: tyre forces linear in the slip angle; "
           "constant_speed: ux stays as it is, steering alone is planned; kinematic: the bicycle "
-          "without slip. See docs/planner-models.md.");
+          "without slip. See docs/planner-models.md.")
+      .choice("obstacle_choice", &S::obstacle_choice, {"all", "in_reach", "nearest"},
+              "The obstacles a plan knows of. in_reach: those that can come, grown by sm_end, into "
+              "the LiDAR's range about the start within tf_max; no plan can touch the others. "
+              "nearest: the obstacle_count nearest ones at the moment the plan begins. See "
+              "docs/obstacle-choice.md.")
+      .integer("obstacle_count", &S::obstacle_count, Range::closed(1, 1000), "1",
+               "How many obstacles `nearest` keeps.")
+      .real("obstacle_group_gap", &S::obstacle_group_gap, Range::non_negative(), "m",
+            "Obstacles of one velocity with less between their edges than this become one ellipse "
+            "that covers them; 0: each stays on its own.");
 }
 
 void add_weights(Table& table) {

@@ -49,7 +49,8 @@ TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters&
   add_cost(model);
   add_initial_state(model);
   add_vehicle_limits(model);
-  add_obstacles(obstacles);
+  add_obstacles();
+  set_obstacles(obstacles);
   add_lidar_region();
   add_goal();
 }
@@ -160,7 +161,7 @@ void TrajectoryProblem::add_vehicle_limits(const Model& model) {
 
 /// Time-varying elliptical obstacle constraints with the growing safety margin sm (the paper's
 /// Eqn. for obstacle avoidance), at every node after the first.
-void TrajectoryProblem::add_obstacles(const std::vector<Obstacle>& obstacles) {
+void TrajectoryProblem::add_obstacles() {
   const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
   const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
@@ -169,15 +170,18 @@ void TrajectoryProblem::add_obstacles(const std::vector<Obstacle>& obstacles) {
   const Expr x = xo + vx * t, y = yo + vy * t;
   const Expr sm = settings_.sm_start + (settings_.sm_end - settings_.sm_start) * problem_.tau();
   const Expr outside = square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
-  const auto rows = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
-                                         Bounds::at_least(0), Points::after_first);
+  obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
+                                        Bounds::at_least(0), Points::after_first);
+}
+
+void TrajectoryProblem::set_obstacles(const std::vector<Obstacle>& obstacles) {
   std::vector<std::string> names;
   std::vector<std::vector<double>> numbers;
   for (const auto& o : obstacles) {
     names.push_back(o.name);
     numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
   }
-  problem_.set_members(rows, std::move(names), std::move(numbers));
+  problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
 }
 
 /// The trajectory stays in the region the LiDAR sees (the paper's LiDAR region constraint).

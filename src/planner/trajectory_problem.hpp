@@ -27,6 +27,8 @@ class TrajectoryProblem {
                     const Region& region, const std::vector<Obstacle>& obstacles,
                     bool goal_in_range);
 
+  /// Puts other obstacles, as many, in the place of those the problem has.
+  void set_obstacles(const std::vector<Obstacle>& obstacles);
   /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
   void update(const Request& request);
 
@@ -41,7 +43,7 @@ class TrajectoryProblem {
   void add_cost(const vehicle::Model& model);
   void add_initial_state(const vehicle::Model& model);
   void add_vehicle_limits(const vehicle::Model& model);
-  void add_obstacles(const std::vector<Obstacle>& obstacles);
+  void add_obstacles();
   void add_lidar_region();
   void add_goal();
 
@@ -52,6 +54,7 @@ class TrajectoryProblem {
   const ModelMap map_;
 
   ocp::Problem problem_;
+  ocp::ConstraintId obstacle_rows_{};
   std::array<Expr, vehicle::kStates> X_;    ///< states, and what the model derives from them
   std::array<Expr, vehicle::kControls> U_;  ///< controls; zero where the model has none
   std::array<Expr, vehicle::kStates> X0p_;  ///< predicted state (run-time parameters)

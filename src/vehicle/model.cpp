@@ -70,7 +70,7 @@ struct Frame {
   Expr FzF, FzR;
 };
 
-Frame make_frame(const Parameters& p) {
+Frame make_frame() {
   Frame frame;
   Model& model = frame.model;
   for (std::size_t i = 0; i < kStates; ++i) model.state[i] = Expr::symbol(kStateNames[i]);
@@ -108,7 +108,7 @@ void add_wheel_loads(const Parameters& p, const Expr& lateral, Frame& frame) {
 }
 
 Model make_dynamic(const Parameters& p, ModelKind kind) {
-  Frame frame = make_frame(p);
+  Frame frame = make_frame();
   Model& model = frame.model;
   const Expr &v = model.state[V], &r = model.state[R], &psi = model.state[PSI],
              &sa = model.state[SA], &ux = model.state[UX], &ax = model.state[AX];
@@ -169,7 +169,7 @@ Model make_constant_speed(const Parameters& p) {
 ///   rear   v - lb r = 0        front   v + la r = ux tan(sa)
 /// hence r = ux tan(sa)/(la + lb), v = lb r, and the lateral acceleration v' + ux r.
 Model make_kinematic(const Parameters& p) {
-  Frame frame = make_frame(p);
+  Frame frame = make_frame();
   Model& model = frame.model;
   add_axle_loads(p, frame);
   add_acceleration_limits(p, model);

@@ -56,9 +56,12 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "max_iterations",
                            "solver",
                            "model",
+                           "obstacle_choice",
+                           "obstacle_count",
+                           "obstacle_group_gap",
                            "tyre_force_limit"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 34u);
+  EXPECT_EQ(names.size(), 37u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

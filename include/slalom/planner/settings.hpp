@@ -16,6 +16,9 @@ const char* to_string(SolverChoice solver);
 /// Form of the wheel-load cost: the paper's tanh pair, or with 2 added (zero when safe).
 enum class WheelLoadCost { paper, shifted };
 
+/// The obstacles that a plan avoids.
+enum class ObstacleChoice { all, in_reach, nearest };
+
 /// Settings of the trajectory-planning OCP; names as in section 3 of docs/formulation.md.
 struct Settings {
   std::string name = "P_D";
@@ -24,6 +27,11 @@ struct Settings {
   double w_t = 100;              ///< weight of final time [1/s]
   double w_ce = 1;               ///< weight of control effort [1]
   bool moving_avoidance = true;  ///< predict obstacle motion over the horizon
+
+  // Which obstacles a plan knows of.
+  ObstacleChoice obstacle_choice = ObstacleChoice::all;
+  int obstacle_count = 5;         ///< of `nearest`
+  double obstacle_group_gap = 0;  ///< nearer ones become one ellipse [m]; 0: none
 
   /// The vehicle as the planner has it, whatever drives.
   vehicle::ModelKind model = vehicle::ModelKind::pacejka;

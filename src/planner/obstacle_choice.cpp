@@ -1,0 +1,146 @@
+#include "obstacle_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace slalom::planner {
+namespace {
+
+using vehicle::State;
+
+/// Distance [m] from an ellipse's centre to its edge in the direction of (dx, dy).
+double radius_towards(const Obstacle& o, double dx, double dy) {
+  const double length = std::hypot(dx, dy);
+  if (length == 0) return std::min(o.a, o.b);
+  return length / std::hypot(dx / o.a, dy / o.b);
+}
+
+/// Between the edges of two obstacles along the line of their centres [m]; negative: they overlap.
+double gap(const Obstacle& p, const Obstacle& q) {
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  return std::hypot(dx, dy) - radius_towards(p, dx, dy) - radius_towards(q, dx, dy);
+}
+
+/// How much an ellipse about `o`'s centre with semi-axes a, b must be scaled to cover `member`: the
+/// largest value over the member's edge of the ellipse's norm. The edge is sampled, and the norm,
+/// whose slope along it is at most that of its two terms, bounded between samples.
+double scale_to_cover(const Obstacle& o, const Obstacle& member) {
+  constexpr int kSamples = 720;
+  const double step = 2 * std::numbers::pi / kSamples;
+  const double steepest = std::hypot(member.a / o.a, member.b / o.b);
+  double most = 0;
+  for (int k = 0; k < kSamples; ++k) {
+    const double x = member.x - o.x + member.a * std::cos(k * step);
+    const double y = member.y - o.y + member.b * std::sin(k * step);
+    most = std::max(most, std::hypot(x / o.a, y / o.b));
+  }
+  return most + steepest * step / 2;
+}
+
+/// The least distance [m] between the obstacle's centre and a point over absolute times t0 to t1.
+double nearest_pass(const Obstacle& o, double x, double y, double t0, double t1) {
+  const double dx = o.x_at(t0) - x, dy = o.y_at(t0) - y;
+  const double speed2 = o.vx * o.vx + o.vy * o.vy;
+  const double t = speed2 > 0 ? std::clamp(-(dx * o.vx + dy * o.vy) / speed2, 0.0, t1 - t0) : 0.0;
+  return std::hypot(dx + o.vx * t, dy + o.vy * t);
+}
+
+std::vector<Obstacle> in_reach(const Settings& s, const Request& request,
+                               const std::vector<Obstacle>& obstacles) {
+  // Every node lies within L_range + kappa of x(0), and x(0) within X0_tol of X0p.
+  const double reach = s.L_range + s.kappa + std::hypot(s.X0_tol[0], s.X0_tol[1]);
+  const double begin = s.moving_avoidance ? request.t0 + request.tex : request.t0;
+  const double end = s.moving_avoidance ? begin + s.tf_max : begin;
+  std::vector<Obstacle> chosen;
+  for (const auto& o : obstacles)
+    if (nearest_pass(o, request.X0p[vehicle::X], request.X0p[vehicle::Y], begin, end) <=
+        reach + std::max(o.a, o.b) + s.sm_end)
+      chosen.push_back(o);
+  return chosen;
+}
+
+std::vector<Obstacle> nearest(const Settings& s, const Request& request,
+                              const std::vector<Obstacle>& obstacles) {
+  const double t = s.moving_avoidance ? request.t0 + request.tex : request.t0;
+  std::vector<double> distance;
+  for (const auto& o : obstacles) {
+    const double dx = o.x_at(t) - request.X0p[vehicle::X], dy = o.y_at(t) - request.X0p[vehicle::Y];
+    distance.push_back(std::hypot(dx, dy) - radius_towards(o, dx, dy));
+  }
+  std::vector<std::size_t> order(obstacles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return distance[i] < distance[j]; });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(s.obstacle_count)));
+  std::sort(order.begin(), order.end());
+  std::vector<Obstacle> chosen;
+  for (const auto i : order) chosen.push_back(obstacles[i]);
+  return chosen;
+}
+
+}  // namespace
+
+Obstacle covering_ellipse(const std::vector<Obstacle>& members) {
+  if (members.size() == 1) return members.front();
+  double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
+  for (const auto& o : members) {
+    west = std::min(west, o.x - o.a);
+    east = std::max(east, o.x + o.a);
+    south = std::min(south, o.y - o.b);
+    north = std::max(north, o.y + o.b);
+  }
+  Obstacle cover = members.front();
+  cover.name = members.front().name + "+" + std::to_string(members.size() - 1);
+  cover.x = (west + east) / 2;
+  cover.y = (south + north) / 2;
+  cover.a = (east - west) / 2;
+  cover.b = (north - south) / 2;
+  double scale = 0;
+  for (const auto& o : members) scale = std::max(scale, scale_to_cover(cover, o));
+  scale = std::min(scale, std::numbers::sqrt2);  // the ellipse through the box's corners
+  cover.a *= scale;
+  cover.b *= scale;
+  return cover;
+}
+
+std::vector<Obstacle> group_obstacles(const Settings& settings,
+                                      const std::vector<Obstacle>& obstacles) {
+  if (settings.obstacle_group_gap == 0) return obstacles;
+  const std::size_t n = obstacles.size();
+  std::vector<std::size_t> group(n);
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  // The first member names a group; a link renames the later of two groups.
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const auto &p = obstacles[i], &q = obstacles[j];
+      if (p.vx != q.vx || p.vy != q.vy || gap(p, q) >= settings.obstacle_group_gap) continue;
+      const auto keep = std::min(group[i], group[j]), drop = std::max(group[i], group[j]);
+      std::replace(group.begin(), group.end(), drop, keep);
+    }
+  std::vector<Obstacle> result;
+  for (std::size_t first = 0; first < n; ++first) {
+    std::vector<Obstacle> members;
+    for (std::size_t i = first; i < n; ++i)
+      if (group[i] == first) members.push_back(obstacles[i]);
+    if (!members.empty()) result.push_back(covering_ellipse(members));
+  }
+  return result;
+}
+
+std::vector<Obstacle> choose_obstacles(const Settings& settings, const Request& request,
+                                       const std::vector<Obstacle>& obstacles) {
+  if (settings.obstacle_choice == ObstacleChoice::in_reach)
+    return in_reach(settings, request, obstacles);
+  if (settings.obstacle_choice == ObstacleChoice::nearest)
+    return nearest(settings, request, obstacles);
+  return obstacles;
+}
+
+bool same_names(const std::vector<Obstacle>& a, const std::vector<Obstacle>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Obstacle& p, const Obstacle& q) { return p.name == q.name; });
+}
+
+}  // namespace slalom::planner

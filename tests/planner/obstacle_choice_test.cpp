@@ -1,0 +1,136 @@
+// Which obstacles a plan knows of.
+
+#include "../../src/planner/obstacle_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "planner/scenes.hpp"
+
+namespace slalom::planner {
+namespace {
+
+std::vector<std::string> names(const std::vector<Obstacle>& obstacles) {
+  std::vector<std::string> names;
+  for (const auto& o : obstacles) names.push_back(o.name);
+  return names;
+}
+using Names = std::vector<std::string>;
+
+Settings choosing(ObstacleChoice choice, int count = 5) {
+  Settings s;
+  s.obstacle_choice = choice;
+  s.obstacle_count = count;
+  return s;
+}
+
+const std::vector<Obstacle> kRow = {{"a", 0, 20, 2, 2, 0, 0},
+                                    {"b", 0, 300, 2, 2, 0, -30},
+                                    {"c", 0, 64, 2, 2, 0, 0},
+                                    {"d", 0, 9, 1, 1, 0, 0}};
+
+TEST(ObstacleChoice, InReachDropsOnlyWhatNoPlanCanTouch) {
+  // From (0, 0) a plan reaches 50 + 5 m and the slacks; "c" begins 64 - 2 - 4 = 58 m away.
+  const Request request;
+  auto s = choosing(ObstacleChoice::in_reach);
+  EXPECT_EQ(names(choose_obstacles(s, request, kRow)), (Names{"a", "b", "d"})) << "b comes";
+  s.moving_avoidance = false;
+  EXPECT_EQ(names(choose_obstacles(s, request, kRow)), (Names{"a", "d"})) << "b is held";
+  s.sm_end = 9;
+  EXPECT_EQ(names(choose_obstacles(s, request, kRow)), (Names{"a", "c", "d"}));
+}
+
+TEST(ObstacleChoice, NearestCountsFromTheEdgeAtTheStartOfThePlanAndKeepsTheOrder) {
+  Request request;
+  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
+            (Names{"a", "d"}));
+  request.t0 = 9;  // b stands at 300 - 30 * 9.5 = 15
+  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
+            (Names{"b", "d"}));
+  EXPECT_EQ(choose_obstacles(choosing(ObstacleChoice::nearest, 9), request, kRow).size(), 4u);
+  const std::vector<Obstacle> long_one = {{"far", 0, 10, 1, 1, 0, 0}, {"long", 40, 0, 38, 1, 0, 0}};
+  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 1), request, long_one)),
+            (Names{"long"}));
+}
+
+TEST(Groups, ChainsOfOneVelocityBecomeOneEllipse) {
+  Settings s;
+  const auto scene = E_C();
+  EXPECT_EQ(names(group_obstacles(s, scene.obstacles)), names(scene.obstacles)) << "off";
+  s.obstacle_group_gap = 4.2;
+  EXPECT_EQ(group_obstacles(s, scene.obstacles).size(), 38u) << "cones stand 4.225 m apart";
+  s.obstacle_group_gap = 4.3;
+  const auto groups = group_obstacles(s, scene.obstacles);
+  EXPECT_EQ(names(groups), (Names{"O1", "O2", "cone1+35"}));
+  EXPECT_DOUBLE_EQ(groups[2].y, 87.5);
+  std::vector<Obstacle> moving = {
+      {"p", 0, 0, 1, 1, 0, 5}, {"q", 0, 3, 1, 1, 0, 5}, {"r", 0, 6, 1, 1, 0, 0}};
+  const auto two = group_obstacles(s, moving);
+  ASSERT_EQ(names(two), (Names{"p+1", "r"}));
+  EXPECT_EQ(two[0].vy, 5);
+}
+
+TEST(Groups, TheEllipseCoversItsMembersAndLittleElse) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-20, 20), size(0.2, 6);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Obstacle> members;
+    for (int k = 0; k < 2 + trial % 5; ++k)
+      members.push_back({"m", place(random), place(random), size(random), size(random), 0, 0});
+    const Obstacle cover = covering_ellipse(members);
+    double most = 0;
+    for (const auto& m : members)
+      for (int k = 0; k < 5000; ++k) {
+        const double angle = 2 * std::numbers::pi * k / 5000;
+        most = std::max(most, std::hypot((m.x + m.a * std::cos(angle) - cover.x) / cover.a,
+                                         (m.y + m.b * std::sin(angle) - cover.y) / cover.b));
+      }
+    EXPECT_LE(most, 1);
+    EXPECT_GT(most, 0.98);
+  }
+}
+
+TEST(ObstacleChoice, AChosenProblemHasTheChosenRowsAndPlansGoOnAsTheChoiceChanges) {
+  for (const auto choice : {ObstacleChoice::in_reach, ObstacleChoice::nearest}) {
+    Scene scene = E_C();
+    scene.settings.obstacle_choice = choice;
+    scene.settings.obstacle_count = 12;
+    auto planner = scene.planner();
+    Request request = scene.first;
+    for (int cycle = 0; cycle < 8; ++cycle) {
+      const Plan plan = planner.plan(request);
+      ASSERT_TRUE(plan.report.solved) << cycle << ": " << plan.report.status;
+      if (choice == ObstacleChoice::in_reach) EXPECT_GE(least_obstacle_row(scene, plan), -1e-6);
+      request = next_cycle(request, plan);
+    }
+  }
+}
+
+/// What cannot be touched does not move the plan but through the barrier's far tail.
+TEST(ObstacleChoice, InReachPlansAsAllDo) {
+  Scene scene = E_C();
+  const Plan all = scene.planner().plan(scene.first);
+  scene.settings.obstacle_choice = ObstacleChoice::in_reach;
+  const Plan some = scene.planner().plan(scene.first);
+  EXPECT_LT(distance(all, some, [](const State& x) { return std::pair(x[0], x[1]); }), 0.1);
+}
+
+TEST(ObstacleChoice, ASolveIsReplayedWithTheObstaclesItHad) {
+  Scene scene = E_C();
+  scene.settings.obstacle_choice = ObstacleChoice::nearest;
+  auto planner = scene.planner();
+  std::vector<Recording> recordings;
+  planner.record({[](const SolveReport&) { return true; },
+                  [&](const Recording& r) { recordings.push_back(r); }});
+  Request request = scene.first;
+  for (int cycle = 0; cycle < 3; ++cycle) request = next_cycle(request, planner.plan(request));
+  for (const auto& r : recordings)
+    EXPECT_TRUE(
+        replay(r, scene.settings, scene.vehicle, scene.goal, scene.region, scene.obstacles).same);
+}
+
+}  // namespace
+}  // namespace slalom::planner
