@@ -46,11 +46,10 @@ class Integrator {
   /// there.
   Vector across(std::size_t k, Vector x) const {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] /= scale_[i];
-    auto stepper = odeint::make_controlled(tolerance_, tolerance_,
-                                           odeint::runge_kutta_fehlberg78<Vector>());
+    auto stepper =
+        odeint::make_controlled(tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<Vector>());
     Vector states(x.size());
-    const double duration =
-        (breaks_[k + 1] - breaks_[k]) * (trajectory_.tf - trajectory_.t0);
+    const double duration = (breaks_[k + 1] - breaks_[k]) * (trajectory_.tf - trajectory_.t0);
     const double begin = trajectory_.time_at(breaks_[k]);
     const auto rates = [&](const Vector& at, Vector& out, double c) {
       for (std::size_t i = 0; i < at.size(); ++i) states[i] = at[i] * scale_[i];

@@ -20,10 +20,10 @@ struct Interpolant::Impl {
 
   Trajectory trajectory;
   std::vector<double> breaks;
-  std::vector<std::size_t> first;               ///< point of each node
-  std::vector<Basis> bases;                     ///< of consecutive equal schemes one
-  std::vector<std::size_t> basis;               ///< of each interval
-  std::vector<std::vector<double>> rate;        ///< [point][state]; of a node, the interval after it
+  std::vector<std::size_t> first;         ///< point of each node
+  std::vector<Basis> bases;               ///< of consecutive equal schemes one
+  std::vector<std::size_t> basis;         ///< of each interval
+  std::vector<std::vector<double>> rate;  ///< [point][state]; of a node, the interval after it
 
   std::pair<std::size_t, double> place(double t) const {
     const double span = trajectory.tf - trajectory.t0;

@@ -14,11 +14,11 @@ namespace slalom::ocp {
 /// |error of state i| / (scale_i + largest |state i|), the measure of Patterson, Hager & Rao,
 /// Optim. Control Appl. Meth. 36(4), 2015, eq. 27, with the state's scale for 1.
 struct ErrorEstimate {
-  std::vector<double> interval;      ///< of each, from its own begin: largest over the states
-  std::vector<std::string> state;    ///< the state where it stands
-  double largest = 0;                ///< over the intervals
-  std::size_t worst = 0;             ///< that interval
-  double horizon = 0;                ///< largest at a node, integrated from t0 on without a restart
+  std::vector<double> interval;    ///< of each, from its own begin: largest over the states
+  std::vector<std::string> state;  ///< the state where it stands
+  double largest = 0;              ///< over the intervals
+  std::size_t worst = 0;           ///< that interval
+  double horizon = 0;              ///< largest at a node, integrated from t0 on without a restart
   /// `horizon` over the sum of the intervals' errors: about 1 where dynamics are neutral, large
   /// where they are unstable and so no open-loop control can reproduce the states.
   double amplification = 0;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "slalom/ocp/errors.hpp"
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/solve.hpp"
+
+namespace slalom::ocp {
+
+/// How a mesh gets finer where its error is too large.
+enum class Refinement {
+  h,   ///< an interval is cut, by its scheme's order: Betts 2010, section 4.7
+  hp,  ///< its degree rises, and it is cut past `max_points`: Patterson, Hager & Rao 2015
+};
+
+struct RefineSettings {
+  SolveSettings start = {};  ///< first mesh, scheme and guess; options and back end of all
+  double tolerance = 1e-6;   ///< of ErrorEstimate::largest
+  Refinement refinement = Refinement::h;
+  int max_meshes = 15;
+  int max_size = 20000;  ///< points of a mesh
+  int min_points = 3;    ///< hp: of a scheme in a new interval
+  int max_points = 12;   ///< hp: of a scheme
+};
+
+/// How a refinement ended.
+enum class RefineStatus {
+  converged,   ///< every interval's error, by re-integration, is within the tolerance
+  mesh_limit,  ///< `max_meshes` were solved
+  size_limit,  ///< the next mesh would have more than `max_size` points
+  not_solved,  ///< a mesh was not solved: see the last record's status
+};
+const char* to_string(RefineStatus status);
+
+/// What one mesh did.
+struct MeshRecord {
+  std::size_t intervals = 0, points = 0;
+  nlp::Status status = nlp::Status::numerical_failure;
+  int iterations = 0;
+  double wall_s = 0;  ///< of the solve
+  double objective = 0;
+  double largest_error = 0;  ///< ErrorEstimate::largest
+  std::size_t worst_interval = 0;
+};
+
+struct Refined {
+  RefineStatus status = RefineStatus::not_solved;
+  Solution solution;  ///< of the last mesh that was solved; of the first if none was
+  ErrorEstimate errors;
+  std::vector<MeshRecord> meshes;
+
+  /// The records as a table of plain text.
+  std::string table() const;
+};
+
+/// Solves on one mesh after another, each from the last one's polynomials, until the errors are
+/// within the tolerance. Throws InvalidValue for settings out of range, and for hp with a scheme
+/// that has one degree only.
+[[nodiscard]] Refined refine(const Problem& problem, const RefineSettings& settings = {});
+
+}  // namespace slalom::ocp
