@@ -1,0 +1,86 @@
+#include "slalom/expr/spline.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "slalom/base/error.hpp"
+
+namespace slalom::expr {
+namespace {
+
+using Vector = std::vector<double>;
+
+void check(const Vector& knots, const Vector& values) {
+  const std::string where = "spline";
+  if (knots.size() < 2)
+    throw InvalidValue(where, fmt::format("{} knots", knots.size()), "at least 2");
+  if (values.size() != knots.size())
+    throw InvalidValue(where, fmt::format("{} values", values.size()),
+                       fmt::format("{}, one a knot", knots.size()));
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    if (!std::isfinite(knots[i]) || !std::isfinite(values[i]))
+      throw InvalidValue(where, fmt::format("({}, {}) at knot {}", knots[i], values[i], i),
+                         "finite numbers");
+    if (i > 0 && !(knots[i] > knots[i - 1]))
+      throw InvalidValue(where, fmt::format("knot {} = {} after {}", i, knots[i], knots[i - 1]),
+                         "strictly increasing knots");
+  }
+}
+
+/// Second derivatives at the knots: tridiagonal, diagonally dominant, by elimination.
+Vector curvatures(const Vector& x, const Vector& y) {
+  const std::size_t n = x.size();
+  Vector m(n, 0.0), factor(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
+    const double slope_change = (y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before;
+    const double pivot = 2 * (before + after) - before * factor[i - 1];
+    factor[i] = after / pivot;
+    m[i] = (6 * slope_change - before * m[i - 1]) / pivot;
+  }
+  for (std::size_t i = n - 2; i > 0; --i) m[i] -= factor[i] * m[i + 1];
+  return m;
+}
+
+/// list[k] for the piece k that x lies in: pieces begin at `begins`. The choice has derivative 0,
+/// so that the derivative is that of the piece.
+Expr pick(const Expr& x, const Vector& begins, const Vector& list, std::size_t first,
+          std::size_t last) {
+  if (first == last) return list[first];
+  const std::size_t middle = (first + last + 1) / 2;
+  return select(x - begins[middle], pick(x, begins, list, middle, last),
+                pick(x, begins, list, first, middle - 1));
+}
+
+}  // namespace
+
+Expr cubic_spline(const Expr& x, const Vector& knots, const Vector& values) {
+  check(knots, values);
+  const Vector m = curvatures(knots, values);
+  const std::size_t last = knots.size() - 1;
+  // Pieces: the line before the first knot, one from each knot on, the last a line again.
+  Vector begins, at, value, slope, second, third;
+  const auto add = [&](double begin, std::size_t i, double first_derivative, double curvature,
+                       double jerk) {
+    begins.push_back(begin);
+    at.push_back(knots[i]);
+    value.push_back(values[i]);
+    slope.push_back(first_derivative);
+    second.push_back(curvature / 2);
+    third.push_back(jerk / 6);
+  };
+  for (std::size_t i = 0; i < last; ++i) {
+    const double h = knots[i + 1] - knots[i], chord = (values[i + 1] - values[i]) / h;
+    const double begin = chord - h * (2 * m[i] + m[i + 1]) / 6;
+    if (i == 0) add(knots[0], 0, begin, 0, 0);
+    add(knots[i], i, begin, m[i], (m[i + 1] - m[i]) / h);
+    if (i + 1 == last) add(knots[last], last, chord + h * (m[i] + 2 * m[i + 1]) / 6, 0, 0);
+  }
+  const auto chosen = [&](const Vector& list) { return pick(x, begins, list, 0, list.size() - 1); };
+  const Expr d = x - chosen(at);
+  return chosen(value) + d * (chosen(slope) + d * (chosen(second) + d * chosen(third)));
+}
+
+}  // namespace slalom::expr

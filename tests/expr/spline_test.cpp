@@ -1,0 +1,108 @@
+#include "slalom/expr/spline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "slalom/base/error.hpp"
+#include "slalom/expr/function.hpp"
+
+namespace slalom::expr {
+namespace {
+
+/// Value, slope and second derivative of the spline at a number.
+struct Point {
+  double value = 0, slope = 0, curvature = 0;
+};
+
+class Spline {
+ public:
+  Spline(const std::vector<double>& knots, const std::vector<double>& values) {
+    const Expr x = Expr::symbol("x");
+    f_ = Function({x}, {}, {cubic_spline(x, knots, values)});
+  }
+  Point at(double number) const {
+    Point point;
+    const std::vector<double> one{1};
+    f_.evaluate(1, {&number, 1}, {}, one, {.values = true, .jacobian = true, .hessian = true},
+                {&point.value, 1}, {&point.slope, 1},
+                {&point.curvature, f_.hessian_pattern().size()});
+    return point;
+  }
+
+ private:
+  Function f_;
+};
+
+Point at(const std::vector<double>& knots, const std::vector<double>& values, double number) {
+  return Spline(knots, values).at(number);
+}
+
+const std::vector<double> kKnots = {-1, 0, 0.5, 2, 2.25, 4}, kValues = {3, -1, 2, 2, 0, 5};
+
+TEST(Splines, PassThroughTheirKnotsTwiceSmoothly) {
+  for (std::size_t i = 0; i < kKnots.size(); ++i) {
+    const double gap = 1e-9, x = kKnots[i];
+    const Point before = at(kKnots, kValues, x - gap), here = at(kKnots, kValues, x),
+                after = at(kKnots, kValues, x + gap);
+    EXPECT_NEAR(here.value, kValues[i], 1e-12);
+    EXPECT_NEAR(before.value, after.value, 1e-6);
+    EXPECT_NEAR(before.slope, after.slope, 1e-5);
+    EXPECT_NEAR(before.curvature, after.curvature, 1e-5);
+  }
+  EXPECT_NEAR(at(kKnots, kValues, -1 + 1e-9).curvature, 0, 1e-5);
+  EXPECT_NEAR(at(kKnots, kValues, 4 - 1e-9).curvature, 0, 1e-5);
+}
+
+TEST(Splines, AreLinesBeyondTheirEndsAndWhereTheDataAre) {
+  const Point left = at(kKnots, kValues, -3);
+  EXPECT_NEAR(left.value, 3 - 2 * at(kKnots, kValues, -1).slope, 1e-12);
+  EXPECT_EQ(left.curvature, 0);
+  EXPECT_NEAR(at(kKnots, kValues, 6).value, 5 + 2 * at(kKnots, kValues, 4).slope, 1e-12);
+  for (const double x : {-1.0, 0.0, 0.3, 1.0, 5.0}) {
+    EXPECT_NEAR(at({0, 1}, {2, 5}, x).value, 2 + 3 * x, 1e-14);
+    EXPECT_NEAR(at({0, 0.2, 0.7, 1}, {2, 2.6, 4.1, 5}, x).slope, 3, 1e-13);
+  }
+}
+
+TEST(Splines, ApproachASmoothFunctionByTheFourthPowerOfTheStep) {
+  const auto error = [](int n) {
+    std::vector<double> knots, values;
+    for (int i = 0; i <= n; ++i) {
+      knots.push_back(2 * M_PI * i / n);
+      values.push_back(std::sin(knots.back()));  // its second derivative is 0 at both ends
+    }
+    const Spline spline(knots, values);
+    double worst = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double x = 2 * M_PI * (i + 0.5) / 200;
+      worst = std::max(worst, std::fabs(spline.at(x).value - std::sin(x)));
+    }
+    return worst;
+  };
+  EXPECT_NEAR(std::log2(error(16) / error(32)), 4, 0.2);
+  EXPECT_LT(error(300), 1e-8);  // deep within one another
+}
+
+TEST(Splines, RefuseTablesThatAreNone) {
+  const auto message = [](const std::vector<double>& knots, const std::vector<double>& values) {
+    try {
+      (void)cubic_spline(Expr::symbol("x"), knots, values);
+    } catch (const InvalidValue& e) {
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(message({1}, {1}), "spline: found 1 knots, expected at least 2");
+  EXPECT_EQ(message({1, 2}, {1}), "spline: found 1 values, expected 2, one a knot");
+  EXPECT_EQ(message({1, 2, 2}, {1, 2, 3}),
+            "spline: found knot 2 = 2 after 2, expected strictly increasing knots");
+  EXPECT_EQ(message({1, 2}, {1, std::nan("")}),
+            "spline: found (2, nan) at knot 1, expected finite numbers");
+}
+
+}  // namespace
+}  // namespace slalom::expr
