@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice wheel format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -62,8 +62,12 @@ obstacle-choice: ## what leaving out obstacles does, into docs/obstacle-choice.m
 	$(MAKE) --no-print-directory build
 	python3 tools/obstacle_choice.py --program build/slalom
 
+wheel: ## set up, and build the Python package into dist/
+	tools/setup.sh wheel
+	tools/python.sh wheel dist
+
 format: ## format the C++ sources
 	tools/format.sh
 
 clean: ## remove the build trees and what `make run` wrote
-	rm -rf build build-debug build-asan run tests/browser/node_modules
+	rm -rf build build-python dist build-debug build-asan run tests/browser/node_modules

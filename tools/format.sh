@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 folders=()
-for folder in include src apps tests benchmarks examples; do
+for folder in include src apps tests benchmarks examples python; do
   if [ -d "$folder" ]; then folders+=("$folder"); fi
 done
 mapfile -t files < <(find "${folders[@]}" \( -name node_modules -o -name .venv \) -prune -o \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# setup.sh run|test|bench|results: sees to it that what `make run`, `make test`, `make bench` or
+# setup.sh run|test|bench|results|wheel: sees to it that what `make run`, `make test`, `make bench` or
 # `make results` and `make robustness` need is there. What is missing is installed by apt, after
 # saying which package and why. Where apt cannot do it, this says what to install and goes on: the
 # build then tells whether it was there after all.
@@ -29,6 +29,9 @@ python3             | test  | cmd:python3               | runs the checks of the
 chromium            | test  | cmd:chromium cmd:chromium-browser cmd:google-chrome | drives the report's page
 nodejs              | test  | cmd:node                  | runs the test of the page
 npm                 | test  | cmd:npm                   | installs playwright-core for the test of the page
+python3             | wheel | cmd:python3               | runs the build of the Python package
+python3-venv        | wheel | py:ensurepip              | keeps the tools of that build to a folder of their own
+python3-dev         | wheel | pc:python3                | compiles the Python extension
 python3             | results | cmd:python3               | tabulates drives
 python3             | bench | cmd:python3               | runs the benchmarks
 python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
@@ -68,7 +71,8 @@ is_there() {
 wanted() { # needed for $1, when asked for $2
   case $2 in
     run) [ "$1" = run ] ;;
-    test) [ "$1" = run ] || [ "$1" = test ] ;;
+    test) [ "$1" = run ] || [ "$1" = test ] || [ "$1" = wheel ] ;;
+    wheel) [ "$1" = run ] || [ "$1" = wheel ] ;;
     bench) [ "$1" = run ] || [ "$1" = bench ] ;;
     results) [ "$1" = run ] || [ "$1" = results ] ;;
   esac
@@ -92,9 +96,9 @@ go_on() {
 
 purpose=${1:-}
 case $purpose in
-  run | test | bench | results) ;;
+  run | test | bench | results | wheel) ;;
   *)
-    echo "usage: tools/setup.sh run|test|bench|results" >&2
+    echo "usage: tools/setup.sh run|test|bench|results|wheel" >&2
     exit 2
     ;;
 esac

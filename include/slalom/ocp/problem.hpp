@@ -48,6 +48,7 @@ class Problem {
   // --- variables ---------------------------------------------------------------------------
   /// A state with bounds at every point; `scale` is its typical size (solver sees value / scale).
   Expr state(const std::string& name, Bounds bounds = {}, double scale = 1);
+  /// A control with bounds at every point.
   Expr control(const std::string& name, Bounds bounds = {}, double scale = 1);
   /// A constant to optimise.
   Expr static_parameter(const std::string& name, Bounds bounds, double guess, double scale = 1);
@@ -62,24 +63,29 @@ class Problem {
   // --- given quantities --------------------------------------------------------------------
   /// A run-time parameter: a number that set_parameter changes between solves without a rebuild.
   Expr parameter(const std::string& name, double value);
+  /// Changes a run-time parameter; throws InvalidValue for another symbol or a number not finite.
   void set_parameter(const Expr& parameter, double value);
 
   Expr time() const { return time_; }  ///< t of the point [time unit of t0, tf]
   Expr tau() const { return tau_; }    ///< (t - t0) / (tf - t0), 0 ... 1
   Expr initial_time() const { return t0_; }
   Expr final_time() const { return tf_; }
-  /// A state's value at one end, to be used anywhere (also at other points).
+  /// A state's value at t0, to be used anywhere (also at other points).
   Expr initial(const Expr& state) const;
+  /// A state's value at tf, likewise.
   Expr final(const Expr& state) const;
 
   // --- dynamics, cost, constraints ---------------------------------------------------------
+  /// The time derivative of a state: one for each.
   void dynamics(const Expr& state, const Expr& rate);
   /// A cost term at the ends: of initial(), final(), slacks, t0, tf, static parameters, integrals.
   void mayer(const std::string& name, const Expr& term);
   /// A cost term under the integral over time.
   void lagrange(const std::string& name, const Expr& integrand);
+  /// A constraint at the points of the mesh: of states, controls, time and all that has one value.
   ConstraintId path(const std::string& name, const Expr& value, Bounds bounds,
                     Points points = Points::all);
+  /// A constraint on what mayer may use.
   ConstraintId boundary(const std::string& name, const Expr& value, Bounds bounds);
 
   /// One path row a member: `value` is an expression of `symbols` (made by Expr::symbol), which
@@ -97,12 +103,14 @@ class Problem {
   void enable_cost(const std::string& name, bool enabled);
 
   // --- ends --------------------------------------------------------------------------------
-  /// Time runs forward: tf >= t0, whatever their bounds.
-  // --------------------------------------------------------------------------------
+  /// Bounds of t0, and its guess; fixed at 0 if never called.
   void initial_time(Bounds bounds, double guess);
+  /// Bounds of tf, and its guess; fixed at 1 if never called. Time runs forward: tf >= t0, whatever
+  /// their bounds.
   void final_time(Bounds bounds, double guess);
-  /// Extra bounds of a state at one end; Bounds::equal fixes it.
+  /// Extra bounds of a state at t0; Bounds::equal fixes it.
   void initial_bounds(const Expr& state, Bounds bounds);
+  /// Extra bounds of a state at tf, likewise.
   void final_bounds(const Expr& state, Bounds bounds);
 
   // --- what a transcription reads ----------------------------------------------------------

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "docstrings.hpp"
+
+namespace slalom::python {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+using Vector = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
+using Matrix = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
+
+/// A NumPy array that owns a copy of the numbers.
+Vector to_numpy(const std::vector<double>& numbers);
+/// Rows of equal length as an array [row, column]; `columns` is for no rows at all.
+Matrix to_numpy(const std::vector<std::vector<double>>& rows, std::size_t columns);
+
+/// The matrix of `get(item)` over a list, one row an item.
+template <class List, class Get>
+Matrix table(const List& list, std::size_t columns, Get get) {
+  std::vector<std::vector<double>> rows;
+  rows.reserve(list.size());
+  for (const auto& item : list) {
+    const auto& row = get(item);
+    rows.emplace_back(row.begin(), row.end());
+  }
+  return to_numpy(rows, columns);
+}
+
+/// Lets other Python threads run while it lives, and hears an interrupt (Ctrl-C) all the same.
+class Released {
+ public:
+  Released();
+  /// Whether an interrupt came. Asks the interpreter twenty times a second at most, for that takes
+  /// the lock that other threads hold.
+  bool interrupted();
+  /// To be called once the interpreter's lock is held again: raises the interrupt's exception.
+  void raise_if_interrupted() const;
+
+ private:
+  double asked_;
+  bool interrupted_ = false;
+};
+
+void bind_expressions(nb::module_& module);
+void bind_problem(nb::module_& module);
+void bind_solution(nb::module_& module);
+void bind_solve(nb::module_& module);
+void bind_drive(nb::module_& module);
+void bind_planner(nb::module_& module);
+
+}  // namespace slalom::python

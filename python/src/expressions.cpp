@@ -1,0 +1,189 @@
+#include <nanobind/operators.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "binding.hpp"
+#include "slalom/base/error.hpp"
+#include "slalom/expr/expr.hpp"
+#include "slalom/expr/function.hpp"
+
+namespace slalom::python {
+namespace {
+
+using expr::Expr;
+using Unary = Expr (*)(const Expr&);
+using Binary = Expr (*)(const Expr&, const Expr&);
+
+/// One name for each elementary function: of the module, of Expr's method (which NumPy calls on
+/// arrays of objects), and NumPy's own where it differs.
+struct UnaryName {
+  const char *name, *numpy;
+  Unary function;
+};
+struct BinaryName {
+  const char *name, *numpy;
+  Binary function;
+};
+
+const UnaryName kUnary[] = {{"square", "square", expr::square}, {"sqrt", "sqrt", expr::sqrt},
+                            {"exp", "exp", expr::exp},          {"log", "log", expr::log},
+                            {"sin", "sin", expr::sin},          {"cos", "cos", expr::cos},
+                            {"tan", "tan", expr::tan},          {"arcsin", "arcsin", expr::asin},
+                            {"arccos", "arccos", expr::acos},   {"arctan", "arctan", expr::atan},
+                            {"sinh", "sinh", expr::sinh},       {"cosh", "cosh", expr::cosh},
+                            {"tanh", "tanh", expr::tanh},       {"absolute", "absolute", expr::abs},
+                            {"sign", "sign", expr::sign}};
+
+const BinaryName kBinary[] = {{"arctan2", "arctan2", expr::atan2},
+                              {"minimum", "minimum", expr::min},
+                              {"maximum", "maximum", expr::max},
+                              {"power", "power", expr::pow}};
+
+/// NumPy's functions that are operators here.
+const std::map<std::string, std::function<Expr(const Expr&, const Expr&)>> kOperators = {
+    {"add", [](const Expr& a, const Expr& b) { return a + b; }},
+    {"subtract", [](const Expr& a, const Expr& b) { return a - b; }},
+    {"multiply", [](const Expr& a, const Expr& b) { return a * b; }},
+    {"divide", [](const Expr& a, const Expr& b) { return a / b; }},
+    {"true_divide", [](const Expr& a, const Expr& b) { return a / b; }},
+    {"float_power", [](const Expr& a, const Expr& b) { return pow(a, b); }},
+    {"arctan2", expr::atan2},
+    {"minimum", expr::min},
+    {"maximum", expr::max},
+    {"fmin", expr::min},
+    {"fmax", expr::max},
+    {"power", [](const Expr& a, const Expr& b) { return pow(a, b); }}};
+
+const std::map<std::string, std::function<Expr(const Expr&)>>& unary_by_numpy_name() {
+  static const auto names = [] {
+    std::map<std::string, std::function<Expr(const Expr&)>> map;
+    for (const auto& each : kUnary) map[each.numpy] = each.function;
+    map["fabs"] = expr::abs;
+    map["negative"] = [](const Expr& a) { return -a; };
+    map["positive"] = [](const Expr& a) { return a; };
+    map["reciprocal"] = [](const Expr& a) { return 1 / a; };
+    map["deg2rad"] = map["radians"] = [](const Expr& a) { return a * (M_PI / 180); };
+    map["rad2deg"] = map["degrees"] = [](const Expr& a) { return a * (180 / M_PI); };
+    return map;
+  }();
+  return names;
+}
+
+bool is_array(nb::handle value) {
+  return nb::hasattr(value, "ndim") && nb::cast<int>(value.attr("ndim")) > 0;
+}
+
+Expr to_expr(nb::handle value) {
+  if (nb::isinstance<Expr>(value)) return nb::cast<Expr>(value);
+  return Expr(nb::cast<double>(nb::float_(nb::borrow(value))));
+}
+
+/// NumPy's function of one Expr and numbers; of arrays, element by element, an array of objects.
+nb::object ufunc(const std::string& name, const nb::args& inputs) {
+  for (const nb::handle input : inputs)
+    if (is_array(input)) {
+      const nb::module_ numpy = nb::module_::import_("numpy");
+      const nb::object element =
+          nb::cpp_function([name](const nb::args& items) { return ufunc(name, items); });
+      // As arrays of objects all: NumPy would hand a bare Expr back to this very function.
+      nb::list arrays;
+      for (const nb::handle each : inputs)
+        arrays.append(numpy.attr("asarray")(each, "dtype"_a = "object"));
+      return numpy.attr("frompyfunc")(element, inputs.size(), 1)(*arrays);
+    }
+  if (inputs.size() == 1) {
+    const auto found = unary_by_numpy_name().find(name);
+    if (found != unary_by_numpy_name().end()) return nb::cast(found->second(to_expr(inputs[0])));
+  } else if (inputs.size() == 2) {
+    const auto found = kOperators.find(name);
+    if (found != kOperators.end())
+      return nb::cast(found->second(to_expr(inputs[0]), to_expr(inputs[1])));
+  }
+  return nb::steal(Py_NewRef(Py_NotImplemented));
+}
+
+nb::object array_ufunc(const Expr&, nb::handle function, const std::string& method,
+                       const nb::args& inputs, const nb::kwargs& options) {
+  if (method != "__call__" || options.size() != 0) return nb::steal(Py_NewRef(Py_NotImplemented));
+  return ufunc(nb::cast<std::string>(function.attr("__name__")), inputs);
+}
+
+std::string text(const Expr& e) {
+  if (e.is_symbol()) return "Expr(" + e.name() + ")";
+  if (e.is_constant())
+    return "Expr(" + nb::cast<std::string>(nb::repr(nb::float_(e.value()))) + ")";
+  std::string names;
+  for (const auto& symbol : expr::symbols_of({e}))
+    names += (names.empty() ? "" : ", ") + symbol.name();
+  return "Expr(of " + names + ")";
+}
+
+/// The number an expression comes to where each symbol has a value.
+double evaluate(const Expr& e, const std::vector<std::pair<Expr, double>>& values) {
+  std::vector<Expr> symbols;
+  std::vector<double> numbers;
+  for (const auto& [symbol, number] : values) {
+    symbols.push_back(symbol);
+    numbers.push_back(number);
+  }
+  double result = 0;
+  expr::Function(symbols, {}, {e})(numbers, {}, {&result, 1});
+  return result;
+}
+
+}  // namespace
+
+void bind_expressions(nb::module_& module) {
+  auto type = nb::class_<Expr>(module, "Expr", doc::expr_Expr);
+  type.def(nb::init<double>(), "value"_a)
+      .def_static("symbol", &Expr::symbol, "name"_a, doc::expr_Expr_symbol)
+      .def("__repr__", &text)
+      .def("evaluate", &evaluate, "values"_a,
+           "The number it comes to, given pairs (symbol, number). Throws Error for a symbol left "
+           "out.")
+      .def(nb::self + nb::self)
+      .def(nb::self - nb::self)
+      .def(nb::self * nb::self)
+      .def(nb::self / nb::self)
+      .def(
+          "__radd__", [](const Expr& a, double b) { return b + a; }, nb::is_operator())
+      .def(
+          "__rsub__", [](const Expr& a, double b) { return b - a; }, nb::is_operator())
+      .def(
+          "__rmul__", [](const Expr& a, double b) { return b * a; }, nb::is_operator())
+      .def(
+          "__rtruediv__", [](const Expr& a, double b) { return b / a; }, nb::is_operator())
+      .def(
+          "__pow__", [](const Expr& a, const Expr& b) { return pow(a, b); }, nb::is_operator())
+      .def(
+          "__rpow__", [](const Expr& a, double b) { return pow(b, a); }, nb::is_operator())
+      .def(-nb::self)
+      .def("__pos__", [](const Expr& a) { return a; })
+      .def(
+          "__abs__", [](const Expr& a) { return abs(a); }, doc::expr_abs)
+      .def("__bool__",
+           [](const Expr&) -> bool {
+             throw nb::type_error("an expression has no truth value; slalom.select chooses by one");
+           })
+      .def("__array_ufunc__", &array_ufunc, "function"_a, "method"_a, "inputs"_a, "options"_a);
+  nb::implicitly_convertible<double, Expr>();
+  nb::implicitly_convertible<int, Expr>();
+
+  for (const auto& each : kUnary) {
+    const auto documentation = std::string("numpy.") + each.numpy + " of an expression.";
+    module.def(each.name, each.function, "a"_a, documentation.c_str());
+    type.def(each.name, each.function, documentation.c_str());
+  }
+  for (const auto& each : kBinary) {
+    const auto documentation = std::string("numpy.") + each.numpy + " of two expressions.";
+    module.def(each.name, each.function, "a"_a, "b"_a, documentation.c_str());
+  }
+  module.def("select", &expr::select, "condition"_a, "if_positive"_a, "otherwise"_a,
+             doc::expr_select);
+}
+
+}  // namespace slalom::python

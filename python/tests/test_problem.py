@@ -1,0 +1,172 @@
+"""Problems: stated, solved, and refused with the right exception."""
+
+import os
+import pathlib
+import re
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import slalom
+
+README = pathlib.Path(os.environ.get("SLALOM_README", pathlib.Path(__file__).parents[2] / "README.md"))
+
+
+def bryson_denham(limit=1 / 9):
+    p = slalom.Problem("Bryson-Denham")
+    x = p.state("x", upper=limit, initial=0, final=0)
+    v = p.state("v", initial=1, final=-1)
+    u = p.control("u")
+    p.dynamics(x, v)
+    p.dynamics(v, u)
+    p.lagrange("effort", u**2 / 2)
+    return p
+
+
+def test_bryson_denham():
+    s = bryson_denham().solve(mesh=90)
+    assert s.solved and s.status == "solved"
+    assert s.objective == pytest.approx(4, rel=1e-5)
+    assert s.state("x").max() <= 1 / 9 + 1e-6
+    assert s.t.shape == s.states["x"].shape == s.controls["u"].shape
+    assert s.t[0] == 0 and s.t[-1] == s.tf == 1
+    assert s.cost_terms == {"effort": pytest.approx(s.objective)}
+    # Analytic: x enters its bound at 3 l = 1/3, and the control there is (t / (3 l) - 1) 2 / (3 l).
+    np.testing.assert_allclose(s.control("u")[0], -2 / (3 / 9), rtol=1e-3)
+    # At t = 0 the costate of v is dJ*/dv = -u, for stationarity is u + costate = 0.
+    np.testing.assert_allclose(s.costate("v")[0], 6, rtol=1e-2)
+
+
+def test_free_final_time_by_each_scheme():
+    for scheme in slalom.scheme_names():
+        p = slalom.Problem("minimum time")
+        x, v = p.state("x", initial=0, final=1), p.state("v", initial=0, final=0)
+        u = p.control("u", lower=-1, upper=1)
+        p.dynamics(x, v)
+        p.dynamics(v, u)
+        p.final_time(lower=0.1, upper=10)
+        p.mayer("duration", p.tf)
+        s = p.solve(scheme=scheme, mesh=20)
+        assert s.solved, scheme
+        assert s.tf == pytest.approx(2, rel=0.1 if scheme == "backward_euler" else 1e-2), scheme
+
+
+def test_guesses():
+    p = bryson_denham()
+    s = p.solve()
+    again = p.solve(guess=s, mesh=60)
+    assert again.objective == pytest.approx(s.objective, rel=1e-3)
+    t = np.linspace(0, 1, 5)
+    assert p.solve(guess={"t": t, "x": 0.1, "v": 1 - 2 * t, "u": np.cos}).solved
+    with pytest.raises(slalom.InvalidValue, match="3 numbers"):
+        p.solve(guess={"t": t, "x": [1, 2, 3]})
+    with pytest.raises(slalom.InvalidValue, match="nope"):
+        p.solve(guess={"nope": 1})
+    with pytest.raises(TypeError):
+        p.solve(guess={"x": "one"})
+
+
+def test_an_array_outlives_its_solution():
+    x = bryson_denham().solve().state("x")
+    assert x[0] == pytest.approx(0, abs=1e-8)
+
+
+@pytest.mark.parametrize("state, message", [
+    (lambda p: p.state("x"), "twice"),
+    (lambda p: p.state("w", lower=1, upper=0), "bounds 1 to 0"),
+    (lambda p: p.state("w", lower=float("nan")), "NaN"),
+    (lambda p: p.boundary("b", p.tf, lower=0, equal=1), "equal beside"),
+    (lambda p: p.solve(mesh=0), "mesh|interval"),
+    (lambda p: p.solve(mesh=[0, 0.5, 0.4, 1]), "mesh|breakpoint"),
+    (lambda p: p.solve(scheme="hermit_simpson"), "hermite_simpson"),
+    (lambda p: p.solve(max_iteration=3), "max_iterations"),
+    (lambda p: p.solve(tol=-1), "tol"),
+    (lambda p: p.solve(backend="nothing"), "interior_point"),
+    (lambda p: p.solve().state("y"), "no state 'y'"),
+])
+def test_bad_input_is_a_value_error_that_says_so(state, message):
+    with pytest.raises(ValueError, match=message) as caught:
+        state(bryson_denham())
+    assert isinstance(caught.value, slalom.InvalidValue) and isinstance(caught.value, slalom.Error)
+    assert caught.value.expected
+
+
+def test_wrong_types_are_type_errors():
+    with pytest.raises(TypeError):
+        slalom.Problem(3)
+    with pytest.raises(TypeError):
+        bryson_denham().state("w", lower="low")
+    with pytest.raises(TypeError):
+        bryson_denham().solve(tol=[1])
+
+
+def test_not_solved_is_a_status():
+    s = bryson_denham().solve(max_iterations=1)
+    assert not s.solved and s.status == "iteration_limit"
+
+
+def endless():
+    p = slalom.Problem("slow")
+    x = p.state("x", initial=1)
+    u = p.control("u")
+    p.dynamics(x, -x**3 + u)
+    p.lagrange("cost", x**2 + u**2)
+    while True:
+        p.solve(mesh=20000)
+
+
+def test_interrupt_stops_a_solve():
+    timer = threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        endless()
+    assert time.monotonic() - started < 5
+
+
+def test_other_threads_run_during_a_solve():
+    p = bryson_denham()
+    solver = threading.Thread(target=lambda: p.solve(mesh=8000))
+    solver.start()
+    turns = 0
+    while solver.is_alive():
+        turns += 1
+        time.sleep(0.001)
+    assert turns > 10
+
+
+def test_frame_and_plot():
+    pandas = pytest.importorskip("pandas")
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    s = bryson_denham().solve()
+    frame = s.to_frame()
+    assert isinstance(frame, pandas.DataFrame) and list(frame.columns) == ["x", "v", "u"]
+    axes = s.plot().axes
+    assert [a.get_ylabel() for a in axes] == ["x", "v", "u"]
+
+
+def test_import_is_quick():
+    def seconds(statement):  # of processor time: other work of the machine does not count
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([sys.executable, "-c", statement], check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    seconds("import slalom")
+    best = min(seconds("import slalom") for _ in range(5))
+    assert best - min(seconds("pass") for _ in range(5)) < 0.2
+
+
+@pytest.mark.skipif(not README.exists(), reason="outside the source tree")
+def test_ten_lines_of_the_readme():
+    code = re.search(r"```python\n(.*?)```", README.read_text(), re.S).group(1)
+    assert len(code.strip().splitlines()) == 10
+    names = {}
+    exec(code, names)
+    assert names["s"].objective == pytest.approx(4, rel=1e-2)
