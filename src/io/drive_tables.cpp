@@ -85,7 +85,7 @@ std::string cycles_csv(const sim::Drive& drive) {
   for (const auto& term : terms) text += "," + csv_cell("cost_" + term);
   text +=
       ",worst_constraint,worst_violation,stationarity,complementarity,phi,tf,goal_in_range,used,"
-      "backend,best_iterate,planning_cpu_s\n";
+      "backend,best_iterate,planning_cpu_s,charged_s,t_swap\n";
   for (const auto& cycle : drive.cycles) {
     if (cycle.index == 0) continue;
     const auto& report = cycle.plan.report;
@@ -93,10 +93,11 @@ std::string cycles_csv(const sim::Drive& drive) {
                         report.iterations, csv_cell(report.status), report.cpu_s, report.cost);
     for (const auto& term : terms) text += fmt::format(",{}", cost_term(report, term));
     text +=
-        fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(report.worst_constraint),
+        fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(report.worst_constraint),
                     report.worst_violation, report.stationarity, report.complementarity, report.phi,
                     cycle.plan.tf, cycle.plan.goal_in_range ? 1 : 0, cycle.used ? 1 : 0,
-                    csv_cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s);
+                    csv_cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s,
+                    cycle.charged, cycle.t_swap);
   }
   return text;
 }

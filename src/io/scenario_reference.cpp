@@ -34,7 +34,8 @@ std::string kind_text(const OptionInfo& info) {
     case OptionKind::choice:
       return fmt::format("{}", fmt::join(info.choices, " or "));
     case OptionKind::vector:
-      return fmt::format("{} numbers", info.length);
+      return info.length == 0 ? "a list of numbers, or a file of them"
+                              : fmt::format("{} numbers", info.length);
   }
   return "";
 }

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "number_file.hpp"
+
 namespace slalom::io {
 namespace {
 
@@ -71,7 +73,8 @@ std::string expected_of(const OptionInfo& info) {
     case OptionKind::choice:
       return fmt::format("one of {}", fmt::join(info.choices, ", "));
     case OptionKind::vector:
-      return fmt::format("a list of {} numbers", info.length);
+      return info.length == 0 ? "a list of numbers, or a file of them"
+                              : fmt::format("a list of {} numbers", info.length);
   }
   return "a value";
 }
@@ -140,6 +143,7 @@ OptionValue to_option_value(const OptionInfo& info, const Value& value) {
       return list_value(value);
     case Value::Kind::scalar:
       if (info.kind == OptionKind::text || info.kind == OptionKind::choice) return value.text;
+      if (info.kind == OptionKind::vector && info.length == 0) return read_numbers(info, value);
       return scalar_value(value);
   }
   return value.text;

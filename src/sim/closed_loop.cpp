@@ -8,6 +8,7 @@
 
 #include "slalom/base/timer.hpp"
 #include "slalom/sim/control_signal.hpp"
+#include "slalom/sim/latency.hpp"
 #include "slalom/sim/plant.hpp"
 #include "slalom/sim/watch.hpp"
 
@@ -28,6 +29,7 @@ class ClosedLoop {
         hooks_(hooks),
         plant_(scenario.vehicle, loop_.plant_tolerance, loop_.sample_step),
         watch_(scenario, plant_),
+        latency_(loop_),
         state_(scenario.start) {}
 
   Drive run() {
@@ -45,31 +47,65 @@ class ClosedLoop {
     if (hooks_.on_cycle) hooks_.on_cycle(drive_.cycles.back());
   }
 
-  /// Predict, plan, drive [t0, t0 + tex] on the old signal, check, and swap signals. A failure to
-  /// plan ends the drive when the plan is due: the plant drives meanwhile and may crash first.
+  /// Predict, plan, drive [t0, t0 + tex] on the old signal, check, and swap signals. A plan that is
+  /// late by the latency rule keeps the old signal running, and the next cycle begins when it is
+  /// there. A failure to plan ends the drive when the plan is due: the plant drives meanwhile and
+  /// may crash first.
   void cycle(int index) {
-    const double t0 = (index - 1) * loop_.tex, t1 = index * loop_.tex;
+    const double t0 = anchor_ + horizons_ * loop_.tex, due = anchor_ + (horizons_ + 1) * loop_.tex;
     if (interrupted()) return end(Outcome::interrupted, "interrupted");
     Cycle cycle = plan_ahead(index, t0);
+    charge(cycle, due);
+    const double t1 = instant() ? due : cycle.t_swap;
     if (interrupted()) {
       end(Outcome::interrupted, "interrupted while planning");
     } else {
-      drive_until(std::min(t1, loop_.timeout));
-      if (!ended_) judge(cycle);
+      if (instant()) judge(cycle);
+      if (!ended_ && instant()) swap(cycle);
+      if (!ended_) drive_until(std::min(t1, loop_.timeout));
+      if (!ended_ && !instant()) judge(cycle);
     }
     if (!ended_ && t1 <= loop_.timeout + kSameTime) check_goal();
     if (!ended_ && t1 >= loop_.timeout - kSameTime)
       end(Outcome::timeout, fmt::format("not at the goal after {:.6g} s", loop_.timeout));
-    if (!ended_ && to_be_driven(cycle.plan)) {
-      signal_ = ControlSignal(cycle.plan);
-      drive_.plant.back().control = signal_.at(t_);
-      cycle.used = true;
-    }
+    if (!ended_ && !instant()) swap(cycle);
     drive_.cycles.push_back(std::move(cycle));
     if (hooks_.on_cycle) hooks_.on_cycle(drive_.cycles.back());
   }
 
-  /// Predicts the state at t0 + tex on the current signal and plans from there.
+  bool instant() const { return loop_.latency == LatencyRule::instant; }
+
+  /// Settles when the plan takes effect; `due` is t0 + tex. A cycle that is not late keeps to the
+  /// grid of execution horizons, a late one begins another.
+  void charge(Cycle& cycle, double due) {
+    cycle.charged = latency_.charge(cycle.index, solve_time_);
+    if (latency_.scripted()) solve_time_ = cycle.charged;
+    const bool cut_off =
+        latency_.scripted() && loop_.deadline == Deadline::tex && cycle.charged > loop_.tex;
+    if (cut_off) {
+      cycle.charged = loop_.tex;
+      solve_time_ = loop_.tex;
+      cycle.plan.report.solved = cycle.plan.report.best_iterate = false;
+      cycle.plan.report.status = "time_limit";
+    }
+    const double ready = cycle.t0 + cycle.charged;
+    cycle.t_swap = instant() ? cycle.t0 : due;
+    ++horizons_;
+    if (ready <= due) return;
+    cycle.t_swap = anchor_ = ready;
+    horizons_ = 0;
+  }
+
+  /// The plant takes the plan over, if it is one to be driven.
+  void swap(Cycle& cycle) {
+    if (!to_be_driven(cycle.plan)) return;
+    signal_ = ControlSignal(cycle.plan);
+    drive_.plant.back().control = signal_.at(t_);
+    cycle.used = true;
+  }
+
+  /// Predicts the state at t0 + tex on the current signal and plans from there; plans from where
+  /// the plant stands when plans take effect at once.
   Cycle plan_ahead(int index, double t0) {
     Cycle cycle;
     cycle.index = index;
@@ -77,7 +113,7 @@ class ClosedLoop {
     cycle.tex = loop_.tex;
     solve_time_ = 0;
     try {
-      cycle.X0p = plant_.predict(state_, signal_, t0, t0 + loop_.tex);
+      cycle.X0p = instant() ? state_ : plant_.predict(state_, signal_, t0, t0 + loop_.tex);
     } catch (const PlantError& error) {
       cycle.X0p.fill(std::nan(""));
       cycle.plan.report.status = fmt::format("no prediction: {}", error.what());
@@ -86,8 +122,9 @@ class ClosedLoop {
     planner::Request request;
     request.X0p = cycle.X0p;
     request.t0 = t0;
-    request.tex = loop_.tex;
-    request.time_limit = loop_.deadline == Deadline::tex
+    request.tex = instant() ? 0 : loop_.tex;
+    // By a scripted rule the deadline is held against the time charged: see charge().
+    request.time_limit = loop_.deadline == Deadline::tex && !latency_.scripted()
                              ? std::min(loop_.tex, loop_.solve_time_limit)
                              : loop_.solve_time_limit;
     if (loop_.on_failure == OnFailure::best_iterate)
@@ -187,8 +224,11 @@ class ClosedLoop {
   const LoopHooks& hooks_;
   Plant plant_;
   Watch watch_;
+  Latency latency_;
   vehicle::State state_;
   double t_ = 0;
+  double anchor_ = 0;     ///< cycles begin at anchor + k tex [s]
+  int horizons_ = 0;      ///< k of the next one
   ControlSignal signal_;  // straight on at constant speed until the first plan takes over
   double solve_time_ = 0;
   bool ended_ = false;

@@ -7,6 +7,7 @@
 
 #include "slalom/base/error.hpp"
 #include "slalom/sim/ellipse.hpp"
+#include "slalom/sim/latency.hpp"
 #include "slalom/vehicle/model.hpp"
 
 namespace slalom::sim {
@@ -118,6 +119,24 @@ const OptionTable<LoopSettings>& loop_options() {
         .choice("deadline", &L::deadline, {"off", "tex"},
                 "tex: planning ends within the execution horizon, in thread time, solved or not; "
                 "off: within solve_time_limit, as in the paper.")
+        .choice(
+            "latency", &L::latency, {"instant", "paper", "measured", "recorded", "model"},
+            "When a plan takes effect. instant: the plant waits for it and nothing is predicted; "
+            "paper: after the execution horizon, a late one too; measured: a late one when it is "
+            "ready, while the old one runs on, by the wall clock; recorded, model: the same by "
+            "solve_times, or by times drawn from a lognormal distribution. The last two are "
+            "deterministic; with deadline tex, a cycle charged more than tex yields no plan.")
+        .numbers(
+            "solve_times", &L::solve_times, Range::non_negative(), "s",
+            "Of latency recorded: one a cycle, again from the first after the last; a list, or "
+            "a CSV file with the column solve_time_s (a drive's cycles.csv), or one a line.")
+        .real("latency_median", &L::latency_median, Range::non_negative(), "s",
+              "Of latency model: median of the solve times.")
+        .real(
+            "latency_spread", &L::latency_spread, Range::closed(0, 5), "1",
+            "Of latency model: standard deviation of the solve times' logarithm; 0 for all alike.")
+        .integer("latency_seed", &L::latency_seed, Range::closed(0, 2147483647), "1",
+                 "Of latency model: the same seed gives the same times.")
         .choice("on_failure", &L::on_failure, {"stop", "last_plan", "best_iterate"},
                 "When the NLP is not solved: stop ends the drive as not_optimal, as in the paper; "
                 "last_plan drives on with the last plan, its last control held past its end; "
@@ -152,6 +171,7 @@ void check(const Scenario& scenario, const std::string& where) {
   if (scenario.loop.tex > scenario.planner.tf_max)
     throw InvalidValue(where, fmt::format("tex = {}", scenario.loop.tex),
                        fmt::format("at most tf_max = {}", scenario.planner.tf_max));
+  (void)Latency(scenario.loop);
   check_goal_and_region(scenario, where);
   check_obstacles(scenario, where);
   check_start_bounds(scenario, where);

@@ -153,7 +153,7 @@ class Others(ProgramTest):
         self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C"],
                                  "planners": ["P_A", "P_B", "P_C", "P_D"],
                                  "vehicles": ["hmmwv"],
-                                 "studies": ["paper", "paper-printed"]})
+                                 "studies": ["latency", "paper", "paper-printed"]})
         text = run("list").out
         for entries in listed.values():
             for entry in entries:

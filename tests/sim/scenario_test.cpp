@@ -110,9 +110,11 @@ TEST(Scenario, EveryLoopSettingIsAnOption) {
     EXPECT_FALSE(entry.info.doc.empty());
     EXPECT_NO_THROW((void)entry.info.checked(entry.get(defaults), "defaults")) << entry.info.name;
   }
-  EXPECT_EQ(names, (std::set<std::string>{"tex", "timeout", "solve_time_limit", "deadline",
-                                          "on_failure", "best_iterate_tol", "warm_up", "sm_crash",
-                                          "Fz_failure", "plant_tolerance", "sample_step"}));
+  EXPECT_EQ(names,
+            (std::set<std::string>{"tex", "timeout", "solve_time_limit", "deadline", "on_failure",
+                                   "best_iterate_tol", "warm_up", "sm_crash", "Fz_failure",
+                                   "plant_tolerance", "sample_step", "latency", "solve_times",
+                                   "latency_median", "latency_spread", "latency_seed"}));
   LoopSettings loop;
   loop_options().set(loop, *loop_options().find("on_failure"), std::string("last_plan"), "test");
   EXPECT_EQ(loop.on_failure, OnFailure::last_plan);

@@ -140,6 +140,22 @@ class OptionTable {
                 }});
   }
 
+  /// A list of reals of any length; `range` holds for every element.
+  OptionTable& numbers(std::string name, std::vector<double> S::*member, OptionRange range,
+                       std::string unit, std::string doc, std::string source = "") {
+    return add(
+        {{std::move(name),
+          OptionKind::vector,
+          range,
+          std::move(unit),
+          std::move(doc),
+          {},
+          0,
+          std::move(source)},
+         [member](S& s, const OptionValue& v) { s.*member = std::get<std::vector<double>>(v); },
+         [member](const S& s) -> OptionValue { return s.*member; }});
+  }
+
   const std::vector<Entry>& entries() const { return entries_; }
   const Entry* find(std::string_view name) const {
     for (const auto& entry : entries_)

@@ -32,9 +32,11 @@ struct Cycle {
   int index = 0;         ///< 1 is the first; 0 the warm-up solve, if any
   double t0 = 0;         ///< when planning started [s]
   double tex = 0;        ///< execution horizon [s]
-  vehicle::State X0p{};  ///< predicted state at t0 + tex
+  double charged = 0;    ///< time until the plan was there, by the latency rule [s]
+  double t_swap = 0;     ///< when the plan took effect, or would have [s]
+  vehicle::State X0p{};  ///< state from which it plans: predicted for t0 + tex, unless instant
   planner::Plan plan;    ///< with its solve report; nodes as the solver left them
-  bool used = false;     ///< the plant took this plan over at t0 + tex (false: warm-up, failed, or
+  bool used = false;     ///< the plant took this plan over at t_swap (false: warm-up, failed, or
                          ///< the drive ended first)
 };
 

@@ -1,0 +1,75 @@
+#include "number_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "slalom/base/error.hpp"
+#include "text_file.hpp"
+
+namespace slalom::io {
+namespace {
+
+constexpr std::size_t kMostBytes = 64U << 20U;  // a day's drive in cycles of 10 ms
+
+/// The cells of a row; a quoted one may hold commas.
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> all(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted) {
+      all.emplace_back();
+    } else if (c != '"' && c != '\r') {
+      all.back() += c;
+    }
+  }
+  return all;
+}
+
+std::optional<double> number(const std::string& text) {
+  double value = 0;
+  const auto* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::vector<double> read_numbers(const OptionInfo& info, const Value& name) {
+  const auto column = info.name == "solve_times" ? std::string("solve_time_s") : info.name;
+  auto file = std::filesystem::path(name.text);
+  if (file.is_relative() && name.place.line > 0)
+    file = std::filesystem::path(name.place.source).parent_path() / file;
+  std::istringstream lines(read_file(file, kMostBytes, fmt::format("a file of {}", info.name)));
+  std::vector<double> numbers;
+  std::size_t at = 0;
+  int row = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++row;
+    const auto texts = cells(line);
+    if (row == 1 && !number(texts[0])) {
+      const auto found = std::find(texts.begin(), texts.end(), column);
+      if (found == texts.end())
+        throw InvalidValue(fmt::format("{}:1", file.string()), "no such column",
+                           fmt::format("the column {}, or one number a line", column));
+      at = static_cast<std::size_t>(found - texts.begin());
+      continue;
+    }
+    const auto value = at < texts.size() ? number(texts[at]) : std::nullopt;
+    if (!value)
+      throw InvalidValue(fmt::format("{}:{}", file.string(), row),
+                         at < texts.size() ? fmt::format("'{}'", texts[at]) : "too few cells",
+                         "a finite number");
+    numbers.push_back(*value);
+  }
+  if (numbers.empty()) throw InvalidValue(file.string(), "no numbers", "at least one");
+  return numbers;
+}
+
+}  // namespace slalom::io
