@@ -299,9 +299,9 @@ class Refused(SweepTest):
                 (head + "axes:\n  - draw: {count: 3, of: [{key: start.x, uniform: [2, 1]}]}\n",
                  ["s.yaml:3:", "low < high"]),
                 (head + "axes:\n  - draw: {count: 3, method: sobl, of: [{key: start.x, normal: [2, 1]}]}\n",
-                 ["s.yaml:3:29", "did you mean 'sobol'?"]),
+                 ["s.yaml:3:30", "did you mean 'sobol'?"]),
                 (head + "axes:\n  - draw: {count: 3, of: [{key: start.x, gauss: [2, 1]}]}\n",
-                 ["s.yaml:3:41", "unknown key 'gauss'"]),
+                 ["s.yaml:3:42", "unknown key 'gauss'"]),
         ):
             with self.subTest(text):
                 study = self.write("s.yaml", text)
