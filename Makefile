@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice wheel format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios wheel format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -65,6 +65,11 @@ obstacle-choice: ## what leaving out obstacles does, into docs/obstacle-choice.m
 wheel: ## set up, and build the Python package into dist/
 	tools/setup.sh wheel
 	tools/python.sh wheel dist
+
+random-scenarios: ## P_A to P_D on 1000 random scenarios, into docs/random-scenarios.md (takes minutes)
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/random_scenarios.py --program build/slalom
 
 format: ## format the C++ sources
 	tools/format.sh
