@@ -30,7 +30,7 @@ class Search {
 
   bool run() const {
     const int columns = 2 * side_ + 1;
-    std::vector<char> reached(static_cast<std::size_t>(rows_ * columns), 0), next;
+    std::vector<char> reached(index(rows_, 0), 0), next;
     reached[static_cast<std::size_t>(side_)] = 1;
     const int layers = static_cast<int>(std::ceil(p_.t_max / p_.dt));
     for (int layer = 0; layer < layers; ++layer) {
@@ -38,7 +38,7 @@ class Search {
       bool any = false;
       for (int row = 0; row < rows_; ++row)
         for (int column = 0; column < columns; ++column)
-          if (reached[static_cast<std::size_t>(row * columns + column)] != 0) {
+          if (reached[index(row, column)] != 0) {
             if (at_goal(place(row, column))) return true;
             any = spread(row, column, layer * p_.dt, next) || any;
           }
@@ -49,6 +49,11 @@ class Search {
   }
 
  private:
+  std::size_t index(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(2 * side_ + 1) +
+           static_cast<std::size_t>(column);
+  }
+
   Place place(double row, double column) const {
     const double s = row * p_.cell, n = (column - side_) * p_.cell;
     return {start_.x + along_.x * s + along_.y * n, start_.y + along_.y * s - along_.x * n};
@@ -92,7 +97,7 @@ class Search {
       for (int across = -reach; across <= reach; ++across) {
         const int to = column + across;
         if (to < 0 || to >= columns) continue;
-        auto& mark = next[static_cast<std::size_t>(to_row * columns + to)];
+        auto& mark = next[index(to_row, to)];
         if (mark == 0 && move_free(row, column, ahead, across, t)) mark = 1;
         any = any || mark != 0;
       }
