@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What a solve from Python costs beside the same solve in C++: the time of the call less that of
-ocp::solve within it (Solution.elapsed_s), median and 95 % over many solves.
+ocp::solve within it (Solution.elapsed_s), median and 95 % over many solves; and what the import costs.
 
 usage: python_overhead.py [--solves N]   (needs the package slalom)
 """
@@ -9,7 +9,10 @@ import argparse
 import statistics
 import time
 
-import slalom
+began = time.perf_counter()
+import slalom  # noqa: E402
+
+IMPORT_S = time.perf_counter() - began
 
 
 def bryson_denham():
@@ -38,6 +41,7 @@ def main():
         bare.append(solved - begin - solution.elapsed_s)
         fetched.append(end - begin - solution.elapsed_s)
         inner.append(solution.elapsed_s)
+    print(f"{'import':<24} {1e3 * IMPORT_S:.0f} ms")
     for name, times in (("solve in C++", inner), ("overhead of the call", bare),
                         ("with all arrays fetched", fetched)):
         cuts = statistics.quantiles(times, n=20)
