@@ -30,8 +30,8 @@ std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
   const auto wall = sim::solve_times(drive);
   if (wall.empty()) return text;
   text += fmt::format(
-      "  solve times        {} cycles, median {:.3f} s, greatest {:.3f} s, tex {:g} s\n",
-      wall.size(), sim::median(wall), sim::greatest(wall), scenario.loop.tex);
+      "  solve times        {} cycles, median {:.2f} ms, greatest {:.2f} ms, tex {:g} s\n",
+      wall.size(), 1e3 * sim::median(wall), 1e3 * sim::greatest(wall), scenario.loop.tex);
   return text;
 }
 

@@ -32,8 +32,8 @@ std::string facts(const sim::Scenario& scenario, const sim::Drive& drive) {
   html += fact("Mean speed", number(mean_speed(drive), 1) + " m/s");
   html += fact("Least wheel load",
                number(drive.plant.empty() ? NAN : drive.least_wheel_load, 0) + " N");
-  html += fact("Solve time, median", number(1e3 * median(times), 0) + " ms",
-               fmt::format("greatest {}, tex {} ms", number(1e3 * greatest(times), 0),
+  html += fact("Solve time, median", number(1e3 * median(times), 2) + " ms",
+               fmt::format("greatest {}, tex {} ms", number(1e3 * greatest(times), 2),
                            number(1e3 * tex, 0)));
   return html;
 }
