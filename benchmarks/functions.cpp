@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "builder.hpp"
+#include "command_line.hpp"
 #include "cycle_file.hpp"
 #include "slalom/base/kernels.hpp"
 #include "slalom/ocp/scheme.hpp"
@@ -39,11 +39,7 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--cycle", a.cycle, "which of them");
   app.add_option("--repeats", a.repeats, "calls of each function");
   app.add_flag("--profile", a.profile, "batch by batch");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
+  bench::parse_or_exit(app, argc, argv);
   return a;
 }
 

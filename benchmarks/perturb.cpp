@@ -9,13 +9,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "command_line.hpp"
 #include "cycle_file.hpp"
 #include "slalom/nlp/check.hpp"
 #include "support/allocation_count.hpp"
@@ -34,17 +34,14 @@ struct Arguments {
   bool log = false, ours_only = false;
 };
 
-/// What a unit of --width adds to X0p at most; SI.
-constexpr vehicle::State kUnit = {0.3, 0.3, 0.1, 0.02, 0.02, 0.01, 0.5, 0.2};
-
 /// Cycle `i` of the study: a recorded one with another predicted state.
 Cycle perturbed(const std::vector<Cycle>& recorded, const Arguments& a, std::size_t i,
                 bench::PlannerCycle& planner) {
   const double draw = 0.5 * (1 + bench::spread(a.seed + 1, i));
   Cycle cycle = recorded[static_cast<std::size_t>(draw * static_cast<double>(recorded.size()))];
-  auto& state = cycle.request.X0p;
-  for (std::size_t k = 0; k < state.size(); ++k)
-    state[k] += a.width * kUnit[k] * bench::spread(a.seed, i * state.size() + k);
+  vehicle::State width = bench::kCycleSpread;
+  for (double& half : width) half *= a.width;
+  cycle.request.X0p = bench::moved(cycle.request.X0p, width, a.seed, i);
   bench::place_starts(planner, cycle);
   return cycle;
 }
@@ -150,11 +147,7 @@ Arguments parse(int argc, char** argv) {
   app.add_flag("--ours-only", a.ours_only, "without Ipopt");
   app.add_flag("--log", a.log, "prints the iterations of ours before each line");
   app.add_option("--floor", a.floor, "barrier floor");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
+  bench::parse_or_exit(app, argc, argv);
   return a;
 }
 

@@ -71,4 +71,10 @@ double spread(std::uint64_t seed, std::uint64_t index) {
   return 2 * (static_cast<double>(z >> 11) * 0x1.0p-53) - 1;
 }
 
+State moved(State state, const State& width, std::uint64_t seed, std::uint64_t index) {
+  for (std::size_t i = 0; i < state.size(); ++i)
+    state[i] += width[i] * spread(seed, index * state.size() + i);
+  return state;
+}
+
 }  // namespace slalom::bench

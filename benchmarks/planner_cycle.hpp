@@ -56,5 +56,10 @@ sim::Scenario load(const std::string& environment, double tex, std::optional<int
 
 /// Between -1 and 1, from the seed alone: the same on every machine.
 double spread(std::uint64_t seed, std::uint64_t index);
+/// The index-th draw of a state within `width` of another.
+vehicle::State moved(vehicle::State state, const vehicle::State& width, std::uint64_t seed,
+                     std::uint64_t index);
+/// Half-widths of what is added to a perturbed cycle's X0p; SI.
+inline constexpr vehicle::State kCycleSpread = {0.3, 0.3, 0.1, 0.02, 0.02, 0.01, 0.5, 0.2};
 
 }  // namespace slalom::bench

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "cycle_file.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/nlp/check.hpp"
@@ -32,16 +33,8 @@ struct Arguments {
   std::vector<std::string> backends = {"ipopt", "interior_point"};
 };
 
-/// Half-widths of what is added to the start of a drive and to a perturbed cycle's X0p; SI.
+/// Half-widths of what is added to the start of a drive; SI.
 constexpr vehicle::State kStartSpread = {0.3, 0.3, 0, 0, 0.0175, 0, 1, 0};
-constexpr vehicle::State kCycleSpread = {0.3, 0.3, 0.1, 0.02, 0.02, 0.01, 0.5, 0.2};
-
-vehicle::State moved(vehicle::State state, const vehicle::State& width, std::uint64_t seed,
-                     std::uint64_t index) {
-  for (std::size_t i = 0; i < state.size(); ++i)
-    state[i] += width[i] * bench::spread(seed, index * state.size() + i);
-  return state;
-}
 
 /// The planner as the closed loop knows it, with every cycle kept.
 class Recorder {
@@ -57,7 +50,7 @@ class Recorder {
     for (std::size_t before = all.size(); all.size() - begin < wanted; before = all.size()) {
       sim::Scenario scenario = planner_.scenario();
       scenario.start =
-          moved(scenario.start, kStartSpread, seed_, static_cast<std::uint64_t>(drives));
+          bench::moved(scenario.start, kStartSpread, seed_, static_cast<std::uint64_t>(drives));
       scenario.loop.on_failure = sim::OnFailure::last_plan;
       scenario.loop.warm_up = false;
       last_.reset();
@@ -150,7 +143,7 @@ std::vector<Cycle> perturbed(const std::vector<Cycle>& cycles, const Arguments& 
   for (std::size_t i = 0; i < arguments.perturbed; ++i) {
     const double draw = 0.5 * (1 + bench::spread(seed + 1, i));
     Cycle cycle = cycles[static_cast<std::size_t>(draw * static_cast<double>(cycles.size()))];
-    cycle.request.X0p = moved(cycle.request.X0p, kCycleSpread, seed, i);
+    cycle.request.X0p = bench::moved(cycle.request.X0p, bench::kCycleSpread, seed, i);
     cycle.perturbed = true;
     cycle.solved = false;
     bench::place_starts(planner, cycle);
@@ -168,11 +161,7 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--perturbed", a.perturbed, "perturbed cycles");
   app.add_option("--seed", a.seed, "of starts and perturbations");
   app.add_option("--backends", a.backends, "that drive")->delimiter(',');
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
+  bench::parse_or_exit(app, argc, argv);
   return a;
 }
 

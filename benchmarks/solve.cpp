@@ -10,13 +10,13 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "command_line.hpp"
 #include "cycle_file.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/kernels.hpp"
@@ -173,11 +173,7 @@ Arguments parse(int argc, char** argv) {
   app.add_flag("--growth", a.growth, "other meshes and numbers of obstacles");
   app.add_option("--N", a.N, "numbers of intervals")->delimiter(',');
   app.add_option("--obstacles", a.obstacles, "numbers of obstacles")->delimiter(',');
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
+  bench::parse_or_exit(app, argc, argv);
   return a;
 }
 

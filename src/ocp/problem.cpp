@@ -31,6 +31,14 @@ void check_variable(const std::string& where, const Problem::Variable& variable)
     throw InvalidValue(where, fmt::format("guess {}", variable.guess), "a finite guess");
 }
 
+/// A variable under a new symbol; throws InvalidValue for what check_variable refuses.
+Problem::Variable declared(const std::string& problem, const char* kind, const std::string& name,
+                           Bounds bounds, double scale, double guess) {
+  Problem::Variable variable{Expr::symbol(name), name, bounds, scale, guess};
+  check_variable(problem + ": " + kind + " " + name, variable);
+  return variable;
+}
+
 void check_parameter(const std::string& problem, const std::string& name, double value) {
   if (!std::isfinite(value))
     throw InvalidValue(problem + ": parameter " + name, fmt::format("{}", value),
@@ -59,42 +67,30 @@ void Problem::claim_name(const std::string& name) {
 Expr Problem::state(const std::string& name, Bounds bounds, double scale) {
   claim_name(name);
   State state;
-  state.symbol = Expr::symbol(name);
-  state.name = name;
-  state.bounds = bounds;
-  state.scale = scale;
+  static_cast<Variable&>(state) = declared(name_, "state", name, bounds, scale, 0);
   state.initial_symbol = Expr::symbol("initial(" + name + ")");
   state.final_symbol = Expr::symbol("final(" + name + ")");
-  check_variable(name_ + ": state " + name, state);
   states_.push_back(state);
   return state.symbol;
 }
 
 Expr Problem::control(const std::string& name, Bounds bounds, double scale) {
   claim_name(name);
-  const Variable control{Expr::symbol(name), name, bounds, scale, 0};
-  check_variable(name_ + ": control " + name, control);
-  controls_.push_back(control);
-  return control.symbol;
+  controls_.push_back(declared(name_, "control", name, bounds, scale, 0));
+  return controls_.back().symbol;
 }
 
 Expr Problem::static_parameter(const std::string& name, Bounds bounds, double guess, double scale) {
   claim_name(name);
-  const Variable parameter{Expr::symbol(name), name, bounds, scale, guess};
-  check_variable(name_ + ": static parameter " + name, parameter);
-  static_parameters_.push_back(parameter);
-  return parameter.symbol;
+  static_parameters_.push_back(declared(name_, "static parameter", name, bounds, scale, guess));
+  return static_parameters_.back().symbol;
 }
 
 Expr Problem::slack(const std::string& name, End end, Bounds bounds, double guess) {
   claim_name(name);
   Slack slack;
-  slack.symbol = Expr::symbol(name);
-  slack.name = name;
-  slack.bounds = bounds;
-  slack.guess = guess;
+  static_cast<Variable&>(slack) = declared(name_, "slack", name, bounds, 1, guess);
   slack.end = end;
-  check_variable(name_ + ": slack " + name, slack);
   slacks_.push_back(slack);
   return slack.symbol;
 }
@@ -103,12 +99,8 @@ Expr Problem::integral(const std::string& name, const Expr& integrand, Bounds bo
                        double scale) {
   claim_name(name);
   Integral integral;
-  integral.symbol = Expr::symbol(name);
-  integral.name = name;
-  integral.bounds = bounds;
-  integral.scale = scale;
+  static_cast<Variable&>(integral) = declared(name_, "integral", name, bounds, scale, 0);
   integral.integrand = integrand;
-  check_variable(name_ + ": integral " + name, integral);
   integrals_.push_back(integral);
   return integral.symbol;
 }
