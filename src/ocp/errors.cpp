@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../base/integrate.hpp"
 #include "model.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
@@ -21,12 +22,8 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using Vector = std::vector<double>;
 
-/// Attempts an interval may take before its error counts as infinite.
-constexpr int kMaxAttempts = 20000;
-
-bool finite(const Vector& x) {
-  return std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
-}
+/// Of an interval: one that needs shorter steps blows up.
+constexpr double kLeastStep = 1e-14;
 
 /// Integrates a problem's dynamics over one interval after another, states in units of their
 /// scales, local time 0 ... 1.
@@ -46,8 +43,6 @@ class Integrator {
   /// there.
   Vector across(std::size_t k, Vector x) const {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] /= scale_[i];
-    auto stepper =
-        odeint::make_controlled(tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<Vector>());
     Vector states(x.size());
     const double duration = (breaks_[k + 1] - breaks_[k]) * (trajectory_.tf - trajectory_.t0);
     const double begin = trajectory_.time_at(breaks_[k]);
@@ -56,24 +51,12 @@ class Integrator {
       model_.rates(begin + c * duration, states, between_.controls(k, c), out);
       for (std::size_t i = 0; i < at.size(); ++i) out[i] *= duration / scale_[i];
     };
-    double c = 0, step = 1;
-    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
-      const bool last = step >= 1 - c;
-      step = std::min(step, 1 - c);
-      const Vector before = x;
-      const double c_before = c, tried = step;
-      const auto result = stepper.try_step(rates, x, c, step);
-      if (!finite(x)) {
-        x = before;
-        c = c_before;
-        step = tried / 4;
-      } else if (result == odeint::success && last) {
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale_[i];
-        return x;
-      }
-      if (step < 1e-14) break;
-    }
-    return {};
+    double c = 0;
+    const auto stepper =
+        odeint::make_controlled(tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<Vector>());
+    if (!integrate(stepper, rates, 1, kLeastStep, x, c)) return {};
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale_[i];
+    return x;
   }
 
  private:

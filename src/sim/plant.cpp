@@ -10,6 +10,8 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 
+#include "../base/integrate.hpp"
+
 namespace slalom::sim {
 namespace {
 
@@ -17,18 +19,12 @@ namespace odeint = boost::numeric::odeint;
 using vehicle::Control;
 using vehicle::State;
 
-/// Attempts an interval may take before the state counts as lost.
-constexpr int kMaxAttempts = 20000;
 /// Knots nearer than this to another instant are no instants of their own [s].
 constexpr double kSameInstant = 1e-7;
 
 using Method = odeint::runge_kutta_fehlberg78<State>;
 /// Copied for every integration; static, so that its scratch arrays start as zeros.
 const Method kMethod;
-
-bool finite(const State& state) {
-  return std::all_of(state.begin(), state.end(), [](double value) { return std::isfinite(value); });
-}
 
 }  // namespace
 
@@ -46,27 +42,13 @@ State Plant::advance(const State& state, const ControlSignal& signal, double t0,
     dxdt = dynamics_.derivative(x, control);
   };
 
-  auto stepper = odeint::make_controlled(tolerance_, tolerance_, kMethod);
   State x = state;
   x[vehicle::X] = x[vehicle::Y] = 0;
-  double t = 0, dt = length;
-  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
-    const bool reaches_end = dt >= length - t;
-    dt = std::min(dt, length - t);
-    const State before = x;
-    const double t_before = t, dt_before = dt;
-    const auto result = stepper.try_step(rhs, x, t, dt);
-    if (!finite(x)) {
-      x = before;
-      t = t_before;
-      dt = dt_before / 4;
-      continue;
-    }
-    if (result == odeint::success && reaches_end) {
-      x[vehicle::X] += state[vehicle::X];
-      x[vehicle::Y] += state[vehicle::Y];
-      return x;
-    }
+  double t = 0;
+  if (integrate(odeint::make_controlled(tolerance_, tolerance_, kMethod), rhs, length, 0, x, t)) {
+    x[vehicle::X] += state[vehicle::X];
+    x[vehicle::Y] += state[vehicle::Y];
+    return x;
   }
   throw PlantError(fmt::format(
       "the plant cannot be integrated past t = {:.9g} s (ux = {:.6g} m/s, ax = {:.6g} m/s^2)",
