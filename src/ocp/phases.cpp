@@ -80,9 +80,8 @@ class Links {
     std::vector<char> touched(parts.size(), parts.size() == 1);
     for (const auto& symbol : expr::symbols_of(values)) {
       symbols.push_back(symbol);
-      const std::size_t p = find(problem, parts, symbol);
+      const auto [p, at] = find(problem, parts, symbol);
       touched[p] = 1;
-      const std::size_t at = *parts[p]->end_variable(symbol);
       variables_.push_back(offsets[p].variables + at);
       scales_.push_back(parts[p]->structure().variable_scale[at]);
     }
@@ -109,11 +108,12 @@ class Links {
   const expr::Evaluator& results() const { return *evaluator_; }
 
  private:
-  static std::size_t find(const PhasedProblem& problem,
-                          const std::vector<std::unique_ptr<Transcription>>& parts,
-                          const Expr& symbol) {
+  /// The phase that has the symbol, and its variable there.
+  static std::pair<std::size_t, std::size_t> find(
+      const PhasedProblem& problem, const std::vector<std::unique_ptr<Transcription>>& parts,
+      const Expr& symbol) {
     for (std::size_t p = 0; p < parts.size(); ++p)
-      if (parts[p]->end_variable(symbol)) return p;
+      if (const auto variable = parts[p]->end_variable(symbol)) return {p, *variable};
     throw InvalidValue(problem.name() + ": links", "the symbol '" + symbol.name() + "'",
                        "end values, times, static parameters and integrals of its phases");
   }

@@ -41,9 +41,14 @@ void Descent::update_barrier() {
   if (barrier.update(survey)) search.filter().clear();
 }
 
-bool Descent::find_step() {
+/// Sigma, and the slope at the barrier's mu, of the point.
+void Descent::set_barrier_terms() {
   vector_kernels().barrier(model.segments(), point.local.bounded(model, point.at), barrier.mu(),
                            point.local.sigma.data(), point.local.slope.data());
+}
+
+bool Descent::find_step() {
+  set_barrier_terms();
   if (!newton.factorize(point.e, point.local, barrier.mu())) return false;
   if (barrier.free() && survey.mean_product > 0 && predict() && corrected_step()) return true;
   const double mu = barrier.mu();
@@ -72,8 +77,7 @@ bool Descent::predict() {
     barrier.follow_spread(survey);
   }
   search.filter().clear();
-  kernels.barrier(model.segments(), bounded, barrier.mu(), point.local.sigma.data(),
-                  point.local.slope.data());
+  set_barrier_terms();
   return far;
 }
 
@@ -87,8 +91,7 @@ bool Descent::corrected_step() {
   const bool finite = newton.step(point.e, point.local, point.at, barrier.mu(), step);
   step.reach = kernels.correct_duals(model.segments(), bounded, step.w.data(), over_lower_.data(),
                                      over_upper_.data(), step.zl.data(), step.zu.data());
-  kernels.barrier(model.segments(), bounded, barrier.mu(), point.local.sigma.data(),
-                  point.local.slope.data());
+  set_barrier_terms();
   return finite && newton.accurate() && std::isfinite(step.reach.primal + step.reach.dual);
 }
 

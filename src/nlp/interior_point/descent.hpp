@@ -47,6 +47,7 @@ class Descent {
 
  private:
   void move_duals();
+  void set_barrier_terms();
   bool predict();
   [[nodiscard]] bool corrected_step();
 

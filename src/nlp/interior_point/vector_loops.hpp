@@ -64,19 +64,18 @@ class VectorLoops {
   static StepReach dual_step(Segments segments, const BoundedVector& v, double mu, const double* dw,
                              double* dzl, double* dzu) {
     const T m = V::all(mu);
-    T primal{}, dual{};
+    Reach reach;
     for_segments(segments, [&](auto lower, auto upper, std::size_t i, auto load, auto store) {
       const auto side = [&](T over, T z, T change, double* dz) {
         const T step = V::fma(m, over, T{} - z) - z * over * change;
         store(dz + i, step);
-        primal = V::max(primal, store.only(T{} - change * over));
-        dual = V::max(dual, store.only(T{} - step / z));
+        reach.add(store, change, over, step, z);
       };
       const T d = load(dw + i);
       if constexpr (lower) side(load(v.over_lower + i), load(v.zl + i), d, dzl);
       if constexpr (upper) side(load(v.over_upper + i), load(v.zu + i), T{} - d, dzu);
     });
-    return {V::largest(primal), V::largest(dual)};
+    return reach.whole();
   }
 
   static double products_after(Segments segments, const BoundedVector& v, double alpha_primal,
@@ -117,19 +116,18 @@ class VectorLoops {
 
   static StepReach correct_duals(Segments segments, const BoundedVector& v, const double* dw,
                                  const double* cl, const double* cu, double* dzl, double* dzu) {
-    T primal{}, dual{};
+    Reach reach;
     for_segments(segments, [&](auto lower, auto upper, std::size_t i, auto load, auto store) {
       const auto side = [&](T over, T z, T change, const double* c, double* dz) {
         const T step = load(dz + i) - load(c + i);
         store(dz + i, step);
-        primal = V::max(primal, store.only(T{} - change * over));
-        dual = V::max(dual, store.only(T{} - step / z));
+        reach.add(store, change, over, step, z);
       };
       const T d = load(dw + i);
       if constexpr (lower) side(load(v.over_lower + i), load(v.zl + i), d, cl, dzl);
       if constexpr (upper) side(load(v.over_upper + i), load(v.zu + i), T{} - d, cu, dzu);
     });
-    return {V::largest(primal), V::largest(dual)};
+    return reach.whole();
   }
 
   static double log_slacks(Segments segments, const BoundedVector& v) {
@@ -233,6 +231,16 @@ class VectorLoops {
  private:
   using T = typename V::type;
 
+  /// StepReach, lane by lane: `change` of slack 1 / over, `step` of multiplier z.
+  struct Reach {
+    T primal{}, dual{};
+    template <class Store>
+    void add(const Store& store, T change, T over, T step, T z) {
+      primal = V::max(primal, store.only(T{} - change * over));
+      dual = V::max(dual, store.only(T{} - step / z));
+    }
+    StepReach whole() const { return {V::largest(primal), V::largest(dual)}; }
+  };
   struct Yes {
     constexpr operator bool() const { return true; }
   };
