@@ -3,6 +3,7 @@ unasked."""
 
 import os
 import pathlib
+import shutil
 import subprocess
 
 SLALOM = os.environ["SLALOM"]
@@ -18,6 +19,8 @@ def make(out, *more):
 
 
 one, two = DIR / "one", DIR / "two"
+for folder in (one, two):  # of an earlier run
+    shutil.rmtree(folder, ignore_errors=True)
 assert make(one).returncode == 0
 assert make(two, "--quiet").stdout == ""
 files = sorted(p.name for p in one.iterdir())
