@@ -7,14 +7,16 @@ namespace {
 
 /// Fills one column of a batch's data, one number a lane.
 void fill_column(const Problem& problem, const Layout& layout, std::size_t family,
-                 DataSource source, const Batch& batch, double* to) {
+                 const DataSource& source, const Batch& batch, double* to) {
   using Kind = DataSource::Kind;
   const auto same = [&](double number) { std::fill_n(to, batch.lanes, number); };
   switch (source.kind) {
     case Kind::tau:
       for (std::size_t lane = 0; lane < batch.lanes; ++lane)
-        to[lane] = layout.tau[batch.lane_point[lane]];
+        to[lane] = layout.tau[source.points.empty() ? batch.lane_point[lane] : source.points[lane]];
       break;
+    case Kind::weight:
+      return same(problem.constraints()[source.index].soft->weight);
     case Kind::t0:
       return same(problem.t0().bounds.lower);
     case Kind::tf:

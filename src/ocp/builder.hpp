@@ -14,8 +14,9 @@ namespace slalom::ocp {
 
 /// What one column of a batch's data is filled with.
 struct DataSource {
-  enum class Kind { tau, t0, tf, parameter, member } kind;
-  std::size_t index;  ///< of the parameter or of the member's number
+  enum class Kind { tau, t0, tf, parameter, member, weight } kind;
+  std::size_t index;  ///< of the parameter, the member's number, or the soft constraint
+  std::vector<std::uint32_t> points;  ///< of tau: by lane, where it is not the lane's own point
 };
 
 /// A row's name: `text`, or for a member of a family "family[member]text", for names may change.
@@ -24,6 +25,17 @@ struct RowName {
   std::size_t family = kNone, member = 0;
 
   std::string in(const Problem& problem) const;
+};
+
+/// The row of a constraint (and member) at a point: what a multiplier belongs to.
+struct RowOrigin {
+  std::size_t constraint = kNone, member = 0, point = 0;
+};
+
+/// A soft row's excess: one variable a side (l1), or one of both signs (l2).
+struct Excess {
+  std::size_t row;
+  std::size_t above = kNone, below = kNone;  ///< variables; l2 has `above` alone
 };
 
 struct BatchData {
@@ -46,6 +58,15 @@ struct Transcribed {
   /// has not so many defects.
   std::vector<std::size_t> defect_rows;
   std::size_t defect_begin = 0, defect_end = 0;  ///< all rows of defects
+  std::vector<RowOrigin> origins;                ///< one a row
+  std::vector<Excess> excesses;                  ///< in order of their rows
+  /// Batch 0 has rates and integrands at all points with states; for controls held over their
+  /// intervals, `ends` has them at the intervals' ends with the control of before; `midpoints` at
+  /// those of compressed intervals. kNone where there are none.
+  std::size_t ends = kNone, midpoints = kNone;
+  std::size_t first_integral = 0;  ///< of their outputs, which are rates, cost terms, integrals
+  std::vector<std::size_t> integral_rows;
+  std::vector<std::vector<double>> quadrature;  ///< weights [batch][lane] of the three
   std::vector<double> share_after;  ///< of each node's quadrature weight: the next interval's
 };
 
@@ -56,6 +77,9 @@ inline std::size_t defect_row(const Transcribed& t, std::size_t defect, std::siz
 
 /// Throws InvalidValue for what Transcription's constructor names.
 Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Schemes& schemes);
+
+/// Bounds of all variables, as `problem` has them now.
+void fill_limits(const Problem& problem, Transcribed& transcribed);
 
 /// Refills the batches' data from the problem's parameters and members.
 void fill_data(const Problem& problem, Transcribed& transcribed);

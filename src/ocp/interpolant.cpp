@@ -24,6 +24,14 @@ struct Interpolant::Impl {
   std::vector<Basis> bases;               ///< of consecutive equal schemes one
   std::vector<std::size_t> basis;         ///< of each interval
   std::vector<std::vector<double>> rate;  ///< [point][state]; of a node, the interval after it
+  /// [interval][state]: at the interval's end, where a held control jumps there; else empty.
+  std::vector<std::vector<double>> end_rate;
+  std::vector<char> held;  ///< by control
+
+  const std::vector<double>& rate_at(std::size_t k, std::size_t j) const {
+    const std::size_t point = first[k] + j;
+    return point == first[k + 1] && !end_rate[k].empty() ? end_rate[k] : rate[point];
+  }
 
   std::pair<std::size_t, double> place(double t) const {
     const double span = trajectory.tf - trajectory.t0;
@@ -85,6 +93,17 @@ Interpolant::Interpolant(const Problem& problem, const Trajectory& trajectory, c
     auto& rate = at.rate.emplace_back(problem.states().size());
     model.rates(trajectory.time(p), trajectory.states[p], trajectory.controls[p], rate);
   }
+  for (const auto& control : problem.controls())
+    at.held.push_back(control.form == ControlForm::constant ? 1 : 0);
+  at.end_rate.resize(mesh.intervals());
+  if (std::find(at.held.begin(), at.held.end(), 1) == at.held.end()) return;
+  for (std::size_t k = 0; k < mesh.intervals(); ++k) {
+    if (!schemes.of(k).collocates(0)) continue;  // held by its end
+    const std::size_t end = at.first[k + 1];
+    at.end_rate[k].resize(problem.states().size());
+    model.rates(trajectory.time(end), trajectory.states[end],
+                end_controls(problem, trajectory, at.first[k], end), at.end_rate[k]);
+  }
 }
 
 Interpolant::~Interpolant() = default;
@@ -106,7 +125,7 @@ std::vector<double> Interpolant::states(std::size_t k, double c) const {
   std::vector<double> x = at.trajectory.states[at.first[k]];
   const auto weight = basis.rates.integrals(0, c);
   for (std::size_t j = 0; j < weight.size(); ++j) {
-    const auto& rate = at.rate[at.first[k] + basis.collocated[j]];
+    const auto& rate = at.rate_at(k, basis.collocated[j]);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += at.duration(k) * weight[j] * rate[i];
   }
   return x;
@@ -121,6 +140,9 @@ std::vector<double> Interpolant::controls(std::size_t k, double c) const {
     const auto& control = at.trajectory.controls[at.first[k] + basis.collocated[j]];
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += weight[j] * control[i];
   }
+  const auto& reference = at.trajectory.controls[at.first[k] + basis.collocated.front()];
+  for (std::size_t i = 0; i < u.size(); ++i)
+    if (at.held[i]) u[i] = reference[i];
   return u;
 }
 

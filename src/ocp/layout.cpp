@@ -21,24 +21,29 @@ Layout make_layout(const Problem& problem, const Mesh& mesh, const Schemes& sche
   Layout layout;
   layout.nx = problem.states().size();
   layout.nu = problem.controls().size();
+  const auto add_point = [&](double tau, std::size_t stage, bool has_state) {
+    layout.state_slot.push_back(has_state ? layout.state_points.size() : kNone);
+    if (has_state) layout.state_points.push_back(layout.tau.size());
+    layout.tau.push_back(tau);
+    layout.point_stage.push_back(stage);
+  };
   const auto& breaks = mesh.breakpoints();
   for (std::size_t k = 0; k < breaks.size(); ++k) {
     layout.node_point.push_back(layout.tau.size());
-    layout.tau.push_back(breaks[k]);
-    layout.point_stage.push_back(k);
+    add_point(breaks[k], k, true);
     if (k + 1 == breaks.size()) break;
     const Scheme& scheme = schemes.of(k);
-    for (std::size_t j = 1; j <= scheme.interior(); ++j) {
-      layout.tau.push_back(breaks[k] + scheme.points[j] * (breaks[k + 1] - breaks[k]));
-      layout.point_stage.push_back(k);
-    }
+    for (std::size_t j = 1; j <= scheme.interior(); ++j)
+      add_point(breaks[k] + scheme.points[j] * (breaks[k + 1] - breaks[k]), k, !scheme.compressed);
   }
   std::size_t next = 0;
   const auto place = [&](std::size_t stage) {
     layout.variable_stage.push_back(static_cast<std::uint32_t>(stage));
     return next++;
   };
-  for (std::size_t i = 0; i < layout.nx + layout.nu; ++i)
+  for (std::size_t i = 0; i < layout.nx; ++i)
+    for (const std::size_t point : layout.state_points) place(layout.point_stage[point]);
+  for (std::size_t i = 0; i < layout.nu; ++i)
     for (const std::size_t stage : layout.point_stage) place(stage);
   for (const auto& slack : problem.slacks())
     layout.slack.push_back(place(slack.end == End::initial ? 0 : breaks.size() - 1));
@@ -61,12 +66,12 @@ Layout make_layout(const Problem& problem, const Mesh& mesh, const Schemes& sche
 
 std::vector<double> variable_scales(const Problem& problem, const Layout& layout) {
   std::vector<double> scale(layout.variables, 1.0);
-  for (std::size_t point = 0; point < layout.points(); ++point) {
-    for (std::size_t i = 0; i < layout.nx; ++i)
+  for (std::size_t i = 0; i < layout.nx; ++i)
+    for (const std::size_t point : layout.state_points)
       scale[layout.state(point, i)] = problem.states()[i].scale;
-    for (std::size_t i = 0; i < layout.nu; ++i)
+  for (std::size_t i = 0; i < layout.nu; ++i)
+    for (std::size_t point = 0; point < layout.points(); ++point)
       scale[layout.control(point, i)] = problem.controls()[i].scale;
-  }
   for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
     scale[layout.static_parameters + i] = problem.static_parameters()[i].scale;
   for (std::size_t i = 0; i < problem.integrals().size(); ++i)
@@ -94,7 +99,7 @@ void fill_variable_limits(const Problem& problem, const Layout& layout,
   const std::size_t last = layout.points() - 1;
   for (std::size_t i = 0; i < layout.nx; ++i) {
     const auto& state = problem.states()[i];
-    for (std::size_t point = 0; point <= last; ++point)
+    for (const std::size_t point : layout.state_points)
       set(layout.state(point, i), state.bounds, state.name);
     set(layout.state(0, i), state.initial, "initial " + state.name);
     set(layout.state(last, i), state.final, "final " + state.name);
@@ -126,10 +131,14 @@ std::string variable_name(const Problem& problem, const Layout& layout, std::siz
     if (layout.lifted_initial[i] == index) return problem.states()[i].initial_symbol.name();
     if (layout.lifted_final[i] == index) return problem.states()[i].final_symbol.name();
   }
-  const std::size_t which = index / layout.points();
-  const std::string& name =
-      which < layout.nx ? problem.states()[which].name : problem.controls()[which - layout.nx].name;
-  return name + " at " + layout.point_name(index % layout.points());
+  const auto at = [&](const std::string& name, std::size_t point) {
+    return name + " at " + layout.point_name(point);
+  };
+  const std::size_t slots = layout.state_points.size(), states = layout.nx * slots;
+  if (index < states)
+    return at(problem.states()[index / slots].name, layout.state_points[index % slots]);
+  const std::size_t control = index - states;
+  return at(problem.controls()[control / layout.points()].name, control % layout.points());
 }
 
 }  // namespace slalom::ocp

@@ -106,4 +106,13 @@ void Model::row_values(double t, std::span<const double> x, std::span<const doub
   if (!rows_.empty()) call(row_functions_, t, x, u, out);
 }
 
+std::vector<double> end_controls(const Problem& problem, const Trajectory& trajectory,
+                                 std::size_t begin, std::size_t end) {
+  std::vector<double> controls = trajectory.controls[end];
+  for (std::size_t i = 0; i < controls.size(); ++i)
+    if (problem.controls()[i].form == ControlForm::constant)
+      controls[i] = trajectory.controls[begin][i];
+  return controls;
+}
+
 }  // namespace slalom::ocp

@@ -42,4 +42,8 @@ class Model {
   mutable std::vector<double> inputs_;
 };
 
+/// The controls at the end of an interval as it sees them: those held over it are its begin's.
+std::vector<double> end_controls(const Problem& problem, const Trajectory& trajectory,
+                                 std::size_t begin, std::size_t end);
+
 }  // namespace slalom::ocp

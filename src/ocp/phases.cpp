@@ -344,13 +344,13 @@ std::size_t PhasedTranscription::phases() const {
 Transcription& PhasedTranscription::phase(std::size_t number) {
   return *impl_->parts_.at(number);
 }
-std::span<const double> PhasedTranscription::variables_of(std::size_t phase,
-                                                          std::span<const double> x) const {
-  return impl_->variables_of(phase, x);
-}
-std::span<const double> PhasedTranscription::rows_of(std::size_t phase,
-                                                     std::span<const double> y) const {
-  return impl_->rows_of(phase, y);
+nlp::Start PhasedTranscription::part_of(std::size_t phase, const nlp::Start& point) const {
+  const auto part = [&](const std::vector<double>& list, bool of_rows) -> std::vector<double> {
+    if (list.empty()) return {};
+    const auto range = of_rows ? impl_->rows_of(phase, list) : impl_->variables_of(phase, list);
+    return {range.begin(), range.end()};
+  };
+  return {part(point.x, false), part(point.y, true), part(point.zl, false), part(point.zu, false)};
 }
 std::size_t PhasedTranscription::first_link() const {
   return impl_->first_link;

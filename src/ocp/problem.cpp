@@ -45,6 +45,18 @@ void check_parameter(const std::string& problem, const std::string& name, double
                        "a finite number");
 }
 
+InvalidValue unknown_name(const std::string& problem, const std::string& kind,
+                          const std::string& name, const std::vector<std::string>& known) {
+  const auto nearest = nearest_name(name, known);
+  return {problem, "no " + kind + " '" + name + "'",
+          nearest.empty() ? "a " + kind : "perhaps '" + nearest + "'"};
+}
+
+/// What stands where a variable should.
+std::string found(const Expr& value) {
+  return value.is_symbol() ? "'" + value.name() + "'" : "an expression";
+}
+
 }  // namespace
 
 Problem::Problem(std::string name)
@@ -76,8 +88,17 @@ Expr Problem::state(const std::string& name, Bounds bounds, double scale) {
 
 Expr Problem::control(const std::string& name, Bounds bounds, double scale) {
   claim_name(name);
-  controls_.push_back(declared(name_, "control", name, bounds, scale, 0));
+  controls_.push_back({declared(name_, "control", name, bounds, scale, 0)});
   return controls_.back().symbol;
+}
+
+void Problem::control_form(const Expr& control, ControlForm form) {
+  for (auto& known : controls_)
+    if (known.symbol.same(control)) {
+      known.form = form;
+      return;
+    }
+  throw InvalidValue(name_ + ": control_form", found(control), "a control of this problem");
 }
 
 Expr Problem::static_parameter(const std::string& name, Bounds bounds, double guess, double scale) {
@@ -125,8 +146,7 @@ void Problem::set_parameter(const Expr& parameter, double value) {
 std::size_t Problem::state_index(const Expr& state, const char* what) const {
   for (std::size_t i = 0; i < states_.size(); ++i)
     if (states_[i].symbol.same(state)) return i;
-  const std::string found = state.is_symbol() ? "'" + state.name() + "'" : "an expression";
-  throw InvalidValue(name_ + ": " + what, found, "a state of this problem");
+  throw InvalidValue(name_ + ": " + what, found(state), "a state of this problem");
 }
 
 Expr Problem::initial(const Expr& state) const {
@@ -158,14 +178,14 @@ ConstraintId Problem::path(const std::string& name, const Expr& value, Bounds bo
                            Points points) {
   claim_name(name);
   check_bounds(name_ + ": path " + name, bounds);
-  constraints_.push_back({name, Kind::path, value, bounds, points, true, {}, {}, {}});
+  constraints_.push_back({name, Kind::path, value, bounds, points, true, {}, {}, {}, {}});
   return {constraints_.size() - 1};
 }
 
 ConstraintId Problem::boundary(const std::string& name, const Expr& value, Bounds bounds) {
   claim_name(name);
   check_bounds(name_ + ": boundary " + name, bounds);
-  constraints_.push_back({name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}});
+  constraints_.push_back({name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}, {}});
   return {constraints_.size() - 1};
 }
 
@@ -173,7 +193,7 @@ ConstraintId Problem::path_family(const std::string& name, const std::vector<Exp
                                   const Expr& value, Bounds bounds, Points points) {
   claim_name(name);
   check_bounds(name_ + ": path family " + name, bounds);
-  constraints_.push_back({name, Kind::family, value, bounds, points, true, symbols, {}, {}});
+  constraints_.push_back({name, Kind::family, value, bounds, points, true, symbols, {}, {}, {}});
   return {constraints_.size() - 1};
 }
 
@@ -203,6 +223,31 @@ void Problem::set_members(ConstraintId family, std::vector<std::string> names,
   target.member_values = std::move(values);
 }
 
+void Problem::soften(ConstraintId id, Soft soft) {
+  auto& target = constraint(id);
+  const auto check = [&](const char* what, double value, bool good, const char* expected) {
+    if (!good || !std::isfinite(value))
+      throw InvalidValue(name_ + ": " + target.name + ": " + what, fmt::format("{}", value),
+                         expected);
+  };
+  check("weight", soft.weight, soft.weight > 0, "a finite number > 0");
+  check("tolerance", soft.tolerance, soft.tolerance >= 0, "a finite number >= 0");
+  target.soft = soft;
+}
+
+void Problem::harden(ConstraintId id) {
+  constraint(id).soft.reset();
+}
+
+ConstraintId Problem::constraint_named(const std::string& name) const {
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < constraints_.size(); ++i) {
+    if (constraints_[i].name == name) return {i};
+    known.push_back(constraints_[i].name);
+  }
+  throw unknown_name(name_, "constraint", name, known);
+}
+
 void Problem::enable(ConstraintId id, bool enabled) {
   constraint(id).enabled = enabled;
 }
@@ -216,9 +261,7 @@ void Problem::enable_cost(const std::string& name, bool enabled) {
     }
     known.push_back(term.name);
   }
-  const auto nearest = nearest_name(name, known);
-  throw InvalidValue(name_, "no cost term '" + name + "'",
-                     nearest.empty() ? "a cost term" : "perhaps '" + nearest + "'");
+  throw unknown_name(name_, "cost term", name, known);
 }
 
 void Problem::initial_time(Bounds bounds, double guess) {

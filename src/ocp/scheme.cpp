@@ -51,6 +51,15 @@ const Scheme& hermite_simpson() {
   return scheme;
 }
 
+Scheme hermite_simpson_compressed() {
+  Scheme scheme = hermite_simpson();
+  scheme.name = "hermite_simpson_compressed";
+  scheme.state.erase(scheme.state.begin());
+  scheme.rate.erase(scheme.rate.begin());
+  scheme.compressed = true;
+  return scheme;
+}
+
 bool Scheme::collocates(std::size_t j) const {
   return weight[j] != 0 ||
          std::any_of(rate.begin(), rate.end(), [&](const auto& row) { return row[j] != 0; });
@@ -119,7 +128,8 @@ Scheme lgl(int n) {
 
 const std::vector<std::string>& scheme_names() {
   static const std::vector<std::string> names = {
-      "backward_euler", "trapezoidal", "hermite_simpson", "lgr", "lgr_differential", "lgl"};
+      "backward_euler",   "trapezoidal", "hermite_simpson", "hermite_simpson_compressed", "lgr",
+      "lgr_differential", "lgl"};
   return names;
 }
 
@@ -127,6 +137,7 @@ Scheme scheme(const std::string& name, int points) {
   if (name == "backward_euler") return backward_euler();
   if (name == "trapezoidal") return trapezoidal();
   if (name == "hermite_simpson") return hermite_simpson();
+  if (name == "hermite_simpson_compressed") return hermite_simpson_compressed();
   if (name == "lgr") return lgr(points);
   if (name == "lgr_differential") return lgr_differential(points);
   if (name == "lgl") return lgl(points);

@@ -55,6 +55,12 @@ double Solution::static_parameter(const std::string& name) const {
 double Solution::slack(const std::string& name) const {
   return trajectory.slacks[index_of(name, slack_names, "slack")];
 }
+const Multipliers& Solution::multiplier(const std::string& name) const {
+  return multipliers[index_of(name, names_of(multipliers), "multiplier")];
+}
+const Excesses& Solution::excess(const std::string& name) const {
+  return excesses[index_of(name, names_of(excesses), "soft constraint")];
+}
 double Solution::cost_term(const std::string& name) const {
   std::vector<std::string> names;
   for (const auto& term : cost_terms) names.push_back(term.first);
@@ -68,13 +74,14 @@ namespace {
 
 /// What a point says of one phase.
 void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
-              Transcription& transcription, std::span<const double> x, std::span<const double> y,
-              Solution& solution) {
+              Transcription& transcription, const nlp::Start& point, Solution& solution) {
   solution.mesh = grid.mesh;
   solution.scheme = grid.schemes;
-  solution.cost_terms = transcription.cost_terms(x);
-  solution.trajectory = transcription.trajectory(x);
-  solution.costates = transcription.costates(x, y);
+  solution.cost_terms = transcription.cost_terms(point.x);
+  solution.trajectory = transcription.trajectory(point.x);
+  solution.costates = transcription.costates(point.x, point.y);
+  solution.multipliers = transcription.multipliers(point);
+  solution.excesses = transcription.excesses(point.x);
   solution.state_names = names_of(problem.states());
   solution.control_names = names_of(problem.controls());
   solution.static_parameter_names = names_of(problem.static_parameters());
@@ -111,8 +118,7 @@ Solution solve(const Problem& problem, const SolveSettings& settings) {
   Solution solution;
   run(transcription, settings.backend, settings.options, settings.warm_start,
       guess_of(transcription, settings.guess), solution);
-  describe(problem, {settings.mesh, settings.scheme}, transcription, solution.point.x,
-           solution.point.y, solution);
+  describe(problem, {settings.mesh, settings.scheme}, transcription, solution.point, solution);
   return solution;
 }
 
@@ -135,8 +141,7 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
   for (std::size_t p = 0; p < phases; ++p) {
     Solution& part = solution.phases.emplace_back();
     describe(problem.phases()[p], grids[p], transcription.phase(p),
-             transcription.variables_of(p, solution.point.x),
-             transcription.rows_of(p, solution.point.y), part);
+             transcription.part_of(p, solution.point), part);
     part.status = solution.status;
     part.residuals = solution.residuals;
     part.options = solution.options;

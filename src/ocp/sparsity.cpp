@@ -144,6 +144,7 @@ void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out) {
     out.limits.gl.push_back(row.bounds.lower * row.scale);
     out.limits.gu.push_back(row.bounds.upper * row.scale);
     out.row_names.push_back(row.name);
+    out.origins.push_back(row.origin);
   }
 }
 

@@ -13,6 +13,7 @@ struct RowInfo {
   std::size_t stage;
   Bounds bounds;  ///< user's unit
   double scale;   ///< row in the NLP = scale * the user's
+  RowOrigin origin;
 };
 
 /// coefficient * (the user's value of variable col) in a row.

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "builder.hpp"
+#include "duals.hpp"
+#include "model.hpp"
 #include "slalom/base/error.hpp"
 #include "symbols.hpp"
 
@@ -56,6 +58,14 @@ void check_same(const Problem& before, const Problem& now) {
   if (is_fixed(before.t0()) != is_fixed(now.t0()) || is_fixed(before.tf()) != is_fixed(now.tf()))
     throw InvalidValue(before.name(), "t0 or tf fixed or freed",
                        "the same as when it was transcribed; else a new transcription");
+  const auto same_soft = [](const std::optional<Soft>& a, const std::optional<Soft>& b) {
+    return a.has_value() == b.has_value() &&
+           (!a || (a->norm == b->norm && a->tolerance == b->tolerance));
+  };
+  for (std::size_t i = 0; i < now.constraints().size(); ++i)
+    if (!same_soft(before.constraints()[i].soft, now.constraints()[i].soft))
+      throw InvalidValue(before.name(), now.constraints()[i].name + " softened otherwise",
+                         "the norm and tolerance that were transcribed; else a new transcription");
   check_switch(before.constraints(), now.constraints());
   check_switch(before.costs(), now.costs());
 }
@@ -76,6 +86,25 @@ void check_guess(const Trajectory& guess, const Problem& problem) {
   };
   check_rows(guess.states, "states", problem.states().size());
   check_rows(guess.controls, "controls", problem.controls().size());
+}
+
+/// The states at compressed midpoints: Hermite's interpolant of the ends.
+void fill_midpoints(const Problem& problem, const Layout& layout, Trajectory& trajectory) {
+  const Model model(problem, trajectory);
+  const std::size_t nx = problem.states().size();
+  std::vector<double> at_begin(nx), at_end(nx);
+  for (std::size_t point = 0; point < layout.points(); ++point) {
+    if (layout.has_state(point)) continue;
+    const std::size_t begin = point - 1, end = point + 1;
+    const auto controls_at_end = end_controls(problem, trajectory, begin, end);
+    model.rates(trajectory.time(begin), trajectory.states[begin], trajectory.controls[begin],
+                at_begin);
+    model.rates(trajectory.time(end), trajectory.states[end], controls_at_end, at_end);
+    const double h = trajectory.time(end) - trajectory.time(begin);
+    for (std::size_t i = 0; i < nx; ++i)
+      trajectory.states[point][i] = (trajectory.states[begin][i] + trajectory.states[end][i]) / 2 +
+                                    h / 8 * (at_begin[i] - at_end[i]);
+  }
 }
 
 }  // namespace
@@ -128,53 +157,6 @@ class Transcription::Impl {
     return {"a sum of finite terms", "the whole problem", ""};
   }
 
-  /// By point and state: y' times the derivatives of the defects of interval k by the state at a
-  /// node, of the interval that begins there (`after`) and the one that ends there (`before`).
-  void add_defect_slopes(std::span<const double> y, const nlp::Evaluation& at,
-                         std::vector<std::vector<double>>& before,
-                         std::vector<std::vector<double>>& after) const {
-    const auto& shape = data.structure;
-    const Layout& layout = data.layout;
-    for (std::size_t e = 0; e < at.jacobian.size(); ++e) {
-      const std::size_t row = shape.jacobian_row[e], col = shape.jacobian_col[e];
-      if (row < data.defect_begin || row >= data.defect_end || col >= layout.nx * layout.points())
-        continue;
-      const std::size_t k = shape.row_stage[row];
-      const std::size_t i = col / layout.points(), point = col % layout.points();
-      if (point == layout.node_point[k]) after[k][i] += y[row] * at.jacobian[e];
-      if (point == layout.node_point[k + 1]) before[k + 1][i] += y[row] * at.jacobian[e];
-    }
-  }
-
-  std::vector<std::vector<double>> costates(std::span<const double> y,
-                                            const nlp::Evaluation& at) const {
-    const Layout& layout = data.layout;
-    // Gradient of the integral terms alone: the point function's batch is the first.
-    std::vector<double> integral(layout.variables, 0.0);
-    const Batch& points = data.batches.front();
-    points.to_gradient.scatter(points.evaluator->jacobian(), integral);
-    std::vector<std::vector<double>> before(layout.intervals() + 1), after = before;
-    for (std::size_t k = 0; k <= layout.intervals(); ++k) {
-      before[k].assign(layout.nx, 0.0);
-      after[k].assign(layout.nx, 0.0);
-      for (std::size_t i = 0; i < layout.nx; ++i) {
-        const double slope = integral[layout.state(layout.node_point[k], i)];
-        before[k][i] = (1 - data.share_after[k]) * slope;
-        after[k][i] = data.share_after[k] * slope;
-      }
-    }
-    add_defect_slopes(y, at, before, after);
-    for (std::size_t k = 0; k <= layout.intervals(); ++k)
-      for (std::size_t i = 0; i < layout.nx; ++i) {
-        const double scale = data.structure.variable_scale[layout.state(0, i)];
-        const double mean = k == 0                    ? after[k][i]
-                            : k == layout.intervals() ? -before[k][i]
-                                                      : (after[k][i] - before[k][i]) / 2;
-        after[k][i] = mean / scale;
-      }
-    return after;
-  }
-
   nlp::Fault fault_of(const Batch& batch, const Batch::BadNumber& bad) const {
     std::string function = batch.outputs[bad.output];
     const std::size_t family =
@@ -208,8 +190,7 @@ void Transcription::update(const ocp::Problem& problem) {
   }
   impl_->problem = problem;
   fill_data(problem, impl_->data);
-  fill_variable_limits(problem, impl_->data.layout, impl_->data.structure.variable_scale,
-                       impl_->data.limits);
+  fill_limits(problem, impl_->data);
 }
 
 std::vector<double> Transcription::point(const Trajectory& guess) const {
@@ -219,7 +200,7 @@ std::vector<double> Transcription::point(const Trajectory& guess) const {
   const auto& scale = impl_->data.structure.variable_scale;
   std::vector<double> x(layout.variables, 0.0);
   for (std::size_t point = 0; point < layout.points(); ++point) {
-    for (std::size_t i = 0; i < layout.nx; ++i)
+    for (std::size_t i = 0; i < layout.nx && layout.has_state(point); ++i)
       x[layout.state(point, i)] = interpolate(guess.tau, guess.states, i, layout.tau[point]);
     for (std::size_t i = 0; i < layout.nu; ++i)
       x[layout.control(point, i)] = interpolate(guess.tau, guess.controls, i, layout.tau[point]);
@@ -270,7 +251,8 @@ Trajectory Transcription::trajectory(std::span<const double> x) const {
   result.tau = layout.tau;
   for (std::size_t point = 0; point < layout.points(); ++point) {
     auto& states = result.states.emplace_back();
-    for (std::size_t i = 0; i < layout.nx; ++i) states.push_back(value(layout.state(point, i)));
+    for (std::size_t i = 0; i < layout.nx; ++i)
+      states.push_back(layout.has_state(point) ? value(layout.state(point, i)) : 0);
     auto& controls = result.controls.emplace_back();
     for (std::size_t i = 0; i < layout.nu; ++i) controls.push_back(value(layout.control(point, i)));
   }
@@ -279,6 +261,7 @@ Trajectory Transcription::trajectory(std::span<const double> x) const {
   for (std::size_t i = 0; i < impl_->problem.integrals().size(); ++i)
     result.integrals.push_back(value(layout.integrals + i));
   for (std::size_t index : layout.slack) result.slacks.push_back(value(index));
+  if (layout.state_points.size() < layout.points()) fill_midpoints(impl_->problem, layout, result);
   return result;
 }
 
@@ -295,13 +278,25 @@ std::vector<std::vector<double>> Transcription::costates(std::span<const double>
                                                          std::span<const double> y) {
   nlp::Evaluation at;
   evaluate(x, 1, {}, {.values = true, .derivatives = true}, at);
-  return impl_->costates(y, at);
+  return ocp::costates(impl_->data, y, at);
+}
+
+std::vector<Multipliers> Transcription::multipliers(const nlp::Start& point) const {
+  return ocp::multipliers(impl_->problem, impl_->data, point);
+}
+
+std::vector<Excesses> Transcription::excesses(std::span<const double> x) const {
+  return ocp::excesses(impl_->problem, impl_->data, x);
 }
 
 std::size_t Transcription::defect_row(std::size_t state, std::size_t interval) const {
-  const Layout& layout = impl_->data.layout;
-  const std::size_t points = layout.node_point[interval + 1] - layout.node_point[interval];
-  return ocp::defect_row(impl_->data, points - 1, state, interval);
+  std::size_t row = kNone;
+  for (std::size_t d = 0;
+       d * impl_->data.layout.nx * impl_->data.layout.intervals() < impl_->data.defect_rows.size();
+       ++d)
+    if (const auto next = ocp::defect_row(impl_->data, d, state, interval); next != kNone)
+      row = next;
+  return row;
 }
 
 std::optional<std::size_t> Transcription::end_variable(const Expr& symbol) const {
@@ -349,6 +344,8 @@ nlp::Fault Transcription::evaluate(std::span<const double> x, double sigma,
 }
 
 std::string Transcription::variable_name(std::size_t index) const {
+  for (const Excess& excess : impl_->data.excesses)
+    if (excess.above == index || excess.below == index) return "excess of " + row_name(excess.row);
   return ocp::variable_name(impl_->problem, impl_->data.layout, index);
 }
 

@@ -15,8 +15,8 @@ namespace {
 TEST(ClosedForms, EverySchemeAndBackEndFindsThem) {
   for (const auto& backend : nlp::backends())
     for (const auto& form : closed_forms())
-      for (const Scheme& scheme : {trapezoidal(), hermite_simpson(), backward_euler(), lgr(3),
-                                   lgr_differential(3), lgl(4)}) {
+      for (const Scheme& scheme : {trapezoidal(), hermite_simpson(), hermite_simpson_compressed(),
+                                   backward_euler(), lgr(3), lgr_differential(3), lgl(4)}) {
         SCOPED_TRACE(form.name + " by " + scheme.name + " with " + backend);
         const Solution solution = solve(
             form.problem,

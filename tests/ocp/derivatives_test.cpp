@@ -15,14 +15,28 @@ using Vector = std::vector<double>;
 
 struct Case {
   const char* name;
-  const Scheme* scheme;
+  Scheme scheme;
   Mesh mesh;
+  std::vector<ControlForm> forms = {ControlForm::scheme, ControlForm::scheme};  // of u and w
+  bool soft = false;
 };
+
+KitchenSink sink_of(const Case& c) {
+  KitchenSink sink;
+  sink.problem.control_form(sink.u, c.forms[0]);
+  sink.problem.control_form(sink.w, c.forms[1]);
+  if (!c.soft) return sink;
+  sink.problem.soften(sink.wall, {Norm::l1, 3, 0.1});
+  sink.problem.soften(sink.band, {Norm::l2, 0.5, 0});
+  sink.problem.soften(sink.family, {Norm::l1, 2, 0});
+  sink.problem.soften(sink.end, {Norm::l2, 7, 0.2});
+  return sink;
+}
 
 class Derivatives : public testing::TestWithParam<Case> {
  protected:
-  KitchenSink sink;
-  Transcription transcription{sink.problem, GetParam().mesh, *GetParam().scheme};
+  KitchenSink sink = sink_of(GetParam());
+  Transcription transcription{sink.problem, GetParam().mesh, GetParam().scheme};
   Vector x = some_point(transcription);
 
   /// f(x + h e_i) - f(x - h e_i) over 2 h, fourth order by Richardson.
@@ -117,13 +131,26 @@ TEST_P(Derivatives, PartsDoNotDisturbEachOther) {
   EXPECT_EQ(whole.hessian, parts.hessian);
 }
 
+constexpr ControlForm kScheme = ControlForm::scheme, kLinear = ControlForm::linear,
+                      kConstant = ControlForm::constant;
+
 INSTANTIATE_TEST_SUITE_P(
     Transcriptions, Derivatives,
-    testing::Values(Case{"trapezoidal", &trapezoidal(), Mesh::uniform(3)},
-                    Case{"trapezoidal_one_interval", &trapezoidal(), Mesh::uniform(1)},
-                    Case{"trapezoidal_nonuniform", &trapezoidal(), Mesh({0, 0.1, 0.45, 1})},
-                    Case{"hermite_simpson", &hermite_simpson(), Mesh::uniform(3)},
-                    Case{"hermite_simpson_nonuniform", &hermite_simpson(), Mesh({0, 0.3, 1})}),
+    testing::Values(
+        Case{"trapezoidal", trapezoidal(), Mesh::uniform(3)},
+        Case{"trapezoidal_one_interval", trapezoidal(), Mesh::uniform(1)},
+        Case{"trapezoidal_nonuniform", trapezoidal(), Mesh({0, 0.1, 0.45, 1})},
+        Case{"trapezoidal_held", trapezoidal(), Mesh({0, 0.1, 0.45, 1}), {kConstant, kScheme}},
+        Case{"hermite_simpson", hermite_simpson(), Mesh::uniform(3)},
+        Case{"hermite_simpson_nonuniform", hermite_simpson(), Mesh({0, 0.3, 1})},
+        Case{"compressed", hermite_simpson_compressed(), Mesh({0, 0.3, 0.7, 1})},
+        Case{"compressed_held",
+             hermite_simpson_compressed(),
+             Mesh({0, 0.3, 1}),
+             {kConstant, kLinear},
+             true},
+        Case{"soft", hermite_simpson(), Mesh({0, 0.3, 1}), {kScheme, kConstant}, true},
+        Case{"lgr_soft", lgr(3), Mesh({0, 0.3, 1}), {kLinear, kConstant}, true}),
     [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

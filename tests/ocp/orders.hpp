@@ -101,7 +101,7 @@ inline std::vector<OrderRow> measure_orders() {
   std::vector<OrderRow> table;
   for (const auto& form : closed_forms())
     for (const Scheme& scheme : {backward_euler(), trapezoidal(), lgr(2), lgr_differential(2),
-                                 hermite_simpson(), lgr(3), lgl(4)})
+                                 hermite_simpson(), hermite_simpson_compressed(), lgr(3), lgl(4)})
       for (const bool uniform : {true, false}) {
         std::vector<double> objective, states, costates;
         for (int n : kIntervals) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "slalom/nlp/problem.hpp"
+#include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "slalom/ocp/transcription.hpp"
@@ -61,9 +62,8 @@ class PhasedTranscription final : public nlp::Problem {
 
   std::size_t phases() const;
   Transcription& phase(std::size_t number);
-  /// The part of a point's variables or of its rows' multipliers that belongs to a phase.
-  std::span<const double> variables_of(std::size_t phase, std::span<const double> x) const;
-  std::span<const double> rows_of(std::size_t phase, std::span<const double> y) const;
+  /// The part of a point that belongs to a phase.
+  nlp::Start part_of(std::size_t phase, const nlp::Start& point) const;
   /// First row of the links, in their order.
   std::size_t first_link() const;
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,26 @@ enum class Points { all, after_first };
 /// The end of the horizon at which a slack lives.
 enum class End { initial, final };
 
+/// How a control runs within an interval of the mesh.
+enum class ControlForm {
+  scheme,    ///< as the scheme's polynomial through the collocated points
+  linear,    ///< a line from the interval's begin to its end
+  constant,  ///< held over the interval; a node's value is that of the interval after it
+};
+
+/// What the excess e over a soft constraint's bounds costs: `weight` e or `weight` e^2, for a path
+/// row integrated over time.
+enum class Norm { l1, l2 };
+
+/// How a constraint is softened: what goes beyond its bounds by more than `tolerance` [its unit]
+/// costs. An l1 cost with a weight above the hard constraint's multiplier leaves the optimum as it
+/// was (exact penalty; Nocedal & Wright 2006, section 17.2); an l2 cost always gives a little.
+struct Soft {
+  Norm norm = Norm::l1;
+  double weight = 1;
+  double tolerance = 0;
+};
+
 /// Handle of a constraint, for switching and for the data of families.
 struct ConstraintId {
   std::size_t index;
@@ -50,6 +71,8 @@ class Problem {
   Expr state(const std::string& name, Bounds bounds = {}, double scale = 1);
   /// A control with bounds at every point.
   Expr control(const std::string& name, Bounds bounds = {}, double scale = 1);
+  /// How a control runs between the nodes; as the scheme has it if never called.
+  void control_form(const Expr& control, ControlForm form);
   /// A constant to optimise.
   Expr static_parameter(const std::string& name, Bounds bounds, double guess, double scale = 1);
   /// An extra variable at one end of the horizon, for softened boundary conditions.
@@ -97,6 +120,13 @@ class Problem {
   void set_members(ConstraintId family, std::vector<std::string> names,
                    std::vector<std::vector<double>> values);
 
+  /// Makes a constraint soft, with a cost term "soft NAME"; and hard again. The weight alone may
+  /// change between the solves of one transcription.
+  void soften(ConstraintId constraint, Soft soft);
+  void harden(ConstraintId constraint);
+
+  /// The constraint of that name; throws InvalidValue, naming the nearest.
+  ConstraintId constraint_named(const std::string& name) const;
   /// A constraint switched off is absent from the next transcription, not zeroed.
   void enable(ConstraintId constraint, bool enabled);
   /// Likewise for a cost term.
@@ -127,6 +157,9 @@ class Problem {
     Expr rate;
     bool has_rate = false;
   };
+  struct Control : Variable {
+    ControlForm form = ControlForm::scheme;
+  };
   struct Slack : Variable {
     End end = End::initial;
   };
@@ -155,11 +188,12 @@ class Problem {
     std::vector<Expr> symbols;  ///< of a family
     std::vector<std::string> members;
     std::vector<std::vector<double>> member_values;
+    std::optional<Soft> soft;
   };
 
   const std::string& name() const { return name_; }
   const std::vector<State>& states() const { return states_; }
-  const std::vector<Variable>& controls() const { return controls_; }
+  const std::vector<Control>& controls() const { return controls_; }
   const std::vector<Variable>& static_parameters() const { return static_parameters_; }
   const std::vector<Slack>& slacks() const { return slacks_; }
   const std::vector<Integral>& integrals() const { return integrals_; }
@@ -178,7 +212,8 @@ class Problem {
   Expr time_, tau_, t0_, tf_;
   Variable t0_variable_, tf_variable_;
   std::vector<State> states_;
-  std::vector<Variable> controls_, static_parameters_;
+  std::vector<Control> controls_;
+  std::vector<Variable> static_parameters_;
   std::vector<Slack> slacks_;
   std::vector<Integral> integrals_;
   std::vector<Parameter> parameters_;

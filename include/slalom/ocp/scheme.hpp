@@ -27,7 +27,8 @@ class Mesh {
 ///
 ///   sum_j state[i][j] x_j - h sum_j rate[i][j] f_j = 0,     integral of L = h sum_j weight[j] L_j
 ///
-/// Interior points (all but the first and last) carry states and controls of their own.
+/// Interior points (all but the first and last) carry states and controls of their own; in
+/// compressed form only controls, their states being Hermite's interpolant of the ends.
 struct Scheme {
   std::string name;
   int order = 0;                           ///< of the states at the breakpoints
@@ -35,6 +36,7 @@ struct Scheme {
   std::vector<std::vector<double>> state;  ///< one row a defect
   std::vector<std::vector<double>> rate;
   std::vector<double> weight;
+  bool compressed = false;
 
   std::size_t interior() const { return points.size() - 2; }
   std::size_t defects() const { return state.size(); }
@@ -47,6 +49,9 @@ const Scheme& trapezoidal();
 /// Hermite-Simpson in separated form, order 4 (Betts 2010, section 4.5; Kelly 2017, eq. 4.3 and
 /// 4.4): the midpoint's state is a variable tied by Hermite's interpolant.
 const Scheme& hermite_simpson();
+/// Hermite-Simpson in compressed form (ibid.; Kelly 2017, eq. 4.5): the midpoint's state is put
+/// into Simpson's rule, which leaves one defect an interval. Path rows stand at the midpoint too.
+Scheme hermite_simpson_compressed();
 /// Implicit Euler, order 1: x_1 - x_0 - h f_1.
 Scheme backward_euler();
 /// Legendre-Gauss-Radau collocation at n >= 1 points, the interval's begin among them and its end

@@ -10,6 +10,7 @@
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "slalom/ocp/trajectory.hpp"
+#include "slalom/ocp/transcription.hpp"
 
 namespace slalom::ocp {
 
@@ -35,10 +36,12 @@ struct Solution {
   /// dJ*/dx at the mesh nodes, [node][state]: positive where more of a state costs more. Read off
   /// the defects' multipliers; second order accurate at least where no path row is active.
   std::vector<std::vector<double>> costates;
-  nlp::Residuals residuals;  ///< recomputed from the point; names the worst constraint
-  nlp::Options options;      ///< those it was solved with
-  std::string backend;       ///< that solved it, with its factorisation
-  nlp::Start point;          ///< of the NLP, for warm starts
+  std::vector<Multipliers> multipliers;  ///< of constraints and bounds, by name
+  std::vector<Excesses> excesses;        ///< of soft constraints, by name
+  nlp::Residuals residuals;              ///< recomputed from the point; names the worst constraint
+  nlp::Options options;                  ///< those it was solved with
+  std::string backend;                   ///< that solved it, with its factorisation
+  nlp::Start point;                      ///< of the NLP, for warm starts
   int iterations = 0;
   double wall_s = 0;
 
@@ -55,6 +58,8 @@ struct Solution {
   double slack(const std::string& name) const;
   double cost_term(const std::string& name) const;
   std::vector<double> costate(const std::string& state_name) const;  ///< one number a mesh node
+  const Multipliers& multiplier(const std::string& name) const;
+  const Excesses& excess(const std::string& name) const;
 
   std::vector<std::string> state_names, control_names, static_parameter_names, slack_names;
 };

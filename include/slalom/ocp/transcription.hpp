@@ -8,11 +8,31 @@
 #include <vector>
 
 #include "slalom/nlp/problem.hpp"
+#include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "slalom/ocp/trajectory.hpp"
 
 namespace slalom::ocp {
+
+/// The multipliers of one constraint or of a variable's bounds, in user's units.
+struct Multipliers {
+  /// A constraint, "family[member]", a state, control, slack, static parameter or integral (for its
+  /// bounds), t0 or tf.
+  std::string name;
+  std::vector<std::size_t> points;  ///< of the mesh and scheme; empty for what has one value
+  /// How much less the objective is per unit by which the bound at that point alone is raised:
+  /// >= 0 at an upper bound, <= 0 at a lower one, 0 at neither.
+  std::vector<double> values;
+};
+
+/// How far a soft constraint goes beyond its bounds and tolerance, one number a point (and, point
+/// by point, a member): > 0 above the upper bound, < 0 below the lower one.
+struct Excesses {
+  std::string name;
+  std::vector<std::size_t> points;
+  std::vector<double> values;
+};
 
 /// A problem made into a stage-structured NLP on a mesh by a collocation scheme.
 ///
@@ -47,6 +67,9 @@ class Transcription final : public nlp::Problem {
   /// quadrature and defects), averaged with minus that of what lies before: they differ by active
   /// rows there.
   std::vector<std::vector<double>> costates(std::span<const double> x, std::span<const double> y);
+  /// Of all enabled constraints and of all variables with bounds, by name.
+  std::vector<Multipliers> multipliers(const nlp::Start& point) const;
+  std::vector<Excesses> excesses(std::span<const double> x) const;
   /// Row of interval k's last defect of a state.
   std::size_t defect_row(std::size_t state, std::size_t interval) const;
 

@@ -1,0 +1,159 @@
+#include <utility>
+
+#include "draft.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+void add_excess(Draft& draft, std::size_t row, std::size_t stage, Bounds bounds, Norm norm) {
+  Excess excess{row};
+  const auto append = [&](double coefficient) {
+    const std::size_t variable = draft.out.layout.append(stage);
+    draft.out.structure.variable_scale.push_back(1);
+    draft.linear.push_back({row, variable, coefficient});
+    return variable;
+  };
+  if (norm == Norm::l2 || bounds.upper < kInfinity) excess.above = append(-1);
+  if (norm == Norm::l1 && bounds.lower > -kInfinity) excess.below = append(1);
+  draft.out.excesses.push_back(excess);
+}
+
+/// The row of a constraint: its function's value and, where it is soft, its excesses.
+void add_constraint(Draft& draft, std::size_t batch, std::size_t output, std::size_t lane,
+                    RowName name, RowOrigin origin) {
+  const auto& constraint = draft.problem.constraints()[origin.constraint];
+  const std::size_t stage = draft.out.layout.point_stage[origin.point];
+  Bounds bounds = constraint.bounds;
+  if (constraint.soft) {
+    bounds.lower -= constraint.soft->tolerance;
+    bounds.upper += constraint.soft->tolerance;
+  }
+  const auto row = draft.add_row(std::move(name), stage, bounds, 1);
+  draft.rows[row].origin = origin;
+  draft.use(batch, output, lane, row, kNone, 1);
+  if (constraint.soft) add_excess(draft, row, stage, constraint.bounds, constraint.soft->norm);
+}
+
+void use_as_row(Draft& draft, std::size_t batch, std::size_t output, std::size_t lane,
+                std::size_t constraint) {
+  const auto& row = draft.problem.constraints()[constraint];
+  const std::size_t point = draft.out.batches[batch].lane_point[lane];
+  const std::size_t member = draft.out.batches[batch].lane_member[lane];
+  RowName name;
+  name.text = " at " + draft.out.layout.point_name(point);
+  if (row.kind == Problem::Kind::family) {
+    name.family = constraint;
+    name.member = member;
+  } else {
+    name.text = row.name + name.text;
+  }
+  add_constraint(draft, batch, output, lane, std::move(name), {constraint, member, point});
+}
+
+void add_families(Draft& draft) {
+  for (std::size_t f = 0; f < draft.problem.constraints().size(); ++f) {
+    const auto& family = draft.problem.constraints()[f];
+    if (!absent(family, Problem::Kind::family))
+      use_paths(draft, draft.add_batches({{family.name, family.value}}, family.points, f), 0, {f});
+  }
+}
+
+void add_ends(Draft& draft) {
+  for (const End end : {End::initial, End::final}) {
+    std::vector<Output> outputs;
+    std::vector<std::size_t> rows;
+    for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c) {
+      const auto& row = draft.problem.constraints()[c];
+      if (absent(row, Problem::Kind::boundary) || draft.symbols.end_of(row.value, row.name) != end)
+        continue;
+      rows.push_back(c);
+      outputs.push_back({row.name, row.value});
+    }
+    std::vector<std::size_t> terms;
+    for (const auto& cost : draft.problem.costs())
+      if (cost.enabled && !cost.lagrange && draft.symbols.end_of(cost.value, cost.name) == end) {
+        terms.push_back(draft.term_index(cost.name));
+        outputs.push_back({cost.name, cost.value});
+      }
+    if (outputs.empty()) continue;
+    const std::size_t point = end == End::initial ? 0 : draft.out.layout.points() - 1;
+    const auto batch = draft.add_batch(outputs, {{point}, kNone, &end, {}, {}, kNone, {}});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      add_constraint(draft, batch, i, 0, {draft.problem.constraints()[rows[i]].name},
+                     {rows[i], 0, point});
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      draft.use(batch, rows.size() + i, 0, kNone, terms[i], 1);
+  }
+}
+
+/// Share of the horizon that stands for a point: half of the way to each of its neighbours. A
+/// scheme's own weight may be 0.
+double share_of(const Layout& layout, std::size_t point) {
+  const double before = point > 0 ? layout.tau[point] - layout.tau[point - 1] : 0;
+  const double after = point + 1 < layout.points() ? layout.tau[point + 1] - layout.tau[point] : 0;
+  return (before + after) / 2;
+}
+
+/// What the excesses of a soft constraint cost.
+void add_soft_cost(Draft& draft, std::size_t constraint) {
+  const auto& row = draft.problem.constraints()[constraint];
+  const std::string name = "soft " + row.name;
+  const Expr excess = Expr::symbol("excess of " + row.name);
+  Lanes lanes;
+  lanes.soft = constraint;
+  lanes.weight = Expr::symbol("weight of " + row.name);
+  std::vector<std::size_t> variables;
+  for (const Excess& each : draft.out.excesses) {
+    const RowOrigin& origin = draft.rows[each.row].origin;
+    if (origin.constraint != constraint) continue;
+    for (const std::size_t variable : {each.above, each.below}) {
+      if (variable == kNone) continue;
+      variables.push_back(variable);
+      lanes.points.push_back(origin.point);
+    }
+  }
+  lanes.placed.push_back(
+      {excess, [&variables](const Batch&, std::size_t lane) { return variables[lane]; }});
+  const bool over_time = row.kind != Problem::Kind::boundary;
+  Expr cost = lanes.weight * (row.soft->norm == Norm::l1 ? excess : square(excess));
+  if (over_time) cost = cost * (draft.problem.final_time() - draft.problem.initial_time());
+  const std::size_t batch = draft.add_batch({{name, cost}}, lanes), term = draft.term_index(name);
+  for (std::size_t lane = 0; lane < lanes.points.size(); ++lane)
+    draft.use(batch, 0, lane, kNone, term,
+              over_time ? share_of(draft.out.layout, lanes.points[lane]) : 1);
+}
+
+}  // namespace
+
+std::vector<std::size_t> path_rows(const Draft& draft, Points which, std::vector<Output>& outputs) {
+  std::vector<std::size_t> rows;
+  for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c) {
+    const auto& row = draft.problem.constraints()[c];
+    if (absent(row, Problem::Kind::path) || row.points != which) continue;
+    rows.push_back(c);
+    outputs.push_back({row.name, row.value});
+  }
+  return rows;
+}
+
+void use_paths(Draft& draft, const std::vector<std::size_t>& batches, std::size_t first_output,
+               const std::vector<std::size_t>& constraints) {
+  for (std::size_t i = 0; i < constraints.size(); ++i)
+    for (const std::size_t batch : batches)
+      for (std::size_t lane = 0; lane < draft.out.batches[batch].lanes; ++lane)
+        use_as_row(draft, batch, first_output + i, lane, constraints[i]);
+}
+
+void add_constraints(Draft& draft) {
+  std::vector<Output> outputs;
+  const auto paths = path_rows(draft, Points::after_first, outputs);
+  if (!outputs.empty()) use_paths(draft, draft.add_batches(outputs, Points::after_first), 0, paths);
+  add_families(draft);
+  add_ends(draft);
+  for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c)
+    if (draft.problem.constraints()[c].soft &&
+        !absent(draft.problem.constraints()[c], draft.problem.constraints()[c].kind))
+      add_soft_cost(draft, c);
+}
+
+}  // namespace slalom::ocp

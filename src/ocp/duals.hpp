@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "builder.hpp"
+#include "slalom/ocp/transcription.hpp"
+
+namespace slalom::ocp {
+
+/// What Transcription::costates says; the batches must have been evaluated, with derivatives `at`
+/// the point.
+std::vector<std::vector<double>> costates(const Transcribed& data, std::span<const double> y,
+                                          const nlp::Evaluation& at);
+std::vector<Multipliers> multipliers(const Problem& problem, const Transcribed& data,
+                                     const nlp::Start& point);
+std::vector<Excesses> excesses(const Problem& problem, const Transcribed& data,
+                               std::span<const double> x);
+
+}  // namespace slalom::ocp
