@@ -14,7 +14,7 @@ void add_lifts(Draft& draft) {
   const Layout& layout = draft.out.layout;
   const std::size_t last = layout.points() - 1;
   for (std::size_t i = 0; i < layout.nx; ++i) {
-    const double scale = 1 / draft.problem.states()[i].scale;
+    const double scale = 1 / draft.problem.states()[i].unit();
     for (const auto& [lifted, point, symbol] :
          {std::tuple{layout.lifted_initial[i], std::size_t{0},
                      draft.problem.states()[i].initial_symbol},
@@ -31,8 +31,8 @@ void add_lifts(Draft& draft) {
 /// Where the bounds of t0 and tf leave it open.
 void run_time_forward(Draft& draft) {
   if (draft.problem.t0().bounds.upper <= draft.problem.tf().bounds.lower) return;
-  const auto row =
-      draft.add_row({"tf after t0"}, draft.out.layout.intervals() + 1, Bounds::at_least(0), 1);
+  const auto row = draft.add_row({"tf after t0"}, draft.out.layout.intervals() + 1,
+                                 Bounds::at_least(0), 1 / draft.problem.tf().unit());
   draft.linear.push_back({row, draft.out.layout.tf, 1});
   draft.linear.push_back({row, draft.out.layout.t0, -1});
 }

@@ -5,11 +5,14 @@
 namespace slalom::ocp {
 namespace {
 
-void add_excess(Draft& draft, std::size_t row, std::size_t stage, Bounds bounds, Norm norm) {
+void add_excess(Draft& draft, std::size_t row, std::size_t stage,
+                const Problem::Constraint& constraint) {
+  const Bounds bounds = constraint.bounds;
+  const Norm norm = constraint.soft->norm;
   Excess excess{row};
   const auto append = [&](double coefficient) {
     const std::size_t variable = draft.out.layout.append(stage);
-    draft.out.structure.variable_scale.push_back(1);
+    draft.out.structure.variable_scale.push_back(constraint.unit());
     draft.linear.push_back({row, variable, coefficient});
     return variable;
   };
@@ -28,10 +31,10 @@ void add_constraint(Draft& draft, std::size_t batch, std::size_t output, std::si
     bounds.lower -= constraint.soft->tolerance;
     bounds.upper += constraint.soft->tolerance;
   }
-  const auto row = draft.add_row(std::move(name), stage, bounds, 1);
+  const auto row = draft.add_row(std::move(name), stage, bounds, 1 / constraint.unit());
   draft.rows[row].origin = origin;
   draft.use(batch, output, lane, row, kNone, 1);
-  if (constraint.soft) add_excess(draft, row, stage, constraint.bounds, constraint.soft->norm);
+  if (constraint.soft) add_excess(draft, row, stage, constraint);
 }
 
 void use_as_row(Draft& draft, std::size_t batch, std::size_t output, std::size_t lane,

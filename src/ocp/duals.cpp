@@ -193,8 +193,10 @@ std::vector<Excesses> excesses(const Problem& problem, const Transcribed& data,
     Excesses& each = list[origin.constraint];
     each.name = problem.constraints()[origin.constraint].name;
     each.points.push_back(origin.point);
-    each.values.push_back((excess.above == kNone ? 0 : x[excess.above]) -
-                          (excess.below == kNone ? 0 : x[excess.below]));
+    const auto value = [&](std::size_t variable) {
+      return variable == kNone ? 0 : x[variable] * data.structure.variable_scale[variable];
+    };
+    each.values.push_back(value(excess.above) - value(excess.below));
   }
   std::vector<Excesses> result;
   for (auto& [constraint, each] : list) {

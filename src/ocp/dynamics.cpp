@@ -97,7 +97,7 @@ class Dynamics {
           if (d < draft_.schemes.of(k).defects())
             draft_.out.defect_rows[(d * layout.nx + i) * intervals + k] =
                 draft_.add_row({fmt::format("defect {} of {} in interval {}", d, state.name, k)}, k,
-                               Bounds::equal(0), 1 / state.scale);
+                               Bounds::equal(0), 1 / state.unit());
         for (std::size_t j = 0; j <= most; ++j)
           for (std::size_t k = 0; k < intervals; ++k)
             if (defect_row(draft_.out, d, i, k) != kNone && j < draft_.schemes.of(k).points.size())
@@ -165,7 +165,7 @@ class Dynamics {
     std::size_t stage = layout.point_stage[point];
     for (const auto& [from, share] : shares) stage = std::min(stage, layout.point_stage[from]);
     const auto row = draft_.add_row({control.name + " held at " + layout.point_name(point)}, stage,
-                                    Bounds::equal(0), 1 / control.scale);
+                                    Bounds::equal(0), 1 / control.unit());
     draft_.linear.push_back({row, layout.control(point, i), 1});
     for (const auto& [from, share] : shares)
       if (share != 0) draft_.linear.push_back({row, layout.control(from, i), -share});
@@ -197,7 +197,7 @@ class Dynamics {
     for (std::size_t i = 0; i < draft_.problem.integrals().size(); ++i) {
       const auto& integral = draft_.problem.integrals()[i];
       const auto row = draft_.add_row({"integral " + integral.name}, layout.intervals() + 1,
-                                      Bounds::equal(0), 1 / integral.scale);
+                                      Bounds::equal(0), 1 / integral.unit());
       draft_.linear.push_back({row, layout.integrals + i, -1});
       use_weights(first_integral + i, row, kNone);
       draft_.out.integral_rows.push_back(row);

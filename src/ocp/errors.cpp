@@ -30,14 +30,13 @@ constexpr double kLeastStep = 1e-14;
 class Integrator {
  public:
   Integrator(const Problem& problem, const Trajectory& trajectory, const Interpolant& between,
-             const Mesh& mesh, double tolerance)
+             const Mesh& mesh, const Vector& units, double tolerance)
       : model_(problem, trajectory),
         trajectory_(trajectory),
         between_(between),
         breaks_(mesh.breakpoints()),
-        tolerance_(tolerance) {
-    for (const auto& state : problem.states()) scale_.push_back(state.scale);
-  }
+        tolerance_(tolerance),
+        scale_(units) {}
 
   /// The states at the end of interval k, from `x` at its begin; empty where there is no getting
   /// there.
@@ -84,6 +83,14 @@ Interpolant between(const Problem& problem, const Solution& solution) {
   return {problem, solution.trajectory, solution.mesh, solution.scheme};
 }
 
+/// The scales the states were solved with; of a solution put together by hand the problem's.
+Vector state_units(const Problem& problem, const Solution& solution) {
+  Vector units = solution.state_units;
+  if (units.empty())
+    for (const auto& state : problem.states()) units.push_back(state.unit());
+  return units;
+}
+
 /// The point of each mesh node.
 std::vector<std::size_t> nodes(const Solution& solution) {
   std::vector<std::size_t> list{0};
@@ -100,12 +107,13 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
                        "a number > 0 and < 1");
   const Trajectory& trajectory = solution.trajectory;
   const Interpolant polynomials = between(problem, solution);
-  const Integrator integrator(problem, trajectory, polynomials, solution.mesh, tolerance);
+  const Vector units = state_units(problem, solution);
+  const Integrator integrator(problem, trajectory, polynomials, solution.mesh, units, tolerance);
   Vector size;
   for (std::size_t i = 0; i < problem.states().size(); ++i) {
     double largest = 0;
     for (const auto& x : trajectory.states) largest = std::max(largest, std::fabs(x[i]));
-    size.push_back(problem.states()[i].scale + largest);
+    size.push_back(units[i] + largest);
   }
   ErrorEstimate estimate;
   const auto node = nodes(solution);

@@ -68,17 +68,21 @@ std::vector<double> variable_scales(const Problem& problem, const Layout& layout
   std::vector<double> scale(layout.variables, 1.0);
   for (std::size_t i = 0; i < layout.nx; ++i)
     for (const std::size_t point : layout.state_points)
-      scale[layout.state(point, i)] = problem.states()[i].scale;
+      scale[layout.state(point, i)] = problem.states()[i].unit();
   for (std::size_t i = 0; i < layout.nu; ++i)
     for (std::size_t point = 0; point < layout.points(); ++point)
-      scale[layout.control(point, i)] = problem.controls()[i].scale;
+      scale[layout.control(point, i)] = problem.controls()[i].unit();
+  scale[layout.t0] = problem.t0().unit();
+  scale[layout.tf] = problem.tf().unit();
+  for (std::size_t i = 0; i < layout.slack.size(); ++i)
+    scale[layout.slack[i]] = problem.slacks()[i].unit();
   for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
-    scale[layout.static_parameters + i] = problem.static_parameters()[i].scale;
+    scale[layout.static_parameters + i] = problem.static_parameters()[i].unit();
   for (std::size_t i = 0; i < problem.integrals().size(); ++i)
-    scale[layout.integrals + i] = problem.integrals()[i].scale;
+    scale[layout.integrals + i] = problem.integrals()[i].unit();
   for (std::size_t i = 0; i < layout.nx; ++i)
     for (const auto* lifted : {&layout.lifted_initial, &layout.lifted_final})
-      if ((*lifted)[i] != kNone) scale[(*lifted)[i]] = problem.states()[i].scale;
+      if ((*lifted)[i] != kNone) scale[(*lifted)[i]] = problem.states()[i].unit();
   return scale;
 }
 

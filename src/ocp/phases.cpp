@@ -35,6 +35,14 @@ void PhasedProblem::link(const std::string& name, const Expr& value, Bounds boun
   links_.push_back({name, value, bounds});
 }
 
+void PhasedProblem::replace(std::size_t number, Problem with) {
+  const Problem& now = phase(number, "replace");
+  if (with.name() != now.name() || !with.time().same(now.time()))
+    throw InvalidValue(name_ + ": replace", "another problem " + with.name(),
+                       "the phase " + now.name() + " with other numbers");
+  phases_[number] = std::move(with);
+}
+
 const Problem& PhasedProblem::phase(std::size_t number, const char* what) const {
   if (number >= phases_.size())
     throw InvalidValue(name_ + ": " + what, fmt::format("phase {}", number),

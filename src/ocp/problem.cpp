@@ -25,7 +25,7 @@ void check_bounds(const std::string& where, Bounds bounds) {
 
 void check_variable(const std::string& where, const Problem::Variable& variable) {
   check_bounds(where, variable.bounds);
-  if (!(std::isfinite(variable.scale) && variable.scale > 0))
+  if (variable.scaled() && !(std::isfinite(variable.scale) && variable.scale > 0))
     throw InvalidValue(where, fmt::format("scale {}", variable.scale), "a scale > 0");
   if (!std::isfinite(variable.guess))
     throw InvalidValue(where, fmt::format("guess {}", variable.guess), "a finite guess");
@@ -65,8 +65,8 @@ Problem::Problem(std::string name)
       tau_(Expr::symbol("tau")),
       t0_(Expr::symbol("t0")),
       tf_(Expr::symbol("tf")),
-      t0_variable_{t0_, "t0", Bounds::equal(0), 1, 0},
-      tf_variable_{tf_, "tf", Bounds::equal(1), 1, 1},
+      t0_variable_{t0_, "t0", Bounds::equal(0), kAutomaticScale, 0},
+      tf_variable_{tf_, "tf", Bounds::equal(1), kAutomaticScale, 1},
       names_{"time", "tau", "t0", "tf"} {}
 
 void Problem::claim_name(const std::string& name) {
@@ -110,7 +110,7 @@ Expr Problem::static_parameter(const std::string& name, Bounds bounds, double gu
 Expr Problem::slack(const std::string& name, End end, Bounds bounds, double guess) {
   claim_name(name);
   Slack slack;
-  static_cast<Variable&>(slack) = declared(name_, "slack", name, bounds, 1, guess);
+  static_cast<Variable&>(slack) = declared(name_, "slack", name, bounds, kAutomaticScale, guess);
   slack.end = end;
   slacks_.push_back(slack);
   return slack.symbol;
@@ -124,6 +124,19 @@ Expr Problem::integral(const std::string& name, const Expr& integrand, Bounds bo
   integral.integrand = integrand;
   integrals_.push_back(integral);
   return integral.symbol;
+}
+
+void Problem::set_scale(const Expr& symbol, double scale) {
+  const auto set = [&](Variable& variable) {
+    if (!variable.symbol.same(symbol)) return false;
+    variable.scale = scale;
+    check_variable(name_ + ": " + variable.name, variable);
+    return true;
+  };
+  const auto set_one = [&](auto& list) { return std::any_of(list.begin(), list.end(), set); };
+  if (!(set_one(states_) || set_one(controls_) || set_one(static_parameters_) || set_one(slacks_) ||
+        set_one(integrals_) || set(t0_variable_) || set(tf_variable_)))
+    throw InvalidValue(name_ + ": set_scale", found(symbol), "a variable of this problem");
 }
 
 Expr Problem::parameter(const std::string& name, double value) {
@@ -221,6 +234,13 @@ void Problem::set_members(ConstraintId family, std::vector<std::string> names,
   }
   target.members = std::move(names);
   target.member_values = std::move(values);
+}
+
+void Problem::set_scale(ConstraintId id, double scale) {
+  auto& target = constraint(id);
+  if (!(std::isfinite(scale) && scale > 0))
+    throw InvalidValue(name_ + ": " + target.name, fmt::format("scale {}", scale), "a scale > 0");
+  target.scale = scale;
 }
 
 void Problem::soften(ConstraintId id, Soft soft) {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "objective_scale.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
+#include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/transcription.hpp"
+#include "start_guess.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -76,6 +79,7 @@ namespace {
 void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
               Transcription& transcription, const nlp::Start& point, Solution& solution) {
   solution.mesh = grid.mesh;
+  for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
   solution.scheme = grid.schemes;
   solution.cost_terms = transcription.cost_terms(point.x);
   solution.trajectory = transcription.trajectory(point.x);
@@ -88,14 +92,36 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
   solution.slack_names = names_of(problem.slacks());
 }
 
-/// Solves and checks; `solution` is of one phase or of several.
+/// A point of the NLP in the user's units, and back.
+nlp::Start to_user(nlp::Start point, const nlp::Structure& shape) {
+  for (std::size_t i = 0; i < point.x.size(); ++i) point.x[i] *= shape.variable_scale[i];
+  for (auto* z : {&point.zl, &point.zu})
+    for (std::size_t i = 0; i < z->size(); ++i) (*z)[i] /= shape.variable_scale[i];
+  for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] *= shape.row_scale[r];
+  return point;
+}
+nlp::Start from_user(nlp::Start point, const nlp::Structure& shape) {
+  nlp::check_sizes(point, shape, true);
+  for (std::size_t i = 0; i < point.x.size(); ++i) point.x[i] /= shape.variable_scale[i];
+  for (auto* z : {&point.zl, &point.zu})
+    for (std::size_t i = 0; i < z->size(); ++i) (*z)[i] *= shape.variable_scale[i];
+  for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] /= shape.row_scale[r];
+  return point;
+}
+
+/// Solves and checks; `solution` is of one phase or of several. The NLP's answer, in its own units,
+/// is returned.
 template <class Result>
-void run(nlp::Problem& problem, const std::string& backend, nlp::Options options,
-         const nlp::Start& warm_start, const std::vector<double>& guess, Result& solution) {
-  nlp::Start start = warm_start;
-  options.warm_start = !start.x.empty();
-  if (start.x.empty()) start.x = guess;
-  nlp::Answer answer = nlp::make_solver(backend)->solve(problem, start, options);
+nlp::Start run(nlp::Problem& problem, const std::string& backend, nlp::Options options,
+               const nlp::Start& warm_start, const std::vector<double>& guess,
+               const std::vector<char>& regular, Result& solution) {
+  nlp::Start start;
+  options.warm_start = !warm_start.x.empty();
+  if (options.warm_start)
+    start = from_user(warm_start, problem.structure());
+  else
+    start.x = guess;
+  nlp::Answer answer = solve_scaled(problem, *nlp::make_solver(backend), start, options, regular);
   solution.status = answer.status;
   solution.fault = answer.fault;
   solution.objective = answer.objective;
@@ -104,21 +130,27 @@ void run(nlp::Problem& problem, const std::string& backend, nlp::Options options
   solution.backend = answer.backend;
   solution.iterations = answer.iterations;
   solution.wall_s = answer.wall_s;
-  solution.point = std::move(answer.point);
+  solution.point = to_user(answer.point, problem.structure());
+  return std::move(answer.point);
 }
 
-std::vector<double> guess_of(const Transcription& transcription, const Trajectory& guess) {
-  return transcription.point(guess.tau.empty() ? transcription.straight_guess() : guess);
+/// The guess that a solve starts from, checked.
+Trajectory start_of(const Problem& problem, const Trajectory& guess) {
+  if (guess.tau.empty()) return straight_guess(problem);
+  check_guess(guess, problem);
+  return guess;
 }
 
 }  // namespace
 
 Solution solve(const Problem& problem, const SolveSettings& settings) {
-  Transcription transcription(problem, settings.mesh, settings.scheme);
+  const Trajectory guess = start_of(problem, settings.guess);
+  const Problem scaled = with_scales(problem, guess);
+  Transcription transcription(scaled, settings.mesh, settings.scheme);
   Solution solution;
-  run(transcription, settings.backend, settings.options, settings.warm_start,
-      guess_of(transcription, settings.guess), solution);
-  describe(problem, {settings.mesh, settings.scheme}, transcription, solution.point, solution);
+  const auto point = run(transcription, settings.backend, settings.options, settings.warm_start,
+                         transcription.point(guess), transcription.regular_variables(), solution);
+  describe(scaled, {settings.mesh, settings.scheme}, transcription, point, solution);
   return solution;
 }
 
@@ -126,22 +158,32 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
   const std::size_t phases = problem.phases().size();
   auto grids = settings.grids;
   if (grids.empty()) grids.resize(phases);
-  PhasedTranscription transcription(problem, grids);
   if (!settings.guesses.empty() && settings.guesses.size() != phases)
     throw InvalidValue(problem.name() + ": guesses", std::to_string(settings.guesses.size()),
                        std::to_string(phases) + ", one a phase, or none");
-  std::vector<double> guess;
+  std::vector<Trajectory> guesses;
+  PhasedProblem scaled = problem;
   for (std::size_t p = 0; p < phases; ++p) {
-    const auto part = guess_of(transcription.phase(p),
-                               settings.guesses.empty() ? Trajectory{} : settings.guesses[p]);
+    guesses.push_back(start_of(problem.phases()[p],
+                               settings.guesses.empty() ? Trajectory{} : settings.guesses[p]));
+    scaled.replace(p, with_scales(problem.phases()[p], guesses[p]));
+  }
+  PhasedTranscription transcription(scaled, grids);
+  std::vector<double> guess;
+  std::vector<char> regular;
+  for (std::size_t p = 0; p < phases; ++p) {
+    const auto part = transcription.phase(p).point(guesses[p]);
     guess.insert(guess.end(), part.begin(), part.end());
+    const auto counts = transcription.phase(p).regular_variables();
+    regular.insert(regular.end(), counts.begin(), counts.end());
   }
   PhasedSolution solution;
-  run(transcription, settings.backend, settings.options, settings.warm_start, guess, solution);
+  const auto point = run(transcription, settings.backend, settings.options, settings.warm_start,
+                         guess, regular, solution);
   for (std::size_t p = 0; p < phases; ++p) {
     Solution& part = solution.phases.emplace_back();
-    describe(problem.phases()[p], grids[p], transcription.phase(p),
-             transcription.part_of(p, solution.point), part);
+    describe(scaled.phases()[p], grids[p], transcription.phase(p), transcription.part_of(p, point),
+             part);
     part.status = solution.status;
     part.residuals = solution.residuals;
     part.options = solution.options;
@@ -152,7 +194,7 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
   }
   for (std::size_t l = 0; l < problem.links().size(); ++l)
     solution.link_multipliers.emplace_back(problem.links()[l].name,
-                                           solution.point.y[transcription.first_link() + l]);
+                                           point.y[transcription.first_link() + l]);
   return solution;
 }
 

@@ -11,6 +11,7 @@
 #include "duals.hpp"
 #include "model.hpp"
 #include "slalom/base/error.hpp"
+#include "start_guess.hpp"
 #include "symbols.hpp"
 
 namespace slalom::ocp {
@@ -25,17 +26,6 @@ double interpolate(const std::vector<double>& tau, const std::vector<std::vector
   if (k == tau.size()) return rows.back()[i];
   const double share = (at - tau[k - 1]) / (tau[k] - tau[k - 1]);
   return rows[k - 1][i] + share * (rows[k][i] - rows[k - 1][i]);
-}
-
-/// A finite value within bounds: their middle, the finite side, or 0.
-double middle(Bounds bounds) {
-  const bool lower = std::isfinite(bounds.lower), upper = std::isfinite(bounds.upper);
-  if (lower && upper) return 0.5 * (bounds.lower + bounds.upper);
-  return lower ? std::max(bounds.lower, 0.0) : upper ? std::min(bounds.upper, 0.0) : 0.0;
-}
-
-Bounds intersection(Bounds a, Bounds b) {
-  return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
 }
 
 /// Throws unless `now` is `before` with other numbers.
@@ -68,24 +58,6 @@ void check_same(const Problem& before, const Problem& now) {
                          "the norm and tolerance that were transcribed; else a new transcription");
   check_switch(before.constraints(), now.constraints());
   check_switch(before.costs(), now.costs());
-}
-
-void check_guess(const Trajectory& guess, const Problem& problem) {
-  const std::string where = problem.name() + ": guess";
-  const std::size_t points = guess.tau.size();
-  if (points == 0) throw InvalidValue(where, "no points", "at least one");
-  const auto check_rows = [&](const std::vector<std::vector<double>>& rows, const char* what,
-                              std::size_t width) {
-    if (rows.size() != points)
-      throw InvalidValue(where, fmt::format("{} points of {}", rows.size(), what),
-                         fmt::format("{}, one a tau", points));
-    for (std::size_t k = 0; k < points; ++k)
-      if (rows[k].size() != width)
-        throw InvalidValue(where, fmt::format("{} {} at point {}", rows[k].size(), what, k),
-                           fmt::format("{}", width));
-  };
-  check_rows(guess.states, "states", problem.states().size());
-  check_rows(guess.controls, "controls", problem.controls().size());
 }
 
 /// The states at compressed midpoints: Hermite's interpolant of the ends.
@@ -225,20 +197,7 @@ std::vector<double> Transcription::point(const Trajectory& guess) const {
 }
 
 Trajectory Transcription::straight_guess() const {
-  const auto& problem = impl_->problem;
-  Trajectory guess;
-  guess.t0 = problem.t0().guess;
-  guess.tf = problem.tf().guess;
-  guess.tau = {0, 1};
-  guess.states.assign(2, {});
-  guess.controls.assign(2, {});
-  for (const auto& state : problem.states()) {
-    guess.states[0].push_back(middle(intersection(state.bounds, state.initial)));
-    guess.states[1].push_back(middle(intersection(state.bounds, state.final)));
-  }
-  for (auto& controls : guess.controls)
-    for (const auto& control : problem.controls()) controls.push_back(middle(control.bounds));
-  return guess;
+  return ocp::straight_guess(impl_->problem);
 }
 
 Trajectory Transcription::trajectory(std::span<const double> x) const {
@@ -297,6 +256,14 @@ std::size_t Transcription::defect_row(std::size_t state, std::size_t interval) c
     if (const auto next = ocp::defect_row(impl_->data, d, state, interval); next != kNone)
       row = next;
   return row;
+}
+
+std::vector<char> Transcription::regular_variables() const {
+  std::vector<char> regular(impl_->data.layout.variables, 1);
+  for (const Excess& excess : impl_->data.excesses)
+    for (const std::size_t variable : {excess.above, excess.below})
+      if (variable != kNone) regular[variable] = 0;
+  return regular;
 }
 
 std::optional<std::size_t> Transcription::end_variable(const Expr& symbol) const {

@@ -30,7 +30,7 @@ struct Stretch {
 /// Least time from rest to rest over 1, the switch of the control an end between two phases whose
 /// times are free: the control of each is constant.
 PhasedProblem least_time_in_two() {
-  Stretch ahead("ahead", {-1, 1}), back("back", {-1, 1});
+  Stretch ahead("ahead", {0, 1}), back("back", {-1, 0});
   ahead.problem.initial_bounds(ahead.x, Bounds::equal(0));
   ahead.problem.initial_bounds(ahead.v, Bounds::equal(0));
   ahead.problem.final_time({0.1, 5}, 0.7);

@@ -107,8 +107,8 @@ TEST(ProblemErrors, BoundsThatDoNotMeet) {
 
 TEST(ProblemErrors, ScaleAndGuess) {
   Line line;
-  EXPECT_EQ(refusal([&] { line.problem.state("a", {}, 0); }),
-            "line: state a: found scale 0, expected a scale > 0");
+  EXPECT_EQ(refusal([&] { line.problem.state("a", {}, -2); }),
+            "line: state a: found scale -2, expected a scale > 0");
   EXPECT_EQ(refusal([&] { line.problem.state("b", {}, kNaN); }),
             "line: state b: found scale nan, expected a scale > 0");
   EXPECT_EQ(refusal([&] { line.problem.static_parameter("c", {}, kNaN); }),

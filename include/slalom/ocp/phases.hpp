@@ -22,6 +22,8 @@ class PhasedProblem {
 
   /// Appends a phase; their names must differ. Returns its number, from 0.
   std::size_t add(Problem phase);
+  /// The same phase with other numbers: bounds, scales, guesses, parameters.
+  void replace(std::size_t number, Problem phase);
   /// A constraint between phases: an expression of initial(), final(), initial_time(),
   /// final_time(), static parameters and integrals of any of them.
   void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));

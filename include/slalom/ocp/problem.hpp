@@ -12,6 +12,8 @@ namespace slalom::ocp {
 
 using expr::Expr;
 
+/// A variable's scale where none is given: solve() finds one.
+inline constexpr double kAutomaticScale = 0;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// lower <= value <= upper; equal for an equation, infinite for an absent side.
@@ -68,20 +70,24 @@ class Problem {
 
   // --- variables ---------------------------------------------------------------------------
   /// A state with bounds at every point; `scale` is its typical size (solver sees value / scale).
-  Expr state(const std::string& name, Bounds bounds = {}, double scale = 1);
+  Expr state(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
   /// A control with bounds at every point.
-  Expr control(const std::string& name, Bounds bounds = {}, double scale = 1);
+  Expr control(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
   /// How a control runs between the nodes; as the scheme has it if never called.
   void control_form(const Expr& control, ControlForm form);
   /// A constant to optimise.
-  Expr static_parameter(const std::string& name, Bounds bounds, double guess, double scale = 1);
+  Expr static_parameter(const std::string& name, Bounds bounds, double guess,
+                        double scale = kAutomaticScale);
   /// An extra variable at one end of the horizon, for softened boundary conditions.
   Expr slack(const std::string& name, End end, Bounds bounds, double guess = 0);
 
   /// The integral over time of `integrand`, with bounds: an isoperimetric constraint, and a number
   /// to use wherever a static parameter may stand.
   Expr integral(const std::string& name, const Expr& integrand, Bounds bounds = {},
-                double scale = 1);
+                double scale = kAutomaticScale);
+
+  /// The scale of any variable, t0 and tf among them.
+  void set_scale(const Expr& variable, double scale);
 
   // --- given quantities --------------------------------------------------------------------
   /// A run-time parameter: a number that set_parameter changes between solves without a rebuild.
@@ -120,6 +126,8 @@ class Problem {
   void set_members(ConstraintId family, std::vector<std::string> names,
                    std::vector<std::vector<double>> values);
 
+  /// A constraint's typical size: the solver sees value / scale.
+  void set_scale(ConstraintId constraint, double scale);
   /// Makes a constraint soft, with a cost term "soft NAME"; and hard again. The weight alone may
   /// change between the solves of one transcription.
   void soften(ConstraintId constraint, Soft soft);
@@ -148,8 +156,11 @@ class Problem {
     Expr symbol;
     std::string name;
     Bounds bounds;
-    double scale = 1;
+    double scale = kAutomaticScale;
     double guess = 0;
+
+    bool scaled() const { return scale != kAutomaticScale; }
+    double unit() const { return scaled() ? scale : 1; }  ///< of the solver
   };
   struct State : Variable {
     Bounds initial, final;
@@ -189,6 +200,9 @@ class Problem {
     std::vector<std::string> members;
     std::vector<std::vector<double>> member_values;
     std::optional<Soft> soft;
+    double scale = kAutomaticScale;
+
+    double unit() const { return scale != kAutomaticScale ? scale : 1; }
   };
 
   const std::string& name() const { return name_; }

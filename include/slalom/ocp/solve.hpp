@@ -61,6 +61,7 @@ struct Solution {
   const Multipliers& multiplier(const std::string& name) const;
   const Excesses& excess(const std::string& name) const;
 
+  std::vector<double> state_units;  ///< the scales the states were solved with
   std::vector<std::string> state_names, control_names, static_parameter_names, slack_names;
 };
 
@@ -88,7 +89,7 @@ struct PhasedSolution {
   nlp::Residuals residuals;
   nlp::Options options;
   std::string backend;
-  nlp::Start point;
+  nlp::Start point;  ///< in user's units
   int iterations = 0;
   double wall_s = 0;
 

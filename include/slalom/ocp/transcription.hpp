@@ -77,6 +77,9 @@ class Transcription final : public nlp::Problem {
   /// symbol.
   std::optional<std::size_t> end_variable(const Expr& symbol) const;
 
+  /// Of each variable, whether it is no excess of a soft row.
+  std::vector<char> regular_variables() const;
+
   const nlp::Structure& structure() const override;
   const nlp::Limits& limits() const override;
   nlp::Fault evaluate(std::span<const double> x, double sigma, std::span<const double> y,

@@ -1,0 +1,206 @@
+#include "slalom/ocp/scaling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "slalom/expr/function.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+double size_of(double value) {
+  return std::isfinite(value) ? std::fabs(value) : 0;
+}
+double size_of(Bounds bounds) {
+  return std::max(size_of(bounds.lower), size_of(bounds.upper));
+}
+
+double largest(const std::vector<std::vector<double>>& rows, std::size_t i) {
+  double most = 0;
+  for (const auto& row : rows) most = std::max(most, size_of(row[i]));
+  return most;
+}
+
+/// Sizes of the states and controls, 0 where not known yet.
+class Sizes {
+ public:
+  Sizes(const Problem& problem, const Trajectory& guess)
+      : problem_(problem), guess_(guess), nx_(problem.states().size()) {
+    for (std::size_t i = 0; i < nx_; ++i) {
+      const auto& state = problem.states()[i];
+      known_.push_back(first_of(
+          {state.scale,
+           std::max({largest(guess.states, i), size_of(state.initial), size_of(state.final)}),
+           size_of(state.bounds)}));
+    }
+    for (std::size_t i = 0; i < problem.controls().size(); ++i) {
+      const auto& control = problem.controls()[i];
+      known_.push_back(
+          first_of({control.scale, largest(guess.controls, i), size_of(control.bounds)}));
+    }
+    if (!all_known()) infer();
+  }
+
+  double state(std::size_t i) const { return known_[i] > 0 ? known_[i] : 1; }
+  double control(std::size_t i) const { return known_[nx_ + i] > 0 ? known_[nx_ + i] : 1; }
+
+  /// Of a constraint: its bounds', else how much it changes when everything moves by half its size.
+  double row(const Problem::Constraint& row) const {
+    if (const double size = size_of(row.bounds); size > 0) return size;
+    std::vector<Expr> values{row.value};
+    if (!row.member_values.empty()) {
+      const auto& member = row.member_values.front();
+      values = expr::substitute(values, row.symbols, {member.begin(), member.end()});
+    }
+    const auto symbols = expr::symbols_of(values);
+    const expr::Function f({}, symbols, values);
+    const std::size_t middle = guess_.tau.size() / 2;
+    double here = 0, beside = 0;
+    f({}, numbers(symbols, middle), {&here, 1});
+    f({}, numbers(symbols, middle, 0.5), {&beside, 1});
+    const double change = size_of(beside - here);
+    return change > 0 ? change : size_of(here);
+  }
+
+ private:
+  static double first_of(std::initializer_list<double> candidates) {
+    for (const double each : candidates)
+      if (each > 0) return each;
+    return 0;
+  }
+  bool all_known() const {
+    return std::all_of(known_.begin(), known_.end(), [](double size) { return size > 0; });
+  }
+
+  /// By the dynamics' values and slopes in the middle of the guess.
+  void infer() {
+    std::vector<Expr> variables, data, rates;
+    for (const auto& state : problem_.states()) {
+      variables.push_back(state.symbol);
+      rates.push_back(state.rate);
+    }
+    for (const auto& control : problem_.controls()) variables.push_back(control.symbol);
+    for (const auto& symbol : expr::symbols_of(rates))
+      if (std::none_of(variables.begin(), variables.end(),
+                       [&](const Expr& each) { return each.same(symbol); }))
+        data.push_back(symbol);
+    const expr::Function f(variables, data, rates);
+    const std::size_t middle = guess_.tau.size() / 2;
+    std::vector<double> x = guess_.states[middle];
+    x.insert(x.end(), guess_.controls[middle].begin(), guess_.controls[middle].end());
+    const std::vector<double> p = numbers(data, middle);
+    std::vector<double> values(nx_), slopes(f.jacobian_pattern().size()), none;
+    f.evaluate(1, x, p, none, {.values = true, .jacobian = true}, values, slopes, none);
+    const double duration = std::max(guess_.tf - guess_.t0, 0.0);
+    for (std::size_t pass = 0; pass < known_.size() && !all_known(); ++pass) {
+      infer_from_rates(rates_of(f, values, slopes), duration);
+      infer_from_effects(f, slopes, rates_of(f, values, slopes), duration);
+    }
+  }
+
+  /// By row: the rate in the guess, and what the known sizes make of its slopes by other variables;
+  /// and the slope by the state itself.
+  struct Rates {
+    std::vector<double> size, own;
+  };
+  Rates rates_of(const expr::Function& f, const std::vector<double>& values,
+                 const std::vector<double>& slopes) const {
+    Rates rates{std::vector<double>(nx_), std::vector<double>(nx_, 0.0)};
+    for (std::size_t i = 0; i < nx_; ++i) rates.size[i] = size_of(values[i]);
+    for (std::size_t e = 0; e < slopes.size(); ++e) {
+      const auto [row, col] = f.jacobian_pattern()[e];
+      if (row == col)
+        rates.own[row] = size_of(slopes[e]);
+      else
+        rates.size[row] += size_of(slopes[e]) * known_[col];
+    }
+    return rates;
+  }
+
+  /// Of a state that its rate drives for the horizon, or for as long as it takes to settle.
+  void infer_from_rates(const Rates& rates, double duration) {
+    for (std::size_t i = 0; i < nx_; ++i)
+      if (known_[i] == 0 && duration > 0)
+        known_[i] = size_of(rates.size[i] / (rates.own[i] + 1 / duration));
+  }
+
+  /// Of what moves a state whose size is known: as much as moves it by that over the horizon, or as
+  /// balances the rest of its rate.
+  void infer_from_effects(const expr::Function& f, const std::vector<double>& slopes,
+                          const Rates& rates, double duration) {
+    const std::vector<double> before = known_;
+    for (std::size_t e = 0; e < slopes.size(); ++e) {
+      const auto [row, col] = f.jacobian_pattern()[e];
+      if (before[col] > 0 || before[row] == 0 || slopes[e] == 0 || duration == 0) continue;
+      const double rate =
+          std::max(before[row] / duration, rates.size[row] + rates.own[row] * before[row]);
+      const double size = size_of(rate / slopes[e]);
+      known_[col] = known_[col] > 0 ? std::min(known_[col], size) : size;
+    }
+  }
+
+  /// What symbols are in the guess, states and controls moved by `shift` of their sizes; 1 for what
+  /// it does not tell.
+  std::vector<double> numbers(const std::vector<Expr>& symbols, std::size_t point,
+                              double shift = 0) const {
+    std::vector<double> list;
+    for (const auto& symbol : symbols) list.push_back(number(symbol, point, shift));
+    return list;
+  }
+  double number(const Expr& symbol, std::size_t point, double shift) const {
+    if (symbol.same(problem_.time())) return guess_.time(point);
+    if (symbol.same(problem_.tau())) return guess_.tau[point];
+    if (symbol.same(problem_.initial_time())) return guess_.t0;
+    if (symbol.same(problem_.final_time())) return guess_.tf + shift * (guess_.tf - guess_.t0);
+    for (std::size_t i = 0; i < nx_; ++i) {
+      const auto& each = problem_.states()[i];
+      const double more = shift * state(i);
+      if (symbol.same(each.symbol)) return guess_.states[point][i] + more;
+      if (symbol.same(each.initial_symbol)) return guess_.states.front()[i] + more;
+      if (symbol.same(each.final_symbol)) return guess_.states.back()[i] + more;
+    }
+    for (std::size_t i = 0; i < problem_.controls().size(); ++i)
+      if (symbol.same(problem_.controls()[i].symbol))
+        return guess_.controls[point][i] + shift * control(i);
+    for (const auto& each : problem_.parameters())
+      if (symbol.same(each.symbol)) return each.value;
+    for (const auto& each : problem_.static_parameters())
+      if (symbol.same(each.symbol)) return each.guess;
+    return 1;
+  }
+
+  const Problem& problem_;
+  const Trajectory& guess_;
+  std::size_t nx_;
+  std::vector<double> known_;  ///< states, then controls
+};
+
+}  // namespace
+
+Problem with_scales(Problem problem, const Trajectory& guess) {
+  const Problem unscaled = problem;
+  const Sizes sizes(unscaled, guess);
+  const auto set = [&](const Problem::Variable& variable, double size) {
+    if (!variable.scaled()) problem.set_scale(variable.symbol, size > 0 ? size : 1);
+  };
+  for (std::size_t i = 0; i < problem.states().size(); ++i)
+    set(problem.states()[i], sizes.state(i));
+  for (std::size_t i = 0; i < problem.controls().size(); ++i)
+    set(problem.controls()[i], sizes.control(i));
+  for (const auto& each : problem.static_parameters())
+    set(each, each.guess != 0 ? size_of(each.guess) : size_of(each.bounds));
+  for (const auto& each : problem.integrals()) set(each, size_of(each.bounds));
+  for (const auto& each : problem.slacks())
+    set(each, each.guess != 0 ? size_of(each.guess) : size_of(each.bounds));
+  for (std::size_t c = 0; c < problem.constraints().size(); ++c)
+    if (problem.constraints()[c].scale == kAutomaticScale)
+      if (const double size = sizes.row(problem.constraints()[c]); size > 0)
+        problem.set_scale(ConstraintId{c}, size);
+  const double horizon = std::max({size_of(guess.t0), size_of(guess.tf), guess.tf - guess.t0});
+  set(problem.t0(), horizon);
+  set(problem.tf(), horizon);
+  return problem;
+}
+
+}  // namespace slalom::ocp

@@ -1,0 +1,160 @@
+// The answer does not depend on the units of length, time, mass and money.
+
+#include "slalom/ocp/scaling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "slalom/base/error.hpp"
+#include "slalom/ocp/errors.hpp"
+#include "slalom/ocp/solve.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+/// How many of a unit there are in the SI's: 1000 for lengths in millimetres.
+struct Units {
+  double length = 1, time = 1, mass = 1, cost = 1;
+};
+const std::vector<Units> kUnits = {{1e3, 1, 1, 1},       {1e-3, 1, 1e3, 1},   {1, 1e3, 1, 1e-6},
+                                   {1e-4, 1e-3, 1, 1e4}, {1e3, 1e3, 1e-3, 1}, {1, 1, 1, 1e-9}};
+
+/// A problem stated in some units, and what turns its states and controls back into SI.
+struct Stated {
+  Problem problem;
+  std::vector<double> states, controls;  ///< in the problem's numbers for one of the SI's
+  double time, cost;
+  std::string name = {};
+};
+
+/// Fastest slide down a wire (Bryson & Ho 1975, section 2.7).
+Stated brachistochrone(Units n) {
+  Problem p("brachistochrone");
+  const double speed = n.length / n.time;
+  const Expr x = p.state("x"), y = p.state("y"), v = p.state("v"), a = p.control("a", {0, 3});
+  p.dynamics(x, v * sin(a));
+  p.dynamics(y, -v * cos(a));
+  p.dynamics(v, 9.81 * n.length / (n.time * n.time) * cos(a));
+  p.initial_bounds(x, Bounds::equal(0));
+  p.initial_bounds(y, Bounds::equal(10 * n.length));
+  p.initial_bounds(v, Bounds::equal(0));
+  p.final_bounds(x, Bounds::equal(10 * n.length));
+  p.final_bounds(y, Bounds::equal(5 * n.length));
+  p.final_time({0.1 * n.time, 10 * n.time}, n.time);
+  p.mayer("duration", p.final_time() * (n.cost / n.time));
+  return {p, {n.length, n.length, speed}, {1}, n.time, n.cost};
+}
+
+/// A sled pushed along with nothing known of its speed or push but where it goes.
+Stated sled(Units n) {
+  Problem p("sled");
+  const double force = n.mass * n.length / (n.time * n.time), speed = n.length / n.time;
+  const Expr x = p.state("x"), v = p.state("v"), u = p.control("u");
+  const double mass = 20 * n.mass, drag = 3 * n.mass / n.length;
+  p.dynamics(x, v);
+  p.dynamics(v, (u - drag * v * v) / mass);
+  p.lagrange("effort", square(u) * (n.cost / (force * force * n.time)));
+  p.path("power", u * v, Bounds::at_most(500 * force * speed));
+  p.initial_bounds(x, Bounds::equal(0));
+  p.initial_bounds(v, Bounds::equal(0));
+  p.final_bounds(x, Bounds::equal(8 * n.length));
+  p.final_bounds(v, Bounds::equal(0));
+  p.final_time(Bounds::equal(4 * n.time), 4 * n.time);
+  return {p, {n.length, speed}, {force}, n.time, n.cost};
+}
+
+TEST(AutomaticScales, MakeTheAnswerIndependentOfUnits) {
+  for (const auto state : {brachistochrone, sled})
+    for (const Scheme& scheme : {hermite_simpson(), lgr(4), trapezoidal()}) {
+      const SolveSettings settings{.mesh = Mesh::uniform(20), .scheme = scheme};
+      const Stated si = state({});
+      const Solution expected = solve(si.problem, settings);
+      ASSERT_TRUE(expected.solved()) << si.problem.name();
+      for (const Units& units : kUnits) {
+        const Stated other = state(units);
+        SCOPED_TRACE(other.problem.name() + " by " + scheme.name + " with a metre of " +
+                     std::to_string(units.length) + ", a second of " + std::to_string(units.time) +
+                     ", costs times " + std::to_string(units.cost));
+        const Solution solution = solve(other.problem, settings);
+        ASSERT_EQ(solution.status, nlp::Status::solved);
+        EXPECT_NEAR(solution.objective / (other.cost * expected.objective), 1, 1e-6);
+        EXPECT_NEAR(solution.tf() / (other.time * expected.tf()), 1, 1e-6);
+        const auto same = [&](const auto& rows, const auto& want, const std::vector<double>& unit) {
+          for (std::size_t i = 0; i < unit.size(); ++i) {
+            double size = 0;
+            for (const auto& row : want) size = std::max(size, std::fabs(row[i]));
+            for (std::size_t k = 0; k < rows.size(); ++k)
+              EXPECT_NEAR(rows[k][i] / unit[i], want[k][i], 1e-6 * size) << i << " at " << k;
+          }
+        };
+        same(solution.trajectory.states, expected.trajectory.states, other.states);
+        const double error = estimate_errors(other.problem, solution).largest;
+        EXPECT_NEAR(error / estimate_errors(si.problem, expected).largest, 1, 1e-2);
+      }
+    }
+}
+
+TEST(AutomaticScales, ComeFromTheGuessTheEndsTheBoundsAndTheDynamics) {
+  Problem p("sizes");
+  const Expr guessed = p.state("guessed"), ended = p.state("ended");
+  const Expr bounded = p.state("bounded", {-300, 20}), given = p.state("given", {}, 7);
+  const Expr driven = p.state("driven"), twice = p.state("twice"), nothing = p.state("nothing");
+  const Expr u = p.control("u", {-5, 2}), push = p.control("push");
+  const Expr q = p.static_parameter("q", {0, 50}, 0);
+  p.dynamics(guessed, u);
+  p.dynamics(ended, u);
+  p.dynamics(bounded, u);
+  p.dynamics(given, u);
+  p.dynamics(driven, 3 * u + q);
+  p.dynamics(twice, driven + 0.01 * push);
+  p.dynamics(nothing, 0 * square(nothing));
+  p.final_bounds(ended, Bounds::at_most(-40));
+  p.final_time({1, 20}, 2);
+  Trajectory guess;
+  guess.tf = 2;
+  guess.tau = {0, 1};
+  guess.states = {{0, 0, 0, 0, 0, 0, 0}, {-90, 0, 0, 0, 0, 0, 0}};
+  guess.controls = {{0, 0}, {0, 0}};
+  const Problem scaled = with_scales(p, guess);
+  std::vector<double> units;
+  for (const auto& state : scaled.states()) units.push_back(state.unit());
+  EXPECT_EQ(units, (std::vector<double>{90, 40, 300, 7, 2 * 3 * 5, 2 * 30, 1}));
+  EXPECT_EQ(scaled.controls()[0].unit(), 5);
+  EXPECT_NEAR(scaled.controls()[1].unit(), 60 / (0.01 * 2), 1e-9);
+  EXPECT_EQ(scaled.static_parameters()[0].unit(), 50);
+  EXPECT_EQ(scaled.tf().unit(), 2);
+}
+
+TEST(AutomaticScales, LeaveWhatWasGivenByHand) {
+  Problem p("by hand");
+  const Expr x = p.state("x", {-3, 3});
+  p.set_scale(x, 0.5);
+  p.set_scale(p.final_time(), 4);
+  Trajectory guess;
+  guess.tau = {0, 1};
+  guess.states = {{2}, {2}};
+  guess.controls = {{}, {}};
+  p.dynamics(x, 1.0);
+  EXPECT_EQ(with_scales(p, guess).states()[0].unit(), 0.5);
+  EXPECT_EQ(with_scales(p, guess).tf().unit(), 4);
+  EXPECT_THROW(p.set_scale(x, -1), InvalidValue);
+  EXPECT_THROW(p.set_scale(Expr::symbol("x"), 1), InvalidValue);
+}
+
+TEST(AutomaticScales, LetAnAnswerStartASolveThatIsScaledOtherwise) {
+  const Stated si = sled({});
+  SolveSettings settings{.mesh = Mesh::uniform(20)};
+  const Solution cold = solve(si.problem, settings);
+  settings.warm_start = cold.point;
+  settings.guess = cold.trajectory;  // other sizes than the first guess
+  const Solution warm = solve(si.problem, settings);
+  ASSERT_TRUE(warm.solved());
+  EXPECT_LT(warm.iterations, cold.iterations / 2);
+  EXPECT_NEAR(warm.objective / cold.objective, 1, 1e-8);
+}
+
+}  // namespace
+}  // namespace slalom::ocp
