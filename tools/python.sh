@@ -25,4 +25,4 @@ pip install -q "$(echo "$folder"/slalom-*.whl)[test]"
 cp -r python/tests "$work/tests"
 cd "$work"
 SLALOM_README=$root/README.md "$work/venv/bin/python" -m pytest -q tests
-"$work/venv/bin/python" -m mypy --strict -c 'import slalom; slalom.Problem("p").solve().state("x")'
+"$work/venv/bin/python" -m mypy --strict tests/typed_use.py

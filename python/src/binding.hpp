@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,10 @@ using namespace nb::literals;
 
 using Vector = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
 using Matrix = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
+
+/// Dictionaries as the type stub has them.
+template <class Value>
+using ByName = nb::typed<nb::dict, nb::str, Value>;
 
 /// A NumPy array that owns a copy of the numbers.
 Vector to_numpy(const std::vector<double>& numbers);
@@ -37,6 +42,14 @@ Matrix table(const List& list, std::size_t columns, Get get) {
     rows.emplace_back(row.begin(), row.end());
   }
   return to_numpy(rows, columns);
+}
+
+/// What Python gave as a T; a TypeError that says where and what was expected, if it is none.
+template <class T>
+T as(nb::handle given, const std::string& where, const char* expected) {
+  T value;
+  if (!nb::try_cast(given, value)) throw nb::type_error((where + ": expected " + expected).c_str());
+  return value;
 }
 
 /// Lets other Python threads run while it lives, and hears an interrupt (Ctrl-C) all the same.
@@ -58,6 +71,8 @@ void bind_expressions(nb::module_& module);
 void bind_problem(nb::module_& module);
 void bind_solution(nb::module_& module);
 void bind_solve(nb::module_& module);
+void bind_judge(nb::module_& module);
+void bind_phases(nb::module_& module);
 void bind_drive(nb::module_& module);
 void bind_planner(nb::module_& module);
 

@@ -32,9 +32,9 @@ std::map<std::string, std::string> texts(const nb::dict& set) {
 }
 
 Drive simulate(const nb::object& scenario, const std::optional<std::string>& planner,
-               std::optional<double> tex, const nb::dict& set) {
+               std::optional<double> tex, const ByName<nb::any>& set) {
   const bool loaded = nb::isinstance<Scenario>(scenario);
-  if (loaded && (planner || tex || nb::len(set) > 0))
+  if (loaded && (planner || tex || set.size() > 0))
     throw nb::type_error("planner, tex and set belong to load_scenario where a Scenario is given");
   const auto drives = loaded ? nb::cast<Scenario>(scenario)
                              : load(nb::cast<std::string>(scenario), planner, tex, texts(set));
@@ -154,7 +154,7 @@ void bind_planner(nb::module_& module) {
       "load_scenario",
       [](const std::string& name_or_file, const std::optional<std::string>& planner,
          std::optional<double> tex,
-         const nb::dict& set) { return load(name_or_file, planner, tex, texts(set)); },
+         const ByName<nb::any>& set) { return load(name_or_file, planner, tex, texts(set)); },
       "name_or_file"_a, nb::kw_only(), "planner"_a = nb::none(), "tex"_a = nb::none(),
       "set"_a = nb::dict(), doc::io_load_scenario);
   module.def(

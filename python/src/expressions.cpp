@@ -10,6 +10,7 @@
 #include "slalom/base/error.hpp"
 #include "slalom/expr/expr.hpp"
 #include "slalom/expr/function.hpp"
+#include "slalom/expr/spline.hpp"
 
 namespace slalom::python {
 namespace {
@@ -184,6 +185,8 @@ void bind_expressions(nb::module_& module) {
   }
   module.def("select", &expr::select, "condition"_a, "if_positive"_a, "otherwise"_a,
              doc::expr_select);
+  module.def("cubic_spline", &expr::cubic_spline, "x"_a, "knots"_a, "values"_a,
+             doc::expr_cubic_spline);
 }
 
 }  // namespace slalom::python

@@ -1,7 +1,9 @@
+#include <cmath>
 #include <string>
 
+#include "answers.hpp"
 #include "binding.hpp"
-#include "slalom/nlp/check.hpp"
+#include "slalom/base/options.hpp"
 #include "slalom/ocp/solve.hpp"
 #include "solved.hpp"
 
@@ -9,8 +11,8 @@ namespace slalom::python {
 namespace {
 
 /// One array a name.
-nb::dict columns(const std::vector<std::string>& names, const Solved& s,
-                 std::vector<double> (ocp::Solution::*get)(const std::string&) const) {
+ByName<Vector> columns(const std::vector<std::string>& names, const Solved& s,
+                       std::vector<double> (ocp::Solution::*get)(const std::string&) const) {
   nb::dict result;
   for (const auto& name : names) result[name.c_str()] = to_numpy((s.answer.*get)(name));
   return result;
@@ -22,53 +24,74 @@ std::string text(const Solved& s) {
          std::to_string(s.answer.iterations) + " iterations>";
 }
 
-nb::dict cost_terms(const Solved& s) {
+ByName<double> cost_terms(const Solved& s) {
   nb::dict result;
   for (const auto& [name, value] : s.answer.cost_terms) result[name.c_str()] = value;
   return result;
 }
 
-/// Calls `function` of a Python module of the package, which needs an extra.
-nb::object extra(const char* module, const char* function, nb::handle self,
-                 const nb::kwargs& options) {
-  return nb::module_::import_(module).attr(function)(self, **options);
+std::vector<double> nodes(const Solved& s) {
+  std::vector<double> times;
+  for (const double tau : s.answer.mesh.breakpoints())
+    times.push_back(s.answer.trajectory.time_at(tau));
+  return times;
+}
+
+std::vector<std::pair<std::string, std::size_t>> schemes(const Solved& s) {
+  std::vector<std::pair<std::string, std::size_t>> list;
+  for (std::size_t k = 0; k < s.answer.mesh.intervals(); ++k)
+    list.emplace_back(s.answer.scheme.of(k).name, s.answer.scheme.of(k).points.size());
+  return list;
+}
+
+double integral(const Solved& s, const std::string& name) {
+  std::vector<std::string> names;
+  const auto& integrals = s.problem->integrals();
+  for (std::size_t i = 0; i < integrals.size(); ++i) {
+    if (integrals[i].name == name) return s.answer.trajectory.integrals[i];
+    names.push_back(integrals[i].name);
+  }
+  const auto nearest = nearest_name(name, names);
+  throw UnknownName({"solution", "no integral '" + name + "'",
+                     nearest.empty() ? "a name of an integral" : "perhaps '" + nearest + "'"});
+}
+
+/// Puts the numbers of each name at `times` beside it, in the shape of `times`.
+void put(const std::vector<std::string>& names, const std::vector<std::vector<double>>& rows,
+         const nb::object& shape, nb::dict& result) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::vector<double> numbers;
+    numbers.reserve(rows.size());
+    for (const auto& row : rows) numbers.push_back(row[i]);
+    result[names[i].c_str()] = nb::len(shape) == 0
+                                   ? nb::object(nb::float_(numbers.front()))
+                                   : nb::cast(to_numpy(numbers)).attr("reshape")(shape);
+  }
+}
+
+/// States and controls at the times `t`, a number or an array of any shape.
+ByName<nb::any> at(const Solved& s, const nb::object& t) {
+  const nb::module_ numpy = nb::module_::import_("numpy");
+  const nb::object array = numpy.attr("asarray")(t, "dtype"_a = "float64");
+  const auto times = nb::cast<std::vector<double>>(array.attr("ravel")());
+  std::vector<std::vector<double>> states, controls;
+  for (const double time : times) {
+    if (std::isnan(time)) throw InvalidValue("solution", "the time NaN", "numbers");
+    states.push_back(s.between().states(time));
+    controls.push_back(s.between().controls(time));
+  }
+  nb::dict result;
+  put(s.answer.state_names, states, array.attr("shape"), result);
+  put(s.answer.control_names, controls, array.attr("shape"), result);
+  return result;
 }
 
 void bind_outcome(nb::class_<Solved>& type) {
+  bind_verdict(type);
   type.def("__repr__", &text)
       .def_prop_ro(
-          "status", [](const Solved& s) { return nlp::to_string(s.answer.status); },
-          doc::nlp_Status)
-      .def_prop_ro(
-          "solved", [](const Solved& s) { return s.answer.solved(); },
-          "Whether the solver says so, and the residuals recomputed from the point too.")
-      .def_prop_ro("objective", [](const Solved& s) { return s.answer.objective; })
-      .def_prop_ro("cost_terms", &cost_terms, doc::ocp_Solution_cost_terms)
-      .def_prop_ro("iterations", [](const Solved& s) { return s.answer.iterations; })
-      .def_prop_ro(
-          "wall_s", [](const Solved& s) { return s.answer.wall_s; },
-          "Seconds by the clock in the solver.")
-      .def_prop_ro(
-          "elapsed_s", [](const Solved& s) { return s.elapsed_s; },
-          "Seconds by the clock from transcription to check, all of it outside Python.")
-      .def_prop_ro(
-          "violation", [](const Solved& s) { return s.answer.residuals.violation; },
-          doc::nlp_Residuals_violation)
-      .def_prop_ro("worst_constraint",
-                   [](const Solved& s) { return s.answer.residuals.worst_constraint; })
-      .def_prop_ro(
-          "stationarity", [](const Solved& s) { return s.answer.residuals.stationarity; },
-          doc::nlp_Residuals_stationarity)
-      .def_prop_ro(
-          "complementarity", [](const Solved& s) { return s.answer.residuals.complementarity; },
-          doc::nlp_Residuals_complementarity)
-      .def_prop_ro(
-          "fault",
-          [](const Solved& s) {
-            const auto& fault = s.answer.fault;
-            return fault ? fault.function + " at " + fault.where : std::string();
-          },
-          "The function that gave NaN or infinity, and where; empty if none did.");
+          "name", [](const Solved& s) { return s.problem->name(); }, "Of its problem.")
+      .def_prop_ro("cost_terms", &cost_terms, doc::ocp_Solution_cost_terms);
 }
 
 void bind_trajectory(nb::class_<Solved>& type) {
@@ -76,27 +99,49 @@ void bind_trajectory(nb::class_<Solved>& type) {
   type.def_prop_ro("t0", [](const Solved& s) { return s.answer.trajectory.t0; })
       .def_prop_ro("tf", [](const Solved& s) { return s.answer.trajectory.tf; })
       .def_prop_ro(
+          "mesh", [](const Solved& s) { return to_numpy(s.answer.mesh.breakpoints()); },
+          nb::rv_policy::move, doc::ocp_Mesh)
+      .def_prop_ro("schemes", &schemes, "The scheme of each interval of the mesh: name and points.")
+      .def_prop_ro(
+          "nodes", [](const Solved& s) { return to_numpy(nodes(s)); }, nb::rv_policy::move,
+          "Times of the mesh nodes, where costates and the Hamiltonian stand.")
+      .def("__call__", &at, "t"_a,
+           "States and controls at any time or array of times by name, on the scheme's own "
+           "polynomials; the\nnearer end's values beyond t0 ... tf.")
+      .def_prop_ro(
           "t", [](const Solved& s) { return to_numpy(s.answer.time()); }, nb::rv_policy::move,
           doc::ocp_Solution_time)
       .def(
           "state",
-          [](const Solved& s, const std::string& n) { return to_numpy(s.answer.state(n)); },
+          [](const Solved& s, const std::string& n) {
+            return to_numpy(named([&] { return s.answer.state(n); }));
+          },
           "name"_a, "Values of a state, one a point of `t`.")
       .def(
           "control",
-          [](const Solved& s, const std::string& n) { return to_numpy(s.answer.control(n)); },
+          [](const Solved& s, const std::string& n) {
+            return to_numpy(named([&] { return s.answer.control(n); }));
+          },
           "name"_a, "Values of a control, one a point of `t`.")
       .def(
           "costate",
-          [](const Solved& s, const std::string& n) { return to_numpy(s.answer.costate(n)); },
+          [](const Solved& s, const std::string& n) {
+            return to_numpy(named([&] { return s.answer.costate(n); }));
+          },
           "state"_a, doc::ocp_Solution_costates)
       .def(
           "static_parameter",
-          [](const Solved& s, const std::string& n) { return s.answer.static_parameter(n); },
-          "name"_a)
+          [](const Solved& s, const std::string& n) {
+            return named([&] { return s.answer.static_parameter(n); });
+          },
+          "name"_a, "The value of a static parameter.")
       .def(
-          "slack", [](const Solved& s, const std::string& n) { return s.answer.slack(n); },
-          "name"_a)
+          "slack",
+          [](const Solved& s, const std::string& n) {
+            return named([&] { return s.answer.slack(n); });
+          },
+          "name"_a, "The value of a slack.")
+      .def("integral", &integral, "name"_a, "The value of an integral.")
       .def_prop_ro(
           "states",
           [](const Solved& s) { return columns(s.answer.state_names, s, &Solution::state); },
@@ -108,19 +153,9 @@ void bind_trajectory(nb::class_<Solved>& type) {
       .def_prop_ro(
           "costates",
           [](const Solved& s) { return columns(s.answer.state_names, s, &Solution::costate); },
-          "Costates of all states by name, one number a mesh node.")
-      .def(
-          "plot",
-          [](nb::handle self, const nb::kwargs& options) {
-            return extra("slalom._plot", "plot", self, options);
-          },
-          "options"_a, "Draws states and controls over time; a Matplotlib figure (extra 'plot').")
-      .def(
-          "to_frame",
-          [](nb::handle self, const nb::kwargs& options) {
-            return extra("slalom._frame", "to_frame", self, options);
-          },
-          "options"_a, "States and controls as a pandas DataFrame over time (extra 'frame').");
+          "Costates of all states by name, one number a mesh node.");
+  bind_extras(type, "States and controls over time; a Matplotlib figure (extra 'plot').",
+              "States and controls as a pandas DataFrame over time (extra 'frame').");
 }
 
 }  // namespace

@@ -1,185 +1,187 @@
 #include "slalom/ocp/solve.hpp"
 
-#include <nanobind/stl/variant.h>
-
-#include <algorithm>
+#include <memory>
 #include <string>
-#include <variant>
 
 #include "binding.hpp"
+#include "running.hpp"
+#include "settings.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
-#include "slalom/base/timer.hpp"
-#include "slalom/ocp/transcription.hpp"
+#include "slalom/ocp/refine.hpp"
 #include "solved.hpp"
 
 namespace slalom::python {
 namespace {
 
-using MeshChoice = std::variant<int, std::vector<double>>;
+using ocp::Problem;
+using ocp::Refined;
 
-ocp::Mesh mesh_of(const MeshChoice& choice) {
-  if (const auto* intervals = std::get_if<int>(&choice)) return ocp::Mesh::uniform(*intervals);
-  return ocp::Mesh(std::get<std::vector<double>>(choice));
-}
+const std::vector<std::string> kKeywords = {"mesh",    "scheme", "points",
+                                            "backend", "guess",  "warm_start"};
 
-OptionValue option_value(nb::handle value, const std::string& name) {
-  if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value);
-  if (nb::isinstance<nb::int_>(value)) return nb::cast<std::int64_t>(value);
-  if (nb::isinstance<nb::str>(value)) return nb::cast<std::string>(value);
-  double number = 0;
-  if (nb::try_cast(value, number)) return number;
-  throw nb::type_error(("option " + name + ": a number, a word or a truth value").c_str());
-}
-
-/// Keyword arguments by the table of the solver's options.
-nlp::Options options_of(const nb::kwargs& given) {
-  nlp::Options options;
-  const auto& table = nlp::solver_options();
-  for (const auto& [key, value] : given) {
-    const auto name = nb::cast<std::string>(key);
-    const auto* entry = table.find(name);
-    if (entry == nullptr) {
-      std::vector<std::string> names = {"mesh", "scheme", "points", "backend", "guess"};
-      for (const auto& each : table.entries()) names.push_back(each.info.name);
-      const auto nearest = nearest_name(name, names);
-      throw InvalidValue("solve", "option '" + name + "'",
-                         nearest.empty() ? std::string("an option of docs/solver-options.md")
-                                         : "perhaps '" + nearest + "'");
-    }
-    table.set(options, *entry, option_value(value, name), "solve: " + name);
-  }
-  return options;
-}
-
-std::vector<double> numbers_at(nb::handle given, const std::vector<double>& times,
-                               const std::string& name) {
-  nb::object value = nb::borrow(given);
-  if (PyCallable_Check(value.ptr()) != 0) value = value(to_numpy(times));
-  double constant = 0;
-  if (nb::try_cast(value, constant)) return std::vector<double>(times.size(), constant);
-  std::vector<double> numbers;
-  if (!nb::try_cast(value, numbers))
-    throw nb::type_error(("guess of " + name + ": a number, numbers, or a function of t").c_str());
-  if (numbers.size() != times.size())
-    throw InvalidValue("guess of " + name, std::to_string(numbers.size()) + " numbers",
-                       std::to_string(times.size()) + ", one a time");
-  return numbers;
-}
-
-std::size_t points_of_straight(const nb::dict& guess) {
-  return guess.contains("t") ? nb::len(nb::object(guess["t"])) : 101;
-}
-
-template <class List>
-bool overwrite(const List& variables, const std::string& name, const std::vector<double>& numbers,
-               std::vector<std::vector<double>>& rows) {
-  for (std::size_t i = 0; i < variables.size(); ++i)
-    if (variables[i].name == name) {
-      for (std::size_t k = 0; k < rows.size(); ++k) rows[k][i] = numbers[k];
-      return true;
-    }
-  return false;
-}
-
-/// What a transcription guesses by itself, at `points` equal steps: its first and last point, lines
-/// between.
-ocp::Trajectory straight(const ocp::Problem& problem, std::size_t points) {
-  const auto ends =
-      ocp::Transcription(problem, ocp::Mesh::uniform(1), ocp::trapezoidal()).straight_guess();
-  ocp::Trajectory guess = ends;
-  guess.tau.clear();
-  guess.states.clear();
-  guess.controls.clear();
-  for (std::size_t k = 0; k < points; ++k) {
-    const double tau = points > 1 ? static_cast<double>(k) / (points - 1) : 0;
-    const auto between = [tau](std::vector<double> a, const std::vector<double>& b) {
-      for (std::size_t i = 0; i < a.size(); ++i) a[i] += tau * (b[i] - a[i]);
-      return a;
-    };
-    guess.tau.push_back(tau);
-    guess.states.push_back(between(ends.states.front(), ends.states.back()));
-    guess.controls.push_back(between(ends.controls.front(), ends.controls.back()));
-  }
-  return guess;
-}
-
-/// Straight lines, overwritten by what a dictionary has: "t", times from t0 to tf; "tf"; and each
-/// variable's number, numbers (one a time of "t") or function of times.
-ocp::Trajectory guess_of(const ocp::Problem& problem, const nb::dict& given) {
-  auto guess = straight(problem, points_of_straight(given));
-  if (given.contains("tf")) guess.tf = nb::cast<double>(given["tf"]);
-  if (given.contains("t")) {
-    const auto t = nb::cast<std::vector<double>>(given["t"]);
-    if (t.size() < 2 || !(t.back() > t.front()))
-      throw InvalidValue("guess", "times that span nothing", "rising times from t0 to tf");
-    guess.t0 = t.front();
-    guess.tf = t.back();
-    for (std::size_t k = 0; k < t.size(); ++k)
-      guess.tau[k] = (t[k] - guess.t0) / (guess.tf - guess.t0);
-    guess.tau.back() = 1;
-  }
-  std::vector<double> times;
-  for (std::size_t k = 0; k < guess.tau.size(); ++k) times.push_back(guess.time(k));
-  for (const auto& [key, value] : given) {
-    const auto name = nb::cast<std::string>(key);
-    if (name == "t" || name == "tf") continue;
-    const auto numbers = numbers_at(value, times, name);
-    if (overwrite(problem.states(), name, numbers, guess.states) ||
-        overwrite(problem.controls(), name, numbers, guess.controls))
-      continue;
-    std::vector<std::string> names;
-    for (const auto& each : problem.states()) names.push_back(each.name);
-    for (const auto& each : problem.controls()) names.push_back(each.name);
-    const auto nearest = nearest_name(name, names);
-    throw InvalidValue("guess", "'" + name + "'",
-                       nearest.empty() ? std::string("a state, a control, 't' or 'tf'")
-                                       : "perhaps '" + nearest + "'");
-  }
-  return guess;
-}
-
-Solved solve(const ocp::Problem& problem, const MeshChoice& mesh, const std::string& scheme,
-             int points, const std::string& backend, nb::object guess, const nb::kwargs& options) {
+ocp::SolveSettings settings_of(const Problem& problem, const GridChoice& choice,
+                               const std::string& backend, nb::handle guess,
+                               const Solved* warm_start, const nb::kwargs& options,
+                               const std::vector<std::string>& keywords) {
+  const auto grid = grid_of(choice, problem.name());
   ocp::SolveSettings settings;
-  settings.mesh = mesh_of(mesh);
-  settings.scheme = ocp::scheme(scheme, points);
+  settings.mesh = grid.mesh;
+  settings.scheme = grid.schemes;
   settings.backend = backend;
-  settings.options = options_of(options);
-  if (nb::isinstance<Solved>(guess))
-    settings.guess = nb::cast<const Solved&>(guess).answer.trajectory;
-  else if (!guess.is_none())
-    settings.guess = guess_of(problem, nb::cast<nb::dict>(guess));
+  settings.options = options_of(options, keywords);
+  settings.guess = guess_of(problem, grid, guess);
+  if (warm_start != nullptr) settings.warm_start = warm_start->answer.point;
+  return settings;
+}
+
+Solved solve(const Problem& problem, const MeshChoice& mesh, const SchemeChoice& scheme,
+             const PointsChoice& points, const std::string& backend, const nb::object& guess,
+             const Solved* warm_start, const nb::kwargs& options) {
+  auto settings =
+      settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options, kKeywords);
   Solved solved;
-  Released released;
-  settings.options.stop = [](void* data) { return static_cast<Released*>(data)->interrupted(); };
-  settings.options.stop_data = &released;
-  {
-    const nb::gil_scoped_release unlock;
-    const Timer timer;
-    solved.answer = ocp::solve(problem, settings);
-    solved.elapsed_s = timer.wall();
-  }
-  released.raise_if_interrupted();
+  solved.problem = std::make_shared<const Problem>(problem);
+  std::tie(solved.answer, solved.elapsed_s) =
+      run_released(settings.options, [&] { return ocp::solve(*solved.problem, settings); });
+  forget_stop(solved.answer.options);
   return solved;
+}
+
+ocp::Refinement refinement_of(const std::string& word) {
+  if (word == "h") return ocp::Refinement::h;
+  if (word == "hp") return ocp::Refinement::hp;
+  throw InvalidValue("refinement", "'" + word + "'", "'h' or 'hp'");
+}
+
+/// What Python knows as Refined.
+struct RefinedAnswer {
+  Refined answer;
+  Solved solution;
+};
+
+RefinedAnswer refine(const Problem& problem, double tolerance, const std::string& refinement,
+                     int max_meshes, int max_size, int min_points, int max_points,
+                     const MeshChoice& mesh, const SchemeChoice& scheme, const PointsChoice& points,
+                     const std::string& backend, const nb::object& guess, const Solved* warm_start,
+                     const nb::kwargs& options) {
+  auto keywords = kKeywords;
+  for (const char* each : {"tolerance", "refinement", "max_meshes", "max_size", "min_points"})
+    keywords.emplace_back(each);
+  ocp::RefineSettings settings;
+  settings.start =
+      settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options, keywords);
+  settings.tolerance = tolerance;
+  settings.refinement = refinement_of(refinement);
+  settings.max_meshes = max_meshes;
+  settings.max_size = max_size;
+  settings.min_points = min_points;
+  settings.max_points = max_points;
+  RefinedAnswer refined;
+  refined.solution.problem = std::make_shared<const Problem>(problem);
+  std::tie(refined.answer, refined.solution.elapsed_s) = run_released(
+      settings.start.options, [&] { return ocp::refine(*refined.solution.problem, settings); });
+  refined.solution.answer = std::move(refined.answer.solution);
+  forget_stop(refined.solution.answer.options);
+  return refined;
+}
+
+void bind_refined(nb::module_& module) {
+  using ocp::MeshRecord;
+  nb::class_<MeshRecord>(module, "MeshRecord", doc::ocp_MeshRecord)
+      .def_ro("intervals", &MeshRecord::intervals)
+      .def_ro("points", &MeshRecord::points)
+      .def_prop_ro("status", [](const MeshRecord& m) { return nlp::to_string(m.status); })
+      .def_ro("iterations", &MeshRecord::iterations)
+      .def_ro("wall_s", &MeshRecord::wall_s, doc::ocp_MeshRecord_wall_s)
+      .def_ro("objective", &MeshRecord::objective)
+      .def_ro("largest_error", &MeshRecord::largest_error, doc::ocp_MeshRecord_largest_error)
+      .def_ro("worst_interval", &MeshRecord::worst_interval);
+  nb::class_<RefinedAnswer>(module, "Refined",
+                            "The answers of Problem.refine: that of the last mesh, and what each "
+                            "mesh did.")
+      .def_prop_ro(
+          "status", [](const RefinedAnswer& r) { return ocp::to_string(r.answer.status); },
+          doc::ocp_RefineStatus)
+      .def_prop_ro(
+          "converged",
+          [](const RefinedAnswer& r) { return r.answer.status == ocp::RefineStatus::converged; },
+          doc::ocp_RefineStatus_converged)
+      .def_ro("solution", &RefinedAnswer::solution, doc::ocp_Refined_solution)
+      .def_prop_ro(
+          "errors", [](const RefinedAnswer& r) { return r.answer.errors; },
+          "The re-integrated errors of that solution.")
+      .def_prop_ro(
+          "meshes", [](const RefinedAnswer& r) { return r.answer.meshes; },
+          "One record a mesh that was solved.")
+      .def(
+          "table", [](const RefinedAnswer& r) { return r.answer.table(); }, doc::ocp_Refined_table)
+      .def("__repr__", [](const RefinedAnswer& r) {
+        return "<Refined: " + std::string(ocp::to_string(r.answer.status)) + " after " +
+               std::to_string(r.answer.meshes.size()) + " meshes>";
+      });
+}
+
+void bind_refine(nb::class_<Problem>& type) {
+  const ocp::RefineSettings defaults;
+  type.def("refine", &refine, nb::kw_only(), "tolerance"_a = defaults.tolerance,
+           "refinement"_a = "h", "max_meshes"_a = defaults.max_meshes,
+           "max_size"_a = defaults.max_size, "min_points"_a = defaults.min_points,
+           "max_points"_a = defaults.max_points, "mesh"_a = 40, "scheme"_a = "hermite_simpson",
+           "points"_a = 4, "backend"_a = "", "guess"_a = nb::none(), "warm_start"_a = nb::none(),
+           "options"_a,
+           "Solves on one mesh after another, each from the last one's polynomials, until every\n"
+           "interval's error, found by re-integration, is within `tolerance`. `refinement` \"h\" "
+           "cuts\nintervals, \"hp\" raises the degree of lgr, lgr_differential or lgl up to "
+           "`max_points`, then\ncuts into intervals of `min_points`; no more than `max_meshes` "
+           "meshes, none of more than\n`max_size` points. The other keywords are those of solve, "
+           "for the first mesh.");
+}
+
+/// The solver's options as rows of a table.
+nb::typed<nb::list, ByName<nb::any>> option_rows() {
+  nb::list rows;
+  const nlp::Options defaults;
+  for (const auto& entry : nlp::solver_options().entries()) {
+    if (entry.info.name == "warm_start") continue;  // a Solution here
+    nb::dict row;
+    row["name"] = entry.info.name;
+    std::visit([&](const auto& value) { row["default"] = nb::cast(value); }, entry.get(defaults));
+    row["unit"] = entry.info.unit;
+    row["rule"] = entry.info.kind == OptionKind::choice ? nb::object(nb::cast(entry.info.choices))
+                                                        : nb::cast(entry.info.range.to_string());
+    row["meaning"] = entry.info.doc;
+    rows.append(row);
+  }
+  return rows;
 }
 
 }  // namespace
 
 void bind_solve(nb::module_& module) {
-  nb::borrow<nb::class_<ocp::Problem>>(module.attr("Problem"))
-      .def(
-          "solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
-          "points"_a = 4, "backend"_a = "", "guess"_a = nb::none(), "options"_a,
-          "Transcribes, solves and checks. `mesh` is a number of intervals, or breakpoints from 0 "
-          "to 1;\n`scheme` one of scheme_names(), with `points` an interval where it has a choice; "
-          "`guess` an earlier\nSolution, or a dict of \"t\", \"tf\" and by name a number, numbers "
-          "at \"t\" or a function of times.\nOther keywords are the solver's options, such as tol "
-          "and max_iterations. Raises InvalidValue\nfor set-up errors; how the solve ended is in "
-          "the Solution.");
+  bind_refined(module);
+  auto type = nb::borrow<nb::class_<Problem>>(module.attr("Problem"));
+  type.def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
+           "points"_a = 4, "backend"_a = "", "guess"_a = nb::none(), "warm_start"_a = nb::none(),
+           "options"_a,
+           "Transcribes, solves and checks.\n\n"
+           "`mesh` is a number of intervals, or breakpoints from 0 to 1; `scheme` one of "
+           "scheme_names(), with\n`points` an interval where it has a choice, each one for all or "
+           "a list of one an interval.\n\n"
+           "`guess` is an earlier Solution, on whatever mesh, or a dict over straight lines: by "
+           "name a number,\nnumbers from t0 to tf (two make a line; at the times \"t\" if these "
+           "are given) or a function of an\narray of times, and \"t0\", \"tf\". `warm_start` is an "
+           "earlier Solution on the same mesh, whose\nmultipliers are used too.\n\n"
+           "Other keywords are the solver's options, such as tol and max_iterations: "
+           "solver_options().\nRaises InvalidValue for set-up errors; how the solve ended is in "
+           "the Solution.");
+  bind_refine(type);
   module.def(
       "scheme_names", [] { return ocp::scheme_names(); }, doc::ocp_scheme_names);
   module.def("backends", &nlp::backends, doc::nlp_backends);
+  module.def("solver_options", &option_rows,
+             "The keywords that solve takes besides its own: a dict each, with name, default, "
+             "unit, rule and\nmeaning.");
 }
 
 }  // namespace slalom::python

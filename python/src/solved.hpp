@@ -1,13 +1,46 @@
 #pragma once
 
+#include <memory>
+#include <string>
+
+#include "slalom/base/error.hpp"
+#include "slalom/ocp/interpolant.hpp"
 #include "slalom/ocp/solve.hpp"
 
 namespace slalom::python {
 
-/// What Python knows as Solution.
+/// A name that is not there: Python's KeyError as well as InvalidValue.
+class UnknownName : public InvalidValue {
+ public:
+  explicit UnknownName(const InvalidValue& reason) : InvalidValue(reason) {}
+};
+
+/// Calls a look-up by name; what it throws becomes an UnknownName.
+template <class Lookup>
+auto named(const Lookup& lookup) {
+  try {
+    return lookup();
+  } catch (const InvalidValue& reason) {
+    throw UnknownName(reason);
+  }
+}
+
+/// What Python knows as Solution: the answer with the problem it answers, as that was then.
 struct Solved {
+  std::shared_ptr<const ocp::Problem> problem;
   ocp::Solution answer;
-  double elapsed_s = 0;  ///< of ocp::solve as a whole
+  double elapsed_s = 0;  ///< of the C++ call as a whole; of a phase, of all
+
+  /// Made when first asked for.
+  const ocp::Interpolant& between() const {
+    if (!interpolant_)
+      interpolant_ = std::make_shared<const ocp::Interpolant>(*problem, answer.trajectory,
+                                                              answer.mesh, answer.scheme);
+    return *interpolant_;
+  }
+
+ private:
+  mutable std::shared_ptr<const ocp::Interpolant> interpolant_;
 };
 
 }  // namespace slalom::python

@@ -9,21 +9,11 @@ import time
 
 import numpy as np
 import pytest
+from problems import bryson_denham
 
 import slalom
 
 README = pathlib.Path(os.environ.get("SLALOM_README", pathlib.Path(__file__).parents[2] / "README.md"))
-
-
-def bryson_denham(limit=1 / 9):
-    p = slalom.Problem("Bryson-Denham")
-    x = p.state("x", upper=limit, initial=0, final=0)
-    v = p.state("v", initial=1, final=-1)
-    u = p.control("u")
-    p.dynamics(x, v)
-    p.dynamics(v, u)
-    p.lagrange("effort", u**2 / 2)
-    return p
 
 
 def test_bryson_denham():
@@ -61,12 +51,28 @@ def test_guesses():
     assert again.objective == pytest.approx(s.objective, rel=1e-3)
     t = np.linspace(0, 1, 5)
     assert p.solve(guess={"t": t, "x": 0.1, "v": 1 - 2 * t, "u": np.cos}).solved
-    with pytest.raises(slalom.InvalidValue, match="3 numbers"):
-        p.solve(guess={"t": t, "x": [1, 2, 3]})
-    with pytest.raises(slalom.InvalidValue, match="nope"):
-        p.solve(guess={"nope": 1})
-    with pytest.raises(TypeError):
-        p.solve(guess={"x": "one"})
+    assert p.solve(guess={"x": [0, 0.1, 0], "v": (1, -1), "t0": 0, "tf": 1}).solved
+    for guess in ({"x": "one"}, {"t": "noon"}, 3, {1: 2}):
+        with pytest.raises(TypeError):
+            p.solve(guess=guess)
+    other = slalom.Problem("other")
+    other.dynamics(other.state("x", initial=0), other.control("u"))
+    with pytest.raises(slalom.InvalidValue, match="guess"):
+        other.solve(guess=s)
+
+
+def test_guesses_are_where_the_solve_starts():
+    p = slalom.Problem("start")
+    x = p.state("x", lower=-9, upper=9)
+    u = p.control("u", lower=-9, upper=9)
+    k = p.static_parameter("k", lower=0, upper=9)
+    p.dynamics(x, k * u)
+    p.lagrange("cost", u**2)
+    s = p.solve(max_iterations=0, guess={"x": (1, 3), "u": np.cos, "k": 2})
+    assert s.state("x")[[0, -1]] == pytest.approx([1, 3]) and s.static_parameter("k") == 2
+    np.testing.assert_allclose(s.control("u"), np.cos(s.t), atol=1e-3)
+    again = p.solve(max_iterations=0, guess=s, mesh=7, scheme="lgr", points=3)
+    assert again.state("x").shape == (22,) and again.static_parameter("k") == 2
 
 
 def test_an_array_outlives_its_solution():
@@ -85,7 +91,11 @@ def test_an_array_outlives_its_solution():
     (lambda p: p.solve(max_iteration=3), "max_iterations"),
     (lambda p: p.solve(tol=-1), "tol"),
     (lambda p: p.solve(backend="nothing"), "interior_point"),
-    (lambda p: p.solve().state("y"), "no state 'y'"),
+    (lambda p: p.solve(guess={"t": [0, 1, 0.5]}), "rise"),
+    (lambda p: p.solve(guess={"t": [0]}), "at least two"),
+    (lambda p: p.solve(guess={"t": [0, 1], "x": [1, 2, 3]}), "3 numbers.*2, one a time"),
+    (lambda p: p.solve(guess={"x": lambda t: [1, 2]}), "2 numbers.*101, one a time"),
+    (lambda p: p.solve(guess={"uu": 1}), "perhaps 'u'"),
 ])
 def test_bad_input_is_a_value_error_that_says_so(state, message):
     with pytest.raises(ValueError, match=message) as caught:

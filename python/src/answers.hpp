@@ -1,0 +1,88 @@
+#pragma once
+
+#include <string>
+
+#include "binding.hpp"
+#include "slalom/nlp/check.hpp"
+#include "slalom/nlp/solver.hpp"
+
+namespace slalom::python {
+
+/// The words of `status` and what they mean.
+inline std::string statuses() {
+  return std::string(doc::nlp_Status) + "\n\n- solved: " + doc::nlp_Status_solved +
+         "\n- iteration_limit: " + doc::nlp_Status_iteration_limit +
+         "\n- time_limit: " + doc::nlp_Status_time_limit +
+         "\n- infeasible: " + doc::nlp_Status_infeasible +
+         "\n- unbounded: " + doc::nlp_Status_unbounded +
+         "\n- invalid_number: a function gave NaN or infinity; see fault" +
+         "\n- too_few_freedoms: " + doc::nlp_Status_too_few_freedoms +
+         "\n- interrupted: " + doc::nlp_Status_interrupted +
+         "\n- numerical_failure: " + doc::nlp_Status_numerical_failure;
+}
+
+/// How a solve ended: what answers of one phase and of several have alike.
+template <class Type>
+void bind_verdict(nb::class_<Type>& type) {
+  type.def_prop_ro(
+          "status", [](const Type& s) { return nlp::to_string(s.answer.status); },
+          statuses().c_str())
+      .def_prop_ro(
+          "solved", [](const Type& s) { return s.answer.solved(); },
+          "Whether the solver says so, and the residuals recomputed from the point too.")
+      .def_prop_ro(
+          "objective", [](const Type& s) { return s.answer.objective; },
+          "The sum of the cost terms.")
+      .def_prop_ro(
+          "iterations", [](const Type& s) { return s.answer.iterations; }, "Of the solver.")
+      .def_prop_ro(
+          "backend", [](const Type& s) { return s.answer.backend; }, doc::ocp_Solution_backend)
+      .def_prop_ro(
+          "wall_s", [](const Type& s) { return s.answer.wall_s; },
+          "Seconds by the clock in the solver.")
+      .def_ro("elapsed_s", &Type::elapsed_s,
+              "Seconds by the clock from transcription to check, all of it outside Python.")
+      .def_prop_ro(
+          "violation", [](const Type& s) { return s.answer.residuals.violation; },
+          doc::nlp_Residuals_violation)
+      .def_prop_ro(
+          "worst_constraint", [](const Type& s) { return s.answer.residuals.worst_constraint; },
+          "The row or bound with that violation, by name and point.")
+      .def_prop_ro(
+          "stationarity", [](const Type& s) { return s.answer.residuals.stationarity; },
+          doc::nlp_Residuals_stationarity)
+      .def_prop_ro(
+          "complementarity", [](const Type& s) { return s.answer.residuals.complementarity; },
+          doc::nlp_Residuals_complementarity)
+      .def_prop_ro(
+          "fault",
+          [](const Type& s) {
+            const auto& fault = s.answer.fault;
+            return fault ? fault.function + " at " + fault.where : std::string();
+          },
+          "The function that gave NaN or infinity, and where; empty if none did.");
+}
+
+/// Calls `function` of a Python module of the package, which needs an extra.
+inline nb::any extra(const char* module, const char* function, nb::handle self,
+                     const nb::kwargs& options) {
+  return nb::borrow<nb::any>(nb::module_::import_(module).attr(function)(self, **options));
+}
+
+template <class Type>
+void bind_extras(nb::class_<Type>& type, const char* plot, const char* frame) {
+  type.def(
+          "plot",
+          [](nb::handle self, const nb::kwargs& options) {
+            return extra("slalom._plot", "plot", self, options);
+          },
+          "options"_a, plot)
+      .def(
+          "to_frame",
+          [](nb::handle self, const nb::kwargs& options) {
+            return extra("slalom._frame", "to_frame", self, options);
+          },
+          "options"_a, frame);
+}
+
+}  // namespace slalom::python

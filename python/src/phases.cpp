@@ -1,0 +1,191 @@
+#include "slalom/ocp/phases.hpp"
+
+#include <memory>
+#include <string>
+
+#include "answers.hpp"
+#include "binding.hpp"
+#include "bounds.hpp"
+#include "running.hpp"
+#include "settings.hpp"
+#include "slalom/base/error.hpp"
+#include "slalom/base/options.hpp"
+#include "solved.hpp"
+
+namespace slalom::python {
+namespace {
+
+using ocp::PhasedProblem;
+using ocp::PhasedSolution;
+using ocp::Problem;
+
+/// What Python knows as PhasedSolution.
+struct PhasedSolved {
+  PhasedSolution answer;
+  std::vector<Solved> phases;
+  double elapsed_s = 0;
+};
+
+std::size_t phase_number(const PhasedProblem& problem, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < problem.phases().size(); ++p) {
+    names.push_back(problem.phases()[p].name());
+    if (names.back() == name) return p;
+  }
+  const auto nearest = nearest_name(name, names);
+  throw UnknownName({problem.name(), "no phase '" + name + "'",
+                     nearest.empty() ? "the name of a phase" : "perhaps '" + nearest + "'"});
+}
+
+/// `phases[name][key]` as a T, or `otherwise`.
+template <class T>
+T choice(const nb::dict& of_phase, const char* key, const T& otherwise) {
+  return of_phase.contains(key) ? as<T>(of_phase[key], key, "what solve takes") : otherwise;
+}
+
+void check_keys(const nb::dict& of_phase, const std::string& phase) {
+  static const std::vector<std::string> known = {"mesh", "scheme", "points", "guess"};
+  for (const auto& [key, value] : of_phase) {
+    const auto name = as<std::string>(key, "phase " + phase, "words");
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const auto nearest = nearest_name(name, known);
+    throw UnknownName(
+        {"phase " + phase, "'" + name + "'",
+         nearest.empty() ? "mesh, scheme, points or guess" : "perhaps '" + nearest + "'"});
+  }
+}
+
+ocp::PhasedSettings settings_of(const PhasedProblem& problem, const GridChoice& all,
+                                const nb::dict& phases, const PhasedSolved* guess) {
+  const std::size_t count = problem.phases().size();
+  if (guess != nullptr && guess->phases.size() != count)
+    throw InvalidValue(problem.name() + ": guess", std::to_string(guess->phases.size()) + " phases",
+                       std::to_string(count));
+  std::vector<nb::dict> own(count);
+  for (const auto& [key, value] : phases) {
+    const auto name = as<std::string>(key, "phases", "names of phases");
+    auto& settings = own[phase_number(problem, name)];
+    settings = as<nb::dict>(value, "phase " + name, "a dict of settings");
+    check_keys(settings, name);
+  }
+  ocp::PhasedSettings settings;
+  for (std::size_t p = 0; p < count; ++p) {
+    const Problem& phase = problem.phases()[p];
+    settings.grids.push_back(
+        grid_of({choice(own[p], "mesh", all.mesh), choice(own[p], "scheme", all.scheme),
+                 choice(own[p], "points", all.points)},
+                problem.name() + ": phase " + phase.name()));
+    const nb::object given = own[p].contains("guess") ? nb::object(own[p]["guess"])
+                             : guess != nullptr       ? nb::cast(guess->phases[p])
+                                                      : nb::none();
+    settings.guesses.push_back(guess_of(phase, settings.grids.back(), given));
+  }
+  return settings;
+}
+
+PhasedSolved solve(const PhasedProblem& problem, const MeshChoice& mesh, const SchemeChoice& scheme,
+                   const PointsChoice& points, const ByName<nb::any>& phases,
+                   const std::string& backend, const PhasedSolved* guess,
+                   const PhasedSolved* warm_start, const nb::kwargs& options) {
+  auto settings = settings_of(problem, {mesh, scheme, points}, phases, guess);
+  settings.backend = backend;
+  settings.options =
+      options_of(options, {"mesh", "scheme", "points", "phases", "backend", "guess", "warm_start"});
+  if (warm_start != nullptr) settings.warm_start = warm_start->answer.point;
+  const PhasedProblem copy = problem;
+  PhasedSolved solved;
+  std::tie(solved.answer, solved.elapsed_s) =
+      run_released(settings.options, [&] { return ocp::solve(copy, settings); });
+  forget_stop(solved.answer.options);
+  for (std::size_t p = 0; p < copy.phases().size(); ++p) {
+    Solved& phase = solved.phases.emplace_back();
+    phase.problem = std::make_shared<const Problem>(copy.phases()[p]);
+    phase.answer = std::move(solved.answer.phases[p]);
+    phase.elapsed_s = solved.elapsed_s;
+    forget_stop(phase.answer.options);
+  }
+  solved.answer.phases.clear();
+  return solved;
+}
+
+void bind_problem_of_phases(nb::module_& module) {
+  nb::class_<PhasedProblem>(module, "PhasedProblem", doc::ocp_PhasedProblem)
+      .def(nb::init<std::string>(), "name"_a)
+      .def_prop_ro("name", &PhasedProblem::name)
+      .def("add", &PhasedProblem::add, "phase"_a,
+           "Appends a copy of a phase, as it is now; their names must differ. Returns its number, "
+           "from 0.")
+      .def(
+          "link",
+          [](PhasedProblem& p, const std::string& name, const ocp::Expr& value, Limit lower,
+             Limit upper, Limit equal) {
+            const bool none = !lower && !upper && !equal;
+            p.link(name, value, none ? ocp::Bounds::equal(0) : bounds(lower, upper, equal));
+          },
+          "name"_a, "value"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
+          "equal"_a = nb::none(),
+          (std::string(doc::ocp_PhasedProblem_link) + "\nWithout bounds it equals 0.").c_str())
+      .def("connect", &PhasedProblem::connect, "from_phase"_a, "to_phase"_a,
+           doc::ocp_PhasedProblem_connect)
+      .def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
+           "points"_a = 4, "phases"_a = nb::dict(), "backend"_a = "", "guess"_a = nb::none(),
+           "warm_start"_a = nb::none(), "options"_a,
+           "Transcribes, solves and checks all phases as one problem. The keywords are those of "
+           "Problem.solve;\n`phases` has by phase a dict of those that differ there: mesh, scheme, "
+           "points, guess. `guess` and\n`warm_start` are earlier PhasedSolutions.");
+}
+
+ByName<double> links_of(const PhasedSolved& s) {
+  nb::dict result;
+  for (const auto& [name, value] : s.answer.link_multipliers) result[name.c_str()] = value;
+  return result;
+}
+
+std::string text(const PhasedSolved& s) {
+  return "<PhasedSolution: " + std::string(nlp::to_string(s.answer.status)) + ", " +
+         std::to_string(s.phases.size()) + " phases, objective " +
+         nb::cast<std::string>(nb::repr(nb::float_(s.answer.objective))) + ">";
+}
+
+/// A phase by number, from the end if negative, or by name.
+const Solved& phase_of(const PhasedSolved& s,
+                       const std::variant<std::int64_t, std::string>& which) {
+  if (const auto* number = std::get_if<std::int64_t>(&which)) {
+    const auto count = static_cast<std::int64_t>(s.phases.size());
+    const auto at = *number < 0 ? *number + count : *number;
+    if (at < 0 || at >= count) throw nb::index_error("no such phase");
+    return s.phases[static_cast<std::size_t>(at)];
+  }
+  const auto& name = std::get<std::string>(which);
+  std::vector<std::string> names;
+  for (const auto& phase : s.phases) {
+    if (phase.problem->name() == name) return phase;
+    names.push_back(phase.problem->name());
+  }
+  const auto nearest = nearest_name(name, names);
+  throw UnknownName({"solution", "no phase '" + name + "'",
+                     nearest.empty() ? "the name of a phase" : "perhaps '" + nearest + "'"});
+}
+
+void bind_solution_of_phases(nb::module_& module) {
+  auto type = nb::class_<PhasedSolved>(module, "PhasedSolution", doc::ocp_PhasedSolution);
+  bind_verdict(type);
+  type.def("__repr__", &text)
+      .def("__len__", [](const PhasedSolved& s) { return s.phases.size(); })
+      .def("__getitem__", &phase_of, "phase"_a, nb::rv_policy::reference_internal,
+           "The Solution of a phase, by number or by name.")
+      .def_ro("phases", &PhasedSolved::phases, doc::ocp_PhasedSolution_phases)
+      .def_prop_ro("link_multipliers", &links_of, doc::ocp_PhasedSolution_link_multipliers);
+  bind_extras(type,
+              "States and controls of all phases over time; a Matplotlib figure (extra 'plot').",
+              "States and controls as a pandas DataFrame over phase and time (extra 'frame').");
+}
+
+}  // namespace
+
+void bind_phases(nb::module_& module) {
+  bind_problem_of_phases(module);
+  bind_solution_of_phases(module);
+}
+
+}  // namespace slalom::python

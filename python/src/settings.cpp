@@ -1,0 +1,70 @@
+#include "settings.hpp"
+
+#include <cstdint>
+
+#include "slalom/base/error.hpp"
+#include "slalom/base/options.hpp"
+
+namespace slalom::python {
+namespace {
+
+/// Entry k of a choice that is one for all or a list.
+template <class T>
+const T& entry(const std::variant<T, std::vector<T>>& choice, std::size_t k) {
+  if (const auto* one = std::get_if<T>(&choice)) return *one;
+  return std::get<std::vector<T>>(choice)[k];
+}
+
+template <class T>
+void check_length(const std::variant<T, std::vector<T>>& choice, std::size_t intervals,
+                  const std::string& where) {
+  if (const auto* list = std::get_if<std::vector<T>>(&choice); list && list->size() != intervals)
+    throw InvalidValue(where, std::to_string(list->size()) + " entries",
+                       std::to_string(intervals) + ", one an interval, or one for all");
+}
+
+OptionValue option_value(nb::handle value, const std::string& name) {
+  if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value);
+  if (nb::isinstance<nb::int_>(value)) return nb::cast<std::int64_t>(value);
+  if (nb::isinstance<nb::str>(value)) return nb::cast<std::string>(value);
+  return as<double>(value, "option " + name, "a number, a word or a truth value");
+}
+
+}  // namespace
+
+ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where) {
+  const auto* intervals = std::get_if<int>(&choice.mesh);
+  const auto mesh = intervals ? ocp::Mesh::uniform(*intervals)
+                              : ocp::Mesh(std::get<std::vector<double>>(choice.mesh));
+  check_length(choice.scheme, mesh.intervals(), where + ": scheme");
+  check_length(choice.points, mesh.intervals(), where + ": points");
+  if (choice.scheme.index() == 0 && choice.points.index() == 0)
+    return {mesh, ocp::scheme(std::get<0>(choice.scheme), std::get<0>(choice.points))};
+  std::vector<ocp::Scheme> schemes;
+  for (std::size_t k = 0; k < mesh.intervals(); ++k)
+    schemes.push_back(ocp::scheme(entry(choice.scheme, k), entry(choice.points, k)));
+  return {mesh, ocp::Schemes(std::move(schemes))};
+}
+
+nlp::Options options_of(const nb::kwargs& given, const std::vector<std::string>& others) {
+  nlp::Options options;
+  const auto& table = nlp::solver_options();
+  for (const auto& [key, value] : given) {
+    const auto name = nb::cast<std::string>(key);
+    const auto* entry = table.find(name);
+    if (entry == nullptr) {
+      auto names = others;
+      for (const auto& each : table.entries()) names.push_back(each.info.name);
+      const auto nearest = nearest_name(name, names);
+      throw InvalidValue("solve", "option '" + name + "'",
+                         nearest.empty() ? std::string("an option of slalom.solver_options()")
+                                         : "perhaps '" + nearest + "'");
+    }
+    const auto wanted = option_value(value, name);
+    if (wanted == entry->get(options)) continue;  // a default may be what nobody could set
+    table.set(options, *entry, wanted, "solve: " + name);
+  }
+  return options;
+}
+
+}  // namespace slalom::python

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nanobind/stl/variant.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "binding.hpp"
+#include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/trajectory.hpp"
+
+namespace slalom::python {
+
+using MeshChoice = std::variant<int, std::vector<double>>;
+using SchemeChoice = std::variant<std::string, std::vector<std::string>>;
+using PointsChoice = std::variant<int, std::vector<int>>;
+
+/// How Python says a grid: a number of intervals or breakpoints; a scheme and its points, each one
+/// for all intervals or one an interval.
+struct GridChoice {
+  MeshChoice mesh = 40;
+  SchemeChoice scheme = "hermite_simpson";
+  PointsChoice points = 4;
+};
+
+/// Throws InvalidValue for lists that have not one entry an interval.
+ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where);
+
+/// Solver options from keyword arguments, by their table. Throws InvalidValue for another name;
+/// `others` are the keywords that a misspelt one may have meant besides.
+nlp::Options options_of(const nb::kwargs& given, const std::vector<std::string>& others);
+
+/// None, an earlier Solution, or a dictionary over straight lines between the bounds of both ends:
+/// "t0" and "tf", or "t", times from t0 to tf; and by name each state's and control's number,
+/// numbers (one a time of "t", else at equal steps) or function of times, and each static
+/// parameter's and slack's number.
+ocp::Trajectory guess_of(const ocp::Problem& problem, const ocp::PhasedTranscription::Grid& grid,
+                         nb::handle given);
+
+}  // namespace slalom::python

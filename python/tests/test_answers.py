@@ -1,0 +1,166 @@
+"""Answers judged and interpolated from Python: closed forms, and what names them."""
+
+import numpy as np
+import pytest
+from problems import bryson_denham, decay, decay_at
+
+import slalom
+
+
+def test_interpolation_is_that_of_the_scheme():
+    s = decay().solve(mesh=10, scheme="lgr", points=6)
+    t = np.linspace(0, 2, 37)
+    exact, costate = decay_at(t)
+    np.testing.assert_allclose(s(t)["x"], exact, atol=1e-9)
+    np.testing.assert_allclose(s(t)["u"], -costate / 2, atol=1e-7)
+    np.testing.assert_allclose(s.costate("x"), decay_at(s.nodes)[1], atol=1e-6)
+    np.testing.assert_allclose(s(s.t)["x"], s.state("x"), atol=1e-12)
+
+
+def test_interpolation_has_the_shape_of_its_times():
+    s = decay().solve()
+    assert isinstance(s(0.5)["x"], float)
+    assert s(1)["x"] == s([1.0])["x"][0]
+    assert s([[0, 1, 2], [2, 1, 0]])["u"].shape == (2, 3)
+    assert s(-1)["x"] == s(0)["x"] and s(9)["x"] == s(2)["x"]
+    assert s(np.array([]))["x"].shape == (0,)
+    with pytest.raises(slalom.InvalidValue, match="NaN"):
+        s(float("nan"))
+    with pytest.raises((TypeError, ValueError)):
+        s("noon")
+
+
+def test_an_answer_is_of_the_problem_as_it_was():
+    p = slalom.Problem("parameter")
+    k = p.parameter("k", 1)
+    x = p.state("x", initial=1)
+    p.dynamics(x, -k * x)
+    u = p.control("u", lower=0, upper=1)
+    p.lagrange("effort", u)
+    s = p.solve()
+    p.set_parameter(k, 100)
+    assert s.estimate_errors().largest < 1e-5
+    assert s(0.5)["x"] == pytest.approx(np.exp(-0.5), rel=1e-5)
+
+
+def test_grids():
+    breaks = [0, 0.1, 0.4, 1]
+    s = decay().solve(mesh=breaks, scheme=["lgr", "lgl", "trapezoidal"], points=[3, 8, 2])
+    np.testing.assert_allclose(s.mesh, breaks)
+    np.testing.assert_allclose(s.nodes, 2 * s.mesh)
+    assert [name for name, _ in s.schemes] == ["lgr", "lgl", "trapezoidal"]
+    assert len(s.t) == 3 + 7 + 1 + 1
+    assert "interior_point" in s.backend
+    with pytest.raises(slalom.InvalidValue, match="2 entries.*3, one an interval"):
+        decay().solve(mesh=3, scheme=["lgr", "lgl"])
+    with pytest.raises(slalom.InvalidValue, match="decay: points"):
+        decay().solve(mesh=3, scheme="lgr", points=[3, 4])
+
+
+def test_error_estimate_tells_a_coarse_mesh_from_a_fine_one():
+    coarse, fine = decay().solve(mesh=4), decay().solve(mesh=40)
+    e, f = coarse.estimate_errors(), fine.estimate_errors()
+    assert e.interval.shape == (4,) and e.interval[e.worst] == e.largest
+    assert set(e.state) == {"x"}
+    assert f.largest < 1e-3 * e.largest
+    assert e.horizon > 0 and e.amplification > 0
+    with pytest.raises(slalom.InvalidValue, match="tolerance"):
+        coarse.estimate_errors(tolerance=0)
+
+
+def test_violation_between_the_nodes_is_named():
+    s = bryson_denham().solve(mesh=10)
+    v = s.largest_violation()
+    assert v.value > 1e-5 and "x" in v.constraint and 0 < v.time < 1
+    assert bryson_denham().solve(mesh=200).largest_violation().value < v.value / 10
+
+
+def test_hamiltonian_is_constant():
+    h = decay().solve(mesh=100).hamiltonian()
+    assert h.shape == (101,)
+    np.testing.assert_allclose(h, h[0], rtol=1e-3)
+
+
+@pytest.mark.parametrize("refinement, scheme", [("h", "hermite_simpson"), ("hp", "lgr")])
+def test_refinement(refinement, scheme):
+    r = decay().refine(tolerance=1e-9, refinement=refinement, mesh=4, scheme=scheme, points=3)
+    assert r.converged and r.status == "converged"
+    assert 0 < r.errors.largest <= 1e-9
+    assert len(r.meshes) > 1 and r.meshes[0].intervals == 4
+    assert r.meshes[-1].largest_error == r.errors.largest == r.solution.estimate_errors().largest
+    assert r.solution.objective == pytest.approx(decay_at(0)[1] / 2, rel=1e-6)
+    assert r.table().count("\n") == len(r.meshes) + 2
+
+
+def test_refinement_says_what_it_did_not_reach():
+    r = decay().refine(mesh=4, max_meshes=1)
+    assert not r.converged and r.status == "mesh_limit" and r.errors.largest > 1e-6
+    with pytest.raises(slalom.InvalidValue, match="'h' or 'hp'"):
+        decay().refine(refinement="p")
+    with pytest.raises(slalom.InvalidValue, match="lgr"):
+        decay().refine(refinement="hp")
+    with pytest.raises(slalom.InvalidValue, match="tolerance"):
+        decay().refine(tolerence=1e-3)
+
+
+def test_warm_start_takes_fewer_iterations():
+    def swing():
+        p = slalom.Problem("swing")
+        a, w = p.state("a", initial=0, final=np.pi), p.state("w", initial=0, final=0)
+        u = p.control("u")
+        p.dynamics(a, w)
+        p.dynamics(w, u - np.sin(a))
+        p.lagrange("effort", u**2)
+        p.final_time(equal=4)
+        return p
+
+    cold = swing().solve()
+    guessed = swing().solve(guess=cold)
+    warm = swing().solve(warm_start=cold)
+    assert warm.solved and warm.iterations <= guessed.iterations < cold.iterations
+    assert warm.iterations <= 1
+    with pytest.raises(slalom.InvalidValue):
+        swing().solve(mesh=61, warm_start=cold)
+    with pytest.raises(TypeError):
+        swing().solve(warm_start=3)
+
+
+def test_names_that_are_not_there_are_key_errors():
+    s = decay().solve()
+    for lookup, name in ((s.state, "y"), (s.control, "v"), (s.costate, "y"), (s.slack, "s"),
+                         (s.static_parameter, "k"), (s.integral, "energy")):
+        with pytest.raises(KeyError, match=f"no .*'{name}'") as caught:
+            lookup(name)
+        assert isinstance(caught.value, slalom.UnknownName)
+        assert isinstance(caught.value, slalom.InvalidValue)
+        assert str(caught.value).startswith("solution: ")
+
+
+def test_values_by_name():
+    p = slalom.Problem("values")
+    x = p.state("x", initial=0)
+    u = p.control("u", lower=0, upper=1)
+    k = p.static_parameter("k", lower=1, upper=3)
+    p.dynamics(x, k * u)
+    area = p.integral("area", u, equal=0.5)
+    p.mayer("reach", -p.final(x))
+    p.mayer("use", area)
+    s = p.solve()
+    assert s.static_parameter("k") == pytest.approx(3) and s.integral("area") == pytest.approx(0.5)
+    assert s.name == "values" and s.cost_terms["reach"] == pytest.approx(-1.5)
+
+
+def test_solver_options_are_those_that_solve_takes():
+    for row in slalom.solver_options():
+        assert row["meaning"] and row["rule"]
+        assert decay().solve(**{row["name"]: row["default"]}).solved or row["name"] == "floor"
+
+
+def test_cubic_spline():
+    x = slalom.Expr.symbol("x")
+    knots, values = [0, 1, 3], [1, 2, -1]
+    spline = slalom.cubic_spline(x, knots, values)
+    for knot, value in zip(knots, values):
+        assert spline.evaluate([(x, knot)]) == pytest.approx(value)
+    with pytest.raises(slalom.InvalidValue, match="rise|increas"):
+        slalom.cubic_spline(x, [0, 0], [1, 1])

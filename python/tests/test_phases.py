@@ -1,0 +1,74 @@
+"""Several phases: linked, solved, refused, and shown."""
+
+import numpy as np
+import pytest
+from problems import two_legs
+
+import slalom
+
+
+def test_two_legs():
+    s = two_legs().solve(mesh=10, scheme="trapezoidal")
+    assert s.solved and s.objective == pytest.approx(2, rel=1e-6)
+    assert len(s) == 2 and s["slow down"].tf == s[-1].tf
+    assert s[0].tf == pytest.approx(1, rel=1e-5)
+    assert s[0].state("x")[-1] == pytest.approx(s[1].state("x")[0])
+    assert set(s.link_multipliers) == {"x from speed up to slow down", "v from speed up to slow down",
+                                       "time from speed up to slow down"}
+    assert [phase.name for phase in s.phases] == ["speed up", "slow down"]
+    assert s[0].estimate_errors().largest < 1e-8
+
+
+def test_grids_and_guesses_of_single_phases():
+    cold = two_legs().solve(mesh=10)
+    s = two_legs().solve(mesh=6, scheme="lgr", phases={
+        "slow down": {"mesh": [0, 0.5, 1], "scheme": "lgl", "points": 5, "guess": {"x": (0.5, 1)}}},
+        guess=cold)
+    assert s.solved and s.objective == pytest.approx(2, rel=1e-3)
+    assert s[0].schemes == [("lgr", 5)] * 6 and s[1].schemes == [("lgl", 5)] * 2
+    with pytest.raises(slalom.InvalidValue):
+        two_legs().solve(mesh=11, warm_start=cold)
+
+
+@pytest.mark.parametrize("state, error, message", [
+    (lambda p: p.solve(phases={"slow dwn": {}}), KeyError, "perhaps 'slow down'"),
+    (lambda p: p.solve(phases={"slow down": {"meh": 3}}), KeyError, "perhaps 'mesh'"),
+    (lambda p: p.solve(phases={"slow down": {"mesh": "many"}}), TypeError, "mesh"),
+    (lambda p: p.solve(phases={"slow down": 3}), TypeError, "slow down"),
+    (lambda p: p.solve(mesh=[0, 2, 1]), ValueError, "mesh|breakpoint"),
+    (lambda p: p.solve(max_iteration=3), ValueError, "max_iterations"),
+    (lambda p: p.connect(0, 7), ValueError, "phase 7"),
+    (lambda p: p.link("time from speed up to slow down", slalom.Expr(0)), ValueError, "twice"),
+    (lambda p: p.link("foreign", slalom.Expr.symbol("z")) or p.solve(), ValueError, "'z'"),
+    (lambda p: p.add(slalom.Problem("speed up")), ValueError, "twice"),
+    (lambda p: p.solve()["up"], KeyError, "no phase 'up'"),
+    (lambda p: p.solve()[2], IndexError, "no such phase"),
+])
+def test_bad_input(state, error, message):
+    with pytest.raises(error, match=message):
+        state(two_legs())
+
+
+def test_a_phase_without_link_is_refused():
+    p = slalom.PhasedProblem("apart")
+    for leg in ("a", "b"):
+        phase = slalom.Problem(leg)
+        phase.dynamics(phase.state("x", initial=0), phase.control("u"))
+        p.add(phase)
+    with pytest.raises(slalom.InvalidValue, match="no link"):
+        p.solve()
+
+
+def test_frame_and_plot():
+    pandas = pytest.importorskip("pandas")
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    s = two_legs().solve(mesh=4)
+    frame = s.to_frame()
+    assert isinstance(frame, pandas.DataFrame) and list(frame.index.names) == ["phase", "t"]
+    np.testing.assert_array_equal(frame.loc["slow down"]["x"], s[1].state("x"))
+    axes = s.plot().axes
+    assert [a.get_ylabel() for a in axes] == ["x", "v", "u"]
+    assert len(axes[0].lines) == 4  # a curve and points for each phase
+    np.testing.assert_allclose(axes[0].lines[0].get_ydata()[-1], axes[0].lines[2].get_ydata()[0],
+                               atol=1e-6)

@@ -1,0 +1,52 @@
+"""What a type checker must accept of the package, and (where it is told to ignore) refuse.
+
+Checked by mypy --strict, which complains of an ignore that is not needed; never run."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import slalom
+from slalom import Expr, Problem
+
+
+def stated() -> Problem:
+    p = Problem("typed")
+    x = p.state("x", lower=0, initial=1, final=(None, 2))
+    u: Expr = p.control("u")
+    p.dynamics(x, -x / 2 + slalom.sin(u) ** 2 + 1)
+    p.lagrange("effort", slalom.maximum(u, 0))
+    p.path("row", 3 - u * x, lower=0)
+    p.state(3)  # type: ignore[arg-type]
+    p.dynamics("x", u)  # type: ignore[arg-type]
+    p.initial(1)  # type: ignore[arg-type]
+    return p
+
+
+def solved() -> float:
+    p = stated()
+    s = p.solve(mesh=np.linspace(0, 1, 5), scheme=["lgr"] * 4, points=[3, 4, 5, 6], tol=1e-6)
+    t: NDArray[np.float64] = s.t
+    values: dict[str, Any] = s(t)
+    r = p.refine(refinement="hp", scheme="lgr", guess=s)
+    s.solve()  # type: ignore[attr-defined]
+    p.solve(warm_start="s")  # type: ignore[arg-type]
+    return float(values["x"][0] + r.solution.state("x")[0]) + r.errors.largest + len(s.mesh)
+
+
+def phased() -> str:
+    p = slalom.PhasedProblem("typed")
+    number: int = p.add(stated())
+    p.link("link", 0)
+    s = p.solve(phases={"typed": {"mesh": 3}})
+    return s[number].status + s["typed"].worst_constraint
+
+
+def refused() -> str:
+    try:
+        return str(slalom.load_scenario("nowhere").name)
+    except slalom.UnknownName as error:
+        return error.found
+    except slalom.InvalidValue as error:
+        return error.where + error.expected
