@@ -10,6 +10,7 @@
 #include "binding.hpp"
 #include "bounds.hpp"
 #include "slalom/base/error.hpp"
+#include "solved.hpp"
 
 namespace slalom::python {
 namespace {
@@ -27,6 +28,36 @@ ocp::End end_of(const std::string& word) {
 
 ocp::Points points_of(bool after_first) {
   return after_first ? ocp::Points::after_first : ocp::Points::all;
+}
+
+ocp::ControlForm form_of(const std::string& word) {
+  if (word == "scheme") return ocp::ControlForm::scheme;
+  if (word == "linear") return ocp::ControlForm::linear;
+  if (word == "constant") return ocp::ControlForm::constant;
+  throw InvalidValue("form of a control", "'" + word + "'", "'scheme', 'linear' or 'constant'");
+}
+
+ocp::Norm norm_of(const std::string& word) {
+  if (word == "l1") return ocp::Norm::l1;
+  if (word == "l2") return ocp::Norm::l2;
+  throw InvalidValue("norm of a soft constraint", "'" + word + "'", "'l1' or 'l2'");
+}
+
+/// A constraint by its handle or name.
+using Which = std::variant<ConstraintId, std::string>;
+
+ConstraintId constraint(const Problem& problem, const Which& which) {
+  if (const auto* id = std::get_if<ConstraintId>(&which)) return *id;
+  return named([&] { return problem.constraint_named(std::get<std::string>(which)); });
+}
+
+/// What softens a constraint, if Python names a norm.
+using Softness = std::optional<std::string>;
+
+ConstraintId softened(Problem& problem, ConstraintId id, const Softness& norm, double weight,
+                      double tolerance) {
+  if (norm) problem.soften(id, {norm_of(*norm), weight, tolerance});
+  return id;
 }
 
 Expr state(Problem& problem, const std::string& name, Limit lower, Limit upper,
@@ -47,16 +78,24 @@ double guess_of(const std::optional<double>& guess, const ocp::Bounds& limits) {
 }
 
 void bind_variables(nb::class_<Problem>& type) {
+  const auto control_doc = std::string(doc::ocp_Problem_control) + "\n\n`form`: " + "scheme (" +
+                           doc::ocp_ControlForm_scheme + "), linear (" +
+                           doc::ocp_ControlForm_linear + ") or constant (" +
+                           doc::ocp_ControlForm_constant + ").";
   type.def("state", &state, "name"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
            "initial"_a = nb::none(), "final"_a = nb::none(), "scale"_a = 1.0,
            doc::ocp_Problem_state)
       .def(
           "control",
-          [](Problem& p, const std::string& name, Limit lower, Limit upper, double scale) {
-            return p.control(name, bounds(lower, upper), scale);
+          [](Problem& p, const std::string& name, Limit lower, Limit upper, double scale,
+             const std::string& form) {
+            const auto how = form_of(form);
+            const Expr symbol = p.control(name, bounds(lower, upper), scale);
+            p.control_form(symbol, how);
+            return symbol;
           },
           "name"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(), "scale"_a = 1.0,
-          doc::ocp_Problem_control)
+          "form"_a = "scheme", control_doc.c_str())
       .def(
           "static_parameter",
           [](Problem& p, const std::string& name, Limit lower, Limit upper,
@@ -97,39 +136,76 @@ void bind_symbols(nb::class_<Problem>& type) {
       .def("final", &Problem::final, "state"_a, doc::ocp_Problem_final);
 }
 
+/// Adds what constraints of all kinds take: bounds, and what softens them.
+template <class Add, class... Extra>
+void def_constraint(nb::class_<Problem>& type, const char* name, const Add& add,
+                    const char* documentation, const Extra&... arguments) {
+  static const std::string soft = std::string("\n\n`soft` \"l1\" or \"l2\" makes it soft: ") +
+                                  doc::ocp_Norm + "\n" + doc::ocp_Soft;
+  type.def(name, add, arguments..., "lower"_a = nb::none(), "upper"_a = nb::none(),
+           "equal"_a = nb::none(), "soft"_a = nb::none(), "weight"_a = 1.0, "tolerance"_a = 0.0,
+           (documentation + soft).c_str());
+}
+
+void bind_constraints(nb::class_<Problem>& type) {
+  def_constraint(
+      type, "path",
+      [](Problem& p, const std::string& name, const Expr& value, bool after_first, Limit lower,
+         Limit upper, Limit equal, const Softness& soft, double weight, double tolerance) {
+        const auto id = p.path(name, value, bounds(lower, upper, equal), points_of(after_first));
+        return softened(p, id, soft, weight, tolerance);
+      },
+      doc::ocp_Problem_path, "name"_a, "value"_a, nb::kw_only(), "after_first"_a = false);
+  def_constraint(
+      type, "boundary",
+      [](Problem& p, const std::string& name, const Expr& value, Limit lower, Limit upper,
+         Limit equal, const Softness& soft, double weight, double tolerance) {
+        const auto id = p.boundary(name, value, bounds(lower, upper, equal));
+        return softened(p, id, soft, weight, tolerance);
+      },
+      doc::ocp_Problem_boundary, "name"_a, "value"_a, nb::kw_only());
+  def_constraint(
+      type, "path_family",
+      [](Problem& p, const std::string& name, const std::vector<Expr>& symbols, const Expr& value,
+         bool after_first, Limit lower, Limit upper, Limit equal, const Softness& soft,
+         double weight, double tolerance) {
+        const auto id = p.path_family(name, symbols, value, bounds(lower, upper, equal),
+                                      points_of(after_first));
+        return softened(p, id, soft, weight, tolerance);
+      },
+      doc::ocp_Problem_path_family, "name"_a, "symbols"_a, "value"_a, nb::kw_only(),
+      "after_first"_a = false);
+  type.def("set_members", &Problem::set_members, "family"_a, "names"_a, "values"_a,
+           doc::ocp_Problem_set_members)
+      .def(
+          "soften",
+          [](Problem& p, const Which& which, const std::string& norm, double weight,
+             double tolerance) {
+            p.soften(constraint(p, which), {norm_of(norm), weight, tolerance});
+          },
+          "constraint"_a, "norm"_a = "l1", nb::kw_only(), "weight"_a = 1.0, "tolerance"_a = 0.0,
+          doc::ocp_Problem_soften)
+      .def(
+          "harden", [](Problem& p, const Which& which) { p.harden(constraint(p, which)); },
+          "constraint"_a, "Makes a constraint hard again.")
+      .def(
+          "enable",
+          [](Problem& p, const Which& which, bool enabled) {
+            p.enable(constraint(p, which), enabled);
+          },
+          "constraint"_a, "enabled"_a, doc::ocp_Problem_enable)
+      .def(
+          "enable_cost",
+          [](Problem& p, const std::string& name, bool enabled) {
+            named([&] { return p.enable_cost(name, enabled), 0; });
+          },
+          "name"_a, "enabled"_a, doc::ocp_Problem_enable_cost);
+}
+
 void bind_terms(nb::class_<Problem>& type) {
   type.def("dynamics", &Problem::dynamics, "state"_a, "rate"_a, doc::ocp_Problem_dynamics)
       .def("mayer", &Problem::mayer, "name"_a, "term"_a, doc::ocp_Problem_mayer)
-      .def("lagrange", &Problem::lagrange, "name"_a, "integrand"_a, doc::ocp_Problem_lagrange)
-      .def(
-          "path",
-          [](Problem& p, const std::string& name, const Expr& value, Limit lower, Limit upper,
-             Limit equal, bool after_first) {
-            return p.path(name, value, bounds(lower, upper, equal), points_of(after_first));
-          },
-          "name"_a, "value"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
-          "equal"_a = nb::none(), "after_first"_a = false, doc::ocp_Problem_path)
-      .def(
-          "boundary",
-          [](Problem& p, const std::string& name, const Expr& value, Limit lower, Limit upper,
-             Limit equal) { return p.boundary(name, value, bounds(lower, upper, equal)); },
-          "name"_a, "value"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
-          "equal"_a = nb::none(), doc::ocp_Problem_boundary)
-      .def(
-          "path_family",
-          [](Problem& p, const std::string& name, const std::vector<Expr>& symbols,
-             const Expr& value, Limit lower, Limit upper, Limit equal, bool after_first) {
-            return p.path_family(name, symbols, value, bounds(lower, upper, equal),
-                                 points_of(after_first));
-          },
-          "name"_a, "symbols"_a, "value"_a, nb::kw_only(), "lower"_a = nb::none(),
-          "upper"_a = nb::none(), "equal"_a = nb::none(), "after_first"_a = false,
-          doc::ocp_Problem_path_family)
-      .def("set_members", &Problem::set_members, "family"_a, "names"_a, "values"_a,
-           doc::ocp_Problem_set_members)
-      .def("enable", &Problem::enable, "constraint"_a, "enabled"_a, doc::ocp_Problem_enable)
-      .def("enable_cost", &Problem::enable_cost, "name"_a, "enabled"_a,
-           doc::ocp_Problem_enable_cost);
+      .def("lagrange", &Problem::lagrange, "name"_a, "integrand"_a, doc::ocp_Problem_lagrange);
 }
 
 void bind_ends(nb::class_<Problem>& type) {
@@ -171,6 +247,7 @@ void bind_problem(nb::module_& module) {
   bind_variables(type);
   bind_symbols(type);
   bind_terms(type);
+  bind_constraints(type);
   bind_ends(type);
 }
 

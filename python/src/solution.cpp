@@ -56,6 +56,36 @@ double integral(const Solved& s, const std::string& name) {
                      nearest.empty() ? "a name of an integral" : "perhaps '" + nearest + "'"});
 }
 
+/// Numbers at some points as numbers at all, 0 at the others; of what has one value, that.
+nb::object over_points(const Solved& s, const std::vector<std::size_t>& points,
+                       const std::vector<double>& values) {
+  if (points.empty()) {
+    if (values.size() == 1) return nb::float_(values.front());
+    return nb::cast(to_numpy(values));
+  }
+  const std::size_t members = values.size() / points.size();
+  std::vector<std::vector<double>> rows(s.answer.trajectory.tau.size(),
+                                        std::vector<double>(members, 0.0));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (std::size_t m = 0; m < members; ++m) rows[points[k]][m] = values[k * members + m];
+  if (members != 1) return nb::cast(to_numpy(rows, members));
+  std::vector<double> column;
+  for (const auto& row : rows) column.push_back(row.front());
+  return nb::cast(to_numpy(column));
+}
+
+/// One look-up of what C++ has by name at some points.
+template <class Item>
+nb::any item(const Solved& s, const Item& found) {
+  return nb::borrow<nb::any>(over_points(s, found.points, found.values));
+}
+
+ByName<nb::any> multipliers(const Solved& s) {
+  nb::dict result;
+  for (const auto& each : s.answer.multipliers) result[each.name.c_str()] = item(s, each);
+  return result;
+}
+
 /// Puts the numbers of each name at `times` beside it, in the shape of `times`.
 void put(const std::vector<std::string>& names, const std::vector<std::vector<double>>& rows,
          const nb::object& shape, nb::dict& result) {
@@ -95,6 +125,10 @@ void bind_outcome(nb::class_<Solved>& type) {
 }
 
 void bind_trajectory(nb::class_<Solved>& type) {
+  const auto multiplier_doc = std::string(doc::ocp_Multipliers) +
+                              " One number a point of `t`, or of what has one value a " +
+                              "number.\n\n" + doc::ocp_Multipliers_values +
+                              "\n\nIts name: " + doc::ocp_Multipliers_name;
   using ocp::Solution;
   type.def_prop_ro("t0", [](const Solved& s) { return s.answer.trajectory.t0; })
       .def_prop_ro("tf", [](const Solved& s) { return s.answer.trajectory.tf; })
@@ -141,6 +175,19 @@ void bind_trajectory(nb::class_<Solved>& type) {
             return named([&] { return s.answer.slack(n); });
           },
           "name"_a, "The value of a slack.")
+      .def(
+          "multiplier",
+          [](const Solved& s, const std::string& n) {
+            return item(s, named([&] { return s.answer.multiplier(n); }));
+          },
+          "name"_a, multiplier_doc.c_str())
+      .def_prop_ro("multipliers", &multipliers, "Those of all constraints and bounds by name.")
+      .def(
+          "excess",
+          [](const Solved& s, const std::string& n) {
+            return item(s, named([&] { return s.answer.excess(n); }));
+          },
+          "constraint"_a, doc::ocp_Excesses)
       .def("integral", &integral, "name"_a, "The value of an integral.")
       .def_prop_ro(
           "states",

@@ -164,3 +164,65 @@ def test_cubic_spline():
         assert spline.evaluate([(x, knot)]) == pytest.approx(value)
     with pytest.raises(slalom.InvalidValue, match="rise|increas"):
         slalom.cubic_spline(x, [0, 0], [1, 1])
+
+
+def wall(**soft):
+    p = slalom.Problem("wall")
+    x, v, u = p.state("x", initial=0, final=0), p.state("v", initial=1, final=-1), p.control("u")
+    p.dynamics(x, v)
+    p.dynamics(v, u)
+    p.lagrange("effort", u**2 / 2)
+    p.path("wall", x, upper=1 / 9, **soft)
+    return p
+
+
+def test_multipliers_by_name():
+    s = wall().solve(mesh=40)
+    m = s.multiplier("wall")
+    assert m.shape == s.t.shape and (m >= -1e-9).all()
+    # They sum to minus the derivative of the optimum 4 / (9 l) at l = 1/9.
+    assert m.sum() == pytest.approx(36, rel=1e-2)
+    np.testing.assert_array_equal(s.multipliers["wall"], m)
+    assert isinstance(s.multiplier("tf"), float)
+    with pytest.raises(KeyError, match="perhaps 'wall'"):
+        s.multiplier("walls")
+    with pytest.raises(KeyError, match="soft constraint"):
+        s.excess("wall")
+
+
+def test_soft_constraints():
+    hard = wall().solve()
+    exact = wall(soft="l1", weight=1e4).solve()
+    cheap = wall(soft="l1", weight=1).solve()
+    assert exact.objective == pytest.approx(hard.objective, rel=1e-5)
+    assert cheap.objective < hard.objective - 0.1
+    np.testing.assert_allclose(cheap.excess("wall"), np.maximum(cheap.state("x") - 1 / 9, 0),
+                               atol=1e-5)
+    p = wall()
+    p.soften("wall", "l2", weight=10, tolerance=0.01)
+    assert p.solve().cost_terms["soft wall"] > 0
+    p.harden("wall")
+    assert p.solve().objective == pytest.approx(hard.objective, rel=1e-9)
+    p.enable("wall", False)
+    assert p.solve().objective < cheap.objective
+    for wrong, error, message in ((lambda: p.soften("wal"), KeyError, "perhaps 'wall'"),
+                                  (lambda: p.soften("wall", "l3"), ValueError, "'l1' or 'l2'"),
+                                  (lambda: wall(soft="l1", weight=0), ValueError, "weight"),
+                                  (lambda: p.enable_cost("efort", False), KeyError, "effort")):
+        with pytest.raises(error, match=message):
+            wrong()
+
+
+def test_forms_of_controls():
+    for form, degree in (("constant", 0), ("linear", 1)):
+        p = slalom.Problem("form")
+        x = p.state("x", initial=1)
+        u = p.control("u", form=form)
+        p.dynamics(x, -x + u)
+        p.lagrange("cost", x**2 + u**2)
+        s = p.solve(mesh=5, scheme="lgr", points=4)
+        t = s.nodes[1] + np.array([0.2, 0.5, 0.8]) * (s.nodes[2] - s.nodes[1])
+        between = np.diff(s(t)["u"], degree + 1)
+        np.testing.assert_allclose(between, 0, atol=1e-12)
+    with pytest.raises(slalom.InvalidValue, match="'scheme', 'linear' or 'constant'"):
+        p.control("w", form="cubic")
