@@ -25,6 +25,7 @@ def finish(text: str) -> str:
     text, found = re.subn(INVALID, r"\1" + ATTRIBUTES, text, flags=re.S)
     assert found == 1, "no InvalidValue in the stub"
     text = re.sub(r"(\*\*?\w+)(?=[,)])", r"\1: object", text)
+    text = re.sub(r"\bPathLike\b(?!\[)", "PathLike[str]", text)
     text = text.replace("def __str__(self, /):", "def __str__(self, /) -> str:")
     text = re.sub(r"^(\w+_names: tuple)\b.*$", r"\1[str, ...]", text, flags=re.M)
     return text + "\n__version__: str\n"

@@ -1,4 +1,4 @@
-"""Solution.plot and PhasedSolution.plot, behind the extra `plot`."""
+"""plot of solutions and drives, behind the extra `plot`."""
 
 from __future__ import annotations
 
@@ -6,10 +6,23 @@ from typing import Any
 
 import numpy as np
 
-from ._core import PhasedSolution, Solution
+from ._core import Drive, PhasedSolution, Solution, control_names, state_names
 
 # Points of each interval's curve: enough for a polynomial of degree 12 to look like one.
 SAMPLES = 12
+# Of a drive: what is drawn over time beside the path.
+OVER_TIME = ("ux", "ax", "sa", "sr")
+
+
+def plot(answer: Solution | PhasedSolution | Drive, **options: Any) -> Any:
+    """Keywords go to matplotlib.pyplot.subplots."""
+    try:
+        from matplotlib import pyplot
+    except ImportError as error:
+        raise ImportError("plot needs Matplotlib: pip install 'slalom[plot]'") from error
+    if isinstance(answer, Drive):
+        return plot_drive(answer, pyplot, options)
+    return plot_phases([answer] if isinstance(answer, Solution) else answer.phases, pyplot, options)
 
 
 def times(solution: Solution) -> Any:
@@ -19,14 +32,8 @@ def times(solution: Solution) -> Any:
     return np.append(begins + shares[:-1] * (ends - begins), solution.tf)
 
 
-def plot(solution: Solution | PhasedSolution, **options: Any) -> Any:
-    """One axes a state and control over time, the points on the scheme's polynomials; keywords go
-    to matplotlib.pyplot.subplots."""
-    try:
-        from matplotlib import pyplot
-    except ImportError as error:
-        raise ImportError("plot needs Matplotlib: pip install 'slalom[plot]'") from error
-    phases = [solution] if isinstance(solution, Solution) else solution.phases
+def plot_phases(phases: list[Solution], pyplot: Any, options: dict[str, Any]) -> Any:
+    """One axes a state and control over time: the scheme's polynomials, and the points on them."""
     names = list(dict.fromkeys(name for p in phases for name in [*p.states, *p.controls]))
     options = {"sharex": True, "squeeze": False, **options}
     figure, axes = pyplot.subplots(len(names), 1, **options)
@@ -43,4 +50,29 @@ def plot(solution: Solution | PhasedSolution, **options: Any) -> Any:
     if len(phases) > 1:
         axes[0, 0].legend()
     axes[-1, 0].set_xlabel("t")
+    return figure
+
+
+def plot_drive(drive: Drive, pyplot: Any, options: dict[str, Any]) -> Any:
+    """The path among the obstacles where these were when the drive ended, and over time what
+    OVER_TIME names."""
+    from matplotlib.patches import Ellipse
+
+    figure = pyplot.figure(**{"layout": "constrained", **options})
+    grid = figure.add_gridspec(len(OVER_TIME), 2)
+    path = figure.add_subplot(grid[:, 0])
+    path.plot(drive.states[:, 0], drive.states[:, 1])
+    for o in drive.scenario.obstacles:
+        centre = (o.x + o.vx * drive.time, o.y + o.vy * drive.time)
+        path.add_patch(Ellipse(centre, 2 * o.a, 2 * o.b, color="C1"))
+    path.plot(drive.scenario.goal.x, drive.scenario.goal.y, "C2*")
+    path.set_aspect("equal", "datalim")
+    path.set_xlabel("x [m]")
+    path.set_ylabel("y [m]")
+    numbers = np.hstack([drive.states, drive.controls])
+    for row, name in enumerate(OVER_TIME):
+        axis = figure.add_subplot(grid[row, 1])
+        axis.plot(drive.t, numbers[:, (*state_names, *control_names).index(name)])
+        axis.set_ylabel(name)
+    axis.set_xlabel("t [s]")
     return figure

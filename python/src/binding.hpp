@@ -74,6 +74,7 @@ void bind_solve(nb::module_& module);
 void bind_judge(nb::module_& module);
 void bind_phases(nb::module_& module);
 void bind_drive(nb::module_& module);
+void bind_scenario(nb::module_& module);
 void bind_planner(nb::module_& module);
 
 }  // namespace slalom::python

@@ -69,6 +69,7 @@ NB_MODULE(_core, module) {
   bind_solve(module);
   bind_judge(module);
   bind_phases(module);
+  bind_scenario(module);
   bind_planner(module);
   bind_drive(module);
 }

@@ -1,33 +1,150 @@
-"""Scenarios and drives from Python are those of the command line."""
+"""Scenarios, planning and drives from Python are those of the command line."""
+
+import os
+import signal
+import threading
 
 import numpy as np
 import pytest
 
 import slalom
 
+MINE = {
+    "start": {"x": 0, "y": 0, "psi_deg": 0, "ux": np.float64(15)},
+    "goal": {"x": 60, "y": 0, "psi_deg": 0, "sigma": 8},
+    "obstacles": [{"name": "lorry", "x": 40, "y": -3, "a": 5, "b": 1.5}],
+    "planner": {"base": "P_D"},
+}
+
 
 def test_a_drive_arrives():
-    assert "E_B" in slalom.scenario_names()
+    assert "E_B" in slalom.scenario_names() and "P_D" in slalom.planner_names()
     drive = slalom.simulate("E_B", planner="P_D")
     assert drive.outcome == "goal"
     assert drive.states.shape == (len(drive.t), len(slalom.state_names))
     assert drive.wheel_loads.shape == (len(drive.t), 4)
-    assert drive.least_clearance > 0
+    assert drive.least_clearance == pytest.approx(drive.clearance.min(), abs=0.05) and drive.hit == ""
     assert drive.states[0, slalom.state_names.index("ux")] == 17
     assert all(np.isfinite(p.states).all() for p in drive.plans)
+    assert [c.index for c in drive.cycles] == list(range(len(drive.cycles)))
+    assert drive.scenario["planner.w_t"] == 100
 
 
-def test_overrides():
+def test_values_of_a_scenario():
     scenario = slalom.load_scenario("E_B", tex=0.25, set={"loop.timeout": 1, "loop.warm_up": False})
-    assert "0.25" in scenario.to_yaml()
+    assert scenario["loop.tex"] == 0.25 and scenario["loop.warm_up"] is False
+    assert scenario["planner.scheme"] == "trapezoidal" and len(scenario["planner.w_s0"]) == 8
+    assert "vehicle.m" in scenario.keys() and dict(scenario)["vehicle.m"] == 2688.7
+    assert len(scenario.obstacles) == 3 and scenario.obstacles[0].vx == -2
+    assert scenario.goal.y == 125 and scenario.start[0] == 200
     drive = slalom.simulate(scenario)
     assert drive.outcome == "timeout" and drive.time == pytest.approx(1)
+    changed = scenario.replace(planner="P_A", set={"obstacles.O1.vx": 3, "goal.x": 7})
+    assert (changed["planner.w_t"], changed.obstacles[0].vx, changed.goal.x) == (0, 3, 7)
+    assert changed["loop.timeout"] == 1 and scenario.goal.x == 200
+    with pytest.raises(KeyError, match="perhaps 'planner.w_t'"):
+        scenario["planner.wt"]
+
+
+def test_a_scenario_as_a_dict_or_a_file(tmp_path):
+    scenario = slalom.load_scenario(MINE, set={"obstacles.lorry.y": -4})
+    assert scenario.obstacles[0].y == -4 and scenario.start[4] == 0
+    file = tmp_path / "mine.yaml"
+    file.write_text(scenario.to_yaml())
+    assert slalom.load_scenario(file).to_yaml().splitlines()[1:] == \
+        slalom.load_scenario(str(file)).to_yaml().splitlines()[1:]
+    assert slalom.simulate(MINE).outcome == "goal"
+
+
+@pytest.mark.parametrize("load, error, message", [
+    (lambda: slalom.load_scenario("E_X"), ValueError, "E_B"),
+    (lambda: slalom.load_scenario("E_B", set={"planner.w_tt": 1}), ValueError, "w_t"),
+    (lambda: slalom.load_scenario("E_B", set={3: 1}), TypeError, "set"),
+    (lambda: slalom.load_scenario({**MINE, "gaol": 1}), ValueError, "goal"),
+    (lambda: slalom.load_scenario({**MINE, "goal": {"x": float("nan"), "y": 0}}), ValueError, "x"),
+    (lambda: slalom.load_scenario({**MINE, "title": object()}), (TypeError, AttributeError), "tolist"),
+    (lambda: slalom.load_scenario(3), TypeError, "load_scenario"),
+    (lambda: slalom.simulate("E_B", tex=-1), ValueError, "tex"),
+    (lambda: slalom.load_scenario("E_B").replace(planner="P_X"), ValueError, "P_X"),
+])
+def test_bad_scenarios(load, error, message):
+    with pytest.raises(error, match=message):
+        load()
+
+
+def test_a_loop_of_ones_own():
+    """Planner and plant, cycle by cycle, come where simulate does: see section 4 of the
+    formulation for the order of steps."""
+    scenario = slalom.load_scenario("E_B", planner="P_D", set={"loop.timeout": 2})
+    drive = slalom.simulate(scenario)
+    planner, plant = slalom.Planner(scenario), slalom.Plant(scenario)
+    state, plan, t, tex = scenario.start, None, 0.0, scenario["loop.tex"]
+    planner.plan(plant.advance(state, plan, t, t + tex), t0=t)  # the warm-up solve
+    while t < drive.time:
+        ahead = plant.advance(state, plan, t, t + tex)
+        new = planner.plan(ahead, t0=t)
+        assert new.solved and new.t_start == t + tex
+        state, plan, t = ahead, new, t + tex
+    np.testing.assert_array_equal(state, drive.states[-1])
+
+
+def test_plans():
+    scenario = slalom.load_scenario("E_B")
+    planner = slalom.Planner(scenario)
+    plan = planner.plan(scenario.start)
+    assert plan.solved and plan.status == "solved" and "interior_point" in plan.backend
+    assert plan.states.shape == (11, 8) and plan.controls.shape == (11, 2)
+    assert plan.t[-1] == pytest.approx(plan.tf)
+    assert sum(plan.cost_terms.values()) == pytest.approx(plan.cost)
+    assert plan.worst_violation < 1e-6
+    assert planner.plan(scenario.start).iterations < plan.iterations
+    planner.reset()
+    assert planner.plan(scenario.start).iterations == plan.iterations
+    planner.reset()
+    assert planner.plan(scenario.start, time_limit=0).status == "time_limit"
+    with pytest.raises(slalom.InvalidValue, match="3 numbers.*state_names"):
+        planner.plan([1, 2, 3])
+    plant = slalom.Plant(scenario)
+    with pytest.raises(slalom.InvalidValue, match="t1 before t0"):
+        plant.advance(scenario.start, plan, 1, 0)
     with pytest.raises(TypeError):
-        slalom.simulate(scenario, tex=1)
+        plant.advance(scenario.start, "plan", 0, 1)
 
 
-def test_bad_scenarios():
-    with pytest.raises(slalom.InvalidValue, match="E_B"):
-        slalom.load_scenario("E_X")
-    with pytest.raises(slalom.InvalidValue, match="w_t"):
-        slalom.load_scenario("E_B", set={"planner.w_tt": 1})
+def test_cycles_are_told_as_they_come():
+    seen = []
+    drive = slalom.simulate("E_B", set={"loop.timeout": 2}, on_cycle=lambda c: seen.append(c.index))
+    assert seen == [c.index for c in drive.cycles]
+
+    def stop(cycle):
+        if cycle.index == 2:
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        slalom.simulate("E_C", on_cycle=stop)
+
+
+def test_interrupt_ends_a_drive():
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            slalom.simulate("E_C")
+
+
+def test_frame_plot_and_files(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    drive = slalom.simulate(MINE)
+    frame = drive.to_frame()
+    drive.write(tmp_path / "out")
+    written = pandas.read_csv(tmp_path / "out" / "plant.csv", index_col=0)
+    assert list(frame.columns) == list(written.columns)
+    np.testing.assert_allclose(frame.to_numpy(), written.to_numpy(), rtol=1e-12, atol=1e-12)
+    with pytest.raises(slalom.Error, match="out"):
+        drive.write(tmp_path / "out")
+    drive.write(tmp_path / "out", force=True)
+    path = drive.plot().axes[0]
+    np.testing.assert_array_equal(path.lines[0].get_xdata(), drive.states[:, 0])
+    assert len(path.patches) == 1

@@ -50,3 +50,14 @@ def refused() -> str:
         return error.found
     except slalom.InvalidValue as error:
         return error.where + error.expected
+
+
+def driven() -> float:
+    scenario = slalom.load_scenario({"start": {"x": 0, "y": 0}}, set={"loop.tex": 0.5})
+    planner, plant = slalom.Planner(scenario), slalom.Plant(scenario)
+    plan = planner.plan(scenario.start, t0=1)
+    ahead: NDArray[np.float64] = plant.advance(scenario.start, plan, 0, scenario["loop.tex"])
+    drive = slalom.simulate(scenario, on_cycle=lambda cycle: print(cycle.plan.status))
+    slalom.simulate(3)  # type: ignore[arg-type]
+    plant.advance(scenario.start, "plan", 0, 1)  # type: ignore[arg-type]
+    return drive.time + (drive.goal_time or 0) + len(ahead)

@@ -210,7 +210,12 @@ sim::Scenario load_scenario(const ScenarioRequest& request) {
 }
 
 sim::Scenario parse_scenario(const std::string& text, const std::string& source) {
-  return Loader({}, source, parse_text(text, source, "a scenario")).load();
+  return parse_scenario(text, {source, std::nullopt, std::nullopt, {}});
+}
+
+sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& request) {
+  const auto& source = request.name_or_file;
+  return Loader(request, source, parse_text(text, source, "a scenario")).load();
 }
 
 }  // namespace slalom::io

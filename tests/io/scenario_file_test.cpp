@@ -169,6 +169,15 @@ TEST(ScenarioFile, YamlReadsBackToTheSameBits) {
   EXPECT_TRUE(std::signbit(odd.start[vehicle::V]));
 }
 
+TEST(ScenarioFile, TextIsReadAsItsFileIs) {
+  const auto text = to_yaml(load("E_B"));
+  expect_same(parse_scenario(text, "text"), load("E_B"));
+  const auto changed = parse_scenario(text, ScenarioRequest{"text", "P_A", 0.25, {"goal.x=7"}});
+  EXPECT_EQ(changed.planner.name, "P_A");
+  EXPECT_EQ(changed.loop.tex, 0.25);
+  EXPECT_EQ(changed.goal.x, 7);
+}
+
 TEST(ScenarioFile, FilesNamedByAScenarioCountFromItsFolder) {
   TemporaryFolder folder;
   std::filesystem::create_directory(folder / "parts");

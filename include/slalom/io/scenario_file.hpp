@@ -23,6 +23,9 @@ sim::Scenario load_scenario(const ScenarioRequest& request);
 
 /// The same for the text of a scenario file that came from `source`.
 sim::Scenario parse_scenario(const std::string& text, const std::string& source);
+/// Likewise, with a request's planner, tex and overrides; its name_or_file says where the text came
+/// from.
+sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& request);
 
 /// The whole scenario as one YAML file that load_scenario reads back to the same bits.
 std::string to_yaml(const sim::Scenario& scenario);

@@ -1,0 +1,167 @@
+#include "slalom/planner/planner.hpp"
+
+#include <limits>
+#include <memory>
+
+#include "binding.hpp"
+#include "scenario.hpp"
+#include "slalom/base/error.hpp"
+#include "slalom/sim/plant.hpp"
+
+namespace slalom::python {
+namespace {
+
+using planner::Plan;
+using sim::Scenario;
+
+vehicle::State state_of(const std::vector<double>& numbers, const char* where) {
+  if (numbers.size() != vehicle::kStates)
+    throw InvalidValue(where, std::to_string(numbers.size()) + " numbers",
+                       std::to_string(vehicle::kStates) + ", those of state_names");
+  vehicle::State state;
+  std::copy(numbers.begin(), numbers.end(), state.begin());
+  return state;
+}
+
+/// A planner with what its scenario says of time.
+struct ScenarioPlanner {
+  planner::Planner planner;
+  double tex;
+
+  explicit ScenarioPlanner(const Scenario& s)
+      : planner(s.planner, s.vehicle, s.goal, s.region, s.obstacles), tex(s.loop.tex) {}
+};
+
+Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
+          std::optional<double> tex, double time_limit, double best_iterate_tol) {
+  planner::Request request;
+  request.X0p = state_of(state, "plan: state");
+  request.t0 = t0;
+  request.tex = tex.value_or(self.tex);
+  request.time_limit = time_limit;
+  request.best_iterate_tol = best_iterate_tol;
+  Released released;
+  request.interrupted = [&released] { return released.interrupted(); };
+  Plan result;
+  {
+    const nb::gil_scoped_release unlock;
+    result = self.planner.plan(request);
+  }
+  released.raise_if_interrupted();
+  return result;
+}
+
+void bind_report(nb::class_<Plan>& type) {
+  type.def_prop_ro(
+          "solved", [](const Plan& p) { return p.report.solved; }, doc::planner_SolveReport_solved)
+      .def_prop_ro(
+          "status", [](const Plan& p) { return p.report.status; }, doc::planner_SolveReport_status)
+      .def_prop_ro(
+          "backend", [](const Plan& p) { return p.report.backend; },
+          doc::planner_SolveReport_backend)
+      .def_prop_ro(
+          "iterations", [](const Plan& p) { return p.report.iterations; }, "Of the solver.")
+      .def_prop_ro(
+          "cost", [](const Plan& p) { return p.report.cost; }, "The sum of the cost terms.")
+      .def_prop_ro(
+          "cost_terms",
+          [](const Plan& p) {
+            ByName<double> terms = nb::borrow<ByName<double>>(nb::dict());
+            for (const auto& [name, value] : p.report.cost_terms) terms[name.c_str()] = value;
+            return terms;
+          },
+          doc::planner_SolveReport_cost_terms)
+      .def_prop_ro(
+          "worst_violation", [](const Plan& p) { return p.report.worst_violation; },
+          doc::planner_SolveReport_worst_violation)
+      .def_prop_ro(
+          "worst_constraint", [](const Plan& p) { return p.report.worst_constraint; },
+          doc::planner_SolveReport_worst_constraint)
+      .def_prop_ro(
+          "stationarity", [](const Plan& p) { return p.report.stationarity; },
+          doc::planner_SolveReport_stationarity)
+      .def_prop_ro(
+          "wall_s", [](const Plan& p) { return p.report.wall_s; },
+          "Seconds by the clock in the solver.")
+      .def_prop_ro(
+          "used_cpu_s", [](const Plan& p) { return p.report.planning_cpu_s; },
+          doc::planner_SolveReport_planning_cpu_s);
+}
+
+void bind_plan(nb::module_& module) {
+  nb::class_<Plan> type(module, "Plan", doc::planner_Plan);
+  type.def_ro("t_start", &Plan::t_start, doc::planner_Plan_t_start)
+      .def_ro("tf", &Plan::tf, doc::planner_Plan_tf)
+      .def_ro("goal_in_range", &Plan::goal_in_range)
+      .def_prop_ro(
+          "t", [](const Plan& p) { return to_numpy(p.t); }, nb::rv_policy::move,
+          doc::planner_Plan_t)
+      .def_prop_ro(
+          "states",
+          [](const Plan& p) {
+            return table(
+                p.states, vehicle::kStates, [](const auto& row) -> const auto& { return row; });
+          },
+          nb::rv_policy::move,
+          "The state at each node, [node, state], in the order of state_names.")
+      .def_prop_ro(
+          "controls",
+          [](const Plan& p) {
+            return table(
+                p.controls, vehicle::kControls, [](const auto& row) -> const auto& { return row; });
+          },
+          nb::rv_policy::move,
+          "The control at each node, [node, control], in the order of control_names.")
+      .def("__repr__", [](const Plan& p) {
+        return "<Plan: " + p.report.status + ", " + std::to_string(p.t.size()) + " nodes>";
+      });
+  bind_report(type);
+}
+
+void bind_plant(nb::module_& module) {
+  using sim::Plant;
+  nb::class_<Plant>(module, "Plant", doc::sim_Plant)
+      .def(
+          "__init__",
+          [](Plant* self, const Scenario& s) {
+            new (self) Plant(s.vehicle, s.loop.plant_tolerance, s.loop.sample_step);
+          },
+          "scenario"_a, "The vehicle of a scenario.")
+      .def(
+          "advance",
+          [](const Plant& plant, const std::vector<double>& state, const Plan* plan, double t0,
+             double t1) {
+            if (!(t1 >= t0))
+              throw InvalidValue("advance", "t1 before t0", "t0 <= t1, absolute times [s]");
+            const auto signal = plan ? sim::ControlSignal(*plan) : sim::ControlSignal();
+            const auto begin = state_of(state, "advance: state");
+            const auto end = [&] {
+              const nb::gil_scoped_release unlock;
+              return plant.predict(begin, signal, t0, t1);
+            }();
+            return to_numpy(std::vector<double>(end.begin(), end.end()));
+          },
+          "state"_a, "plan"_a.none(), "t0"_a, "t1"_a, nb::rv_policy::move,
+          "The state at t1 from that at t0 [s], driven by a plan's controls; without a plan "
+          "straight on at\nconstant speed. Raises Error where the state leaves the model's "
+          "domain.");
+}
+
+}  // namespace
+
+void bind_planner(nb::module_& module) {
+  bind_plan(module);
+  bind_plant(module);
+  nb::class_<ScenarioPlanner>(module, "Planner", doc::planner_Planner)
+      .def(nb::init<const Scenario&>(), "scenario"_a,
+           "The planner of a scenario: its settings, vehicle, goal, region and obstacles.")
+      .def("plan", &plan, "state"_a, nb::kw_only(), "t0"_a = 0.0, "tex"_a = nb::none(),
+           "time_limit"_a = std::numeric_limits<double>::infinity(), "best_iterate_tol"_a = -1.0,
+           "The plan from `state`, that at t0 + tex [s] in the order of state_names; tex is the "
+           "scenario's if\nleft out. A plan whose solve ended otherwise is returned too. "
+           "`time_limit` is of thread time [s].")
+      .def(
+          "reset", [](ScenarioPlanner& self) { self.planner.reset(); }, doc::planner_Planner_reset);
+}
+
+}  // namespace slalom::python

@@ -1,0 +1,164 @@
+#include "scenario.hpp"
+
+#include <functional>
+
+#include "slalom/base/error.hpp"
+#include "slalom/io/scenario_file.hpp"
+#include "solved.hpp"
+
+namespace slalom::python {
+namespace {
+
+using sim::Scenario;
+
+io::ScenarioRequest request_of(const std::string& source, const Changes& changes) {
+  io::ScenarioRequest request{source, changes.planner, changes.tex, {}};
+  for (const auto& [key, value] : changes.set) {
+    // As the command line has it: text, or what Python prints of a number or truth value.
+    const auto text = nb::isinstance<nb::bool_>(value) ? (nb::cast<bool>(value) ? "true" : "false")
+                                                       : nb::cast<std::string>(nb::str(value));
+    request.overrides.push_back(as<std::string>(key, "set", "keys such as 'planner.w_t'") + "=" +
+                                text);
+  }
+  return request;
+}
+
+/// A dict as the text of a file: JSON, which is YAML; arrays and NumPy's numbers by their tolist().
+std::string text_of(const nb::dict& scenario) {
+  const nb::object plain =
+      nb::cpp_function([](const nb::object& value) { return nb::object(value.attr("tolist")()); });
+  return nb::cast<std::string>(
+      nb::module_::import_("json").attr("dumps")(scenario, "default"_a = plain));
+}
+
+/// Calls `visit(prefix, table, settings)` for each of the tables of options.
+template <class Visit>
+void for_tables(const Scenario& s, const Visit& visit) {
+  visit("vehicle.", vehicle::parameter_options(), s.vehicle);
+  visit("planner.", planner::setting_options(), s.planner);
+  visit("loop.", sim::loop_options(), s.loop);
+}
+
+std::vector<std::string> keys(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for_tables(scenario, [&](const char* prefix, const auto& table, const auto&) {
+    for (const auto& entry : table.entries()) names.push_back(prefix + entry.info.name);
+  });
+  return names;
+}
+
+nb::any value(const Scenario& scenario, const std::string& key) {
+  nb::object found;
+  for_tables(scenario, [&](const char* prefix, const auto& table, const auto& settings) {
+    for (const auto& entry : table.entries())
+      if (prefix + entry.info.name == key)
+        std::visit([&](const auto& v) { found = nb::cast(v); }, entry.get(settings));
+  });
+  if (found.is_valid()) return nb::borrow<nb::any>(found);
+  const auto nearest = nearest_name(key, keys(scenario));
+  throw UnknownName(
+      {"scenario", "no value '" + key + "'",
+       nearest.empty() ? "a key such as 'planner.w_t'" : "perhaps '" + nearest + "'"});
+}
+
+void bind_parts(nb::module_& module) {
+  using planner::Goal;
+  using planner::Obstacle;
+  using planner::Region;
+  nb::class_<Goal>(module, "Goal", doc::planner_Goal)
+      .def_ro("x", &Goal::x)
+      .def_ro("y", &Goal::y)
+      .def_ro("psi", &Goal::psi)
+      .def_ro("sigma", &Goal::sigma);
+  nb::class_<Region>(module, "Region", doc::planner_Region)
+      .def_ro("x_min", &Region::x_min)
+      .def_ro("x_max", &Region::x_max)
+      .def_ro("y_min", &Region::y_min)
+      .def_ro("y_max", &Region::y_max);
+  nb::class_<Obstacle>(module, "Obstacle", doc::planner_Obstacle)
+      .def_ro("name", &Obstacle::name)
+      .def_ro("x", &Obstacle::x, doc::planner_Obstacle_x)
+      .def_ro("y", &Obstacle::y, doc::planner_Obstacle_y)
+      .def_ro("a", &Obstacle::a, doc::planner_Obstacle_a)
+      .def_ro("b", &Obstacle::b, doc::planner_Obstacle_b)
+      .def_ro("vx", &Obstacle::vx, doc::planner_Obstacle_vx)
+      .def_ro("vy", &Obstacle::vy, doc::planner_Obstacle_vy);
+}
+
+void bind_class(nb::module_& module) {
+  nb::class_<Scenario>(module, "Scenario", doc::sim_Scenario)
+      .def_ro("name", &Scenario::name)
+      .def_ro("title", &Scenario::title)
+      .def_prop_ro(
+          "start",
+          [](const Scenario& s) {
+            return to_numpy(std::vector<double>(s.start.begin(), s.start.end()));
+          },
+          nb::rv_policy::move, "The state at the start, in the order of state_names.")
+      .def_ro("goal", &Scenario::goal)
+      .def_ro("region", &Scenario::region)
+      .def_prop_ro(
+          "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
+      .def("keys", &keys, "Keys of the vehicle's, planner's and loop's values.")
+      .def("__getitem__", &value, "key"_a, "A value by its key, such as \"planner.w_t\".")
+      .def(
+          "replace",
+          [](const Scenario& s, const std::optional<std::string>& planner,
+             std::optional<double> tex, const ByName<nb::any>& set) {
+            return scenario_of(s, {planner, tex, set});
+          },
+          nb::kw_only(), "planner"_a = nb::none(), "tex"_a = nb::none(), "set"_a = nb::dict(),
+          "The scenario with another planner, execution horizon [s] or other values by key, "
+          "checked anew.")
+      .def(
+          "to_yaml", [](const Scenario& s) { return io::to_yaml(s); }, doc::io_to_yaml)
+      .def("__repr__", [](const Scenario& s) {
+        return "<Scenario " + s.name + ": " + std::to_string(s.obstacles.size()) +
+               " obstacles, planner " + s.planner.name + ">";
+      });
+}
+
+template <class List>
+std::vector<std::string> names_of(const List& files) {
+  std::vector<std::string> names;
+  for (const auto& each : files) names.push_back(each.name);
+  return names;
+}
+
+}  // namespace
+
+Scenario scenario_of(const ScenarioChoice& choice, const Changes& changes) {
+  if (const auto* loaded = std::get_if<Scenario>(&choice)) {
+    if (changes.none()) return *loaded;
+    return io::parse_scenario(io::to_yaml(*loaded),
+                              request_of("scenario " + loaded->name, changes));
+  }
+  if (const auto* dictionary = std::get_if<ByName<nb::any>>(&choice))
+    return io::parse_scenario(text_of(*dictionary), request_of("scenario", changes));
+  return io::load_scenario(request_of(std::get<std::filesystem::path>(choice).string(), changes));
+}
+
+void bind_scenario(nb::module_& module) {
+  bind_parts(module);
+  bind_class(module);
+  module.def(
+      "load_scenario",
+      [](const ScenarioChoice& scenario, const std::optional<std::string>& planner,
+         std::optional<double> tex, const ByName<nb::any>& set) {
+        return scenario_of(scenario, {planner, tex, set});
+      },
+      "scenario"_a, nb::kw_only(), "planner"_a = nb::none(), "tex"_a = nb::none(),
+      "set"_a = nb::dict(),
+      "Reads and checks a scenario: that of a built-in name, of a file, or a dict with a file's "
+      "keys.\n`planner` is a built-in planner's name or a file, `tex` the execution horizon [s], "
+      "`set` changes\nvalues by key, such as {\"planner.w_t\": 50}. Raises InvalidValue with file, "
+      "line and column, what\nwas found and what was expected.");
+  module.def(
+      "scenario_names", [] { return names_of(io::built_in_scenarios()); },
+      "The names of the built-in scenarios.");
+  module.def(
+      "planner_names", [] { return names_of(io::built_in_planners()); },
+      "The names of the built-in planners.");
+}
+
+}  // namespace slalom::python
