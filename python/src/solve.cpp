@@ -68,19 +68,18 @@ RefinedAnswer refine(const Problem& problem, double tolerance, const std::string
   auto keywords = kKeywords;
   for (const char* each : {"tolerance", "refinement", "max_meshes", "max_size", "min_points"})
     keywords.emplace_back(each);
-  ocp::RefineSettings settings;
-  settings.start =
+  auto start =
       settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options, keywords);
-  settings.tolerance = tolerance;
-  settings.refinement = refinement_of(refinement);
-  settings.max_meshes = max_meshes;
-  settings.max_size = max_size;
-  settings.min_points = min_points;
-  settings.max_points = max_points;
+  const ocp::RefineRules rules{.tolerance = tolerance,
+                               .refinement = refinement_of(refinement),
+                               .max_meshes = max_meshes,
+                               .max_size = max_size,
+                               .min_points = min_points,
+                               .max_points = max_points};
   RefinedAnswer refined;
   refined.solution.problem = std::make_shared<const Problem>(problem);
   std::tie(refined.answer, refined.solution.elapsed_s) = run_released(
-      settings.start.options, [&] { return ocp::refine(*refined.solution.problem, settings); });
+      start.options, [&] { return ocp::refine(*refined.solution.problem, start, rules); });
   refined.solution.answer = std::move(refined.answer.solution);
   forget_stop(refined.solution.answer.options);
   return refined;
@@ -123,7 +122,7 @@ void bind_refined(nb::module_& module) {
 }
 
 void bind_refine(nb::class_<Problem>& type) {
-  const ocp::RefineSettings defaults;
+  const ocp::RefineRules defaults;
   type.def("refine", &refine, nb::kw_only(), "tolerance"_a = defaults.tolerance,
            "refinement"_a = "h", "max_meshes"_a = defaults.max_meshes,
            "max_size"_a = defaults.max_size, "min_points"_a = defaults.min_points,

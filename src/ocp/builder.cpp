@@ -24,6 +24,7 @@ void add_lifts(Draft& draft) {
                                      Bounds::equal(0), scale);
       draft.linear.push_back({row, layout.state(point, i), 1});
       draft.linear.push_back({row, lifted, -1});
+      draft.out.copies.emplace_back(row, lifted);
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "batch.hpp"
@@ -57,9 +58,10 @@ struct Transcribed {
   /// [(defect * states + state) * intervals + interval]: its row; kNone where the interval's scheme
   /// has not so many defects.
   std::vector<std::size_t> defect_rows;
-  std::size_t defect_begin = 0, defect_end = 0;  ///< all rows of defects
-  std::vector<RowOrigin> origins;                ///< one a row
-  std::vector<Excess> excesses;                  ///< in order of their rows
+  std::size_t defect_begin = 0, defect_end = 0;             ///< all rows of defects
+  std::vector<RowOrigin> origins;                           ///< one a row
+  std::vector<std::pair<std::size_t, std::size_t>> copies;  ///< row and lifted variable
+  std::vector<Excess> excesses;                             ///< in order of their rows
   /// Batch 0 has rates and integrands at all points with states; for controls held over their
   /// intervals, `ends` has them at the intervals' ends with the control of before; `midpoints` at
   /// those of compressed intervals. kNone where there are none.

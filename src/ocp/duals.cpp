@@ -134,14 +134,14 @@ void sort_by_point(List& list) {
   }
 }
 
+}  // namespace
+
 std::string name_of(const Problem& problem, RowOrigin origin) {
   const auto& row = problem.constraints()[origin.constraint];
   return row.kind == Problem::Kind::family
              ? fmt::format("{}[{}]", row.name, row.members[origin.member])
              : row.name;
 }
-
-}  // namespace
 
 std::vector<Multipliers> multipliers(const Problem& problem, const Transcribed& data,
                                      const nlp::Start& point) {

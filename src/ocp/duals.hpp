@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "builder.hpp"
@@ -12,6 +13,8 @@ namespace slalom::ocp {
 /// the point.
 std::vector<std::vector<double>> costates(const Transcribed& data, std::span<const double> y,
                                           const nlp::Evaluation& at);
+/// Of a constraint's rows: "name", or "family[member]".
+std::string name_of(const Problem& problem, RowOrigin origin);
 std::vector<Multipliers> multipliers(const Problem& problem, const Transcribed& data,
                                      const nlp::Start& point);
 std::vector<Excesses> excesses(const Problem& problem, const Transcribed& data,

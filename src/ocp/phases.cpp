@@ -104,6 +104,19 @@ class Links {
     for (std::size_t i = 0; i < inputs_.size(); ++i) evaluator_->set_variable(i, &inputs_[i], true);
   }
 
+  /// 1 over the largest slope of each link by a scaled variable, where these are at their units.
+  std::vector<double> row_scales() {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i] = scales_[i];
+    evaluator_->evaluate({.values = true, .jacobian = true});
+    std::vector<double> most(function_.outputs(), 0.0);
+    for (std::size_t e = 0; e < function_.jacobian_pattern().size(); ++e) {
+      const auto [row, col] = function_.jacobian_pattern()[e];
+      most[row] = std::max(most[row], std::fabs(evaluator_->jacobian()[e]) * scales_[col]);
+    }
+    for (double& scale : most) scale = std::isfinite(scale) && scale > 0 ? 1 / scale : 1;
+    return most;
+  }
+
   const expr::Function& function() const { return function_; }
   std::size_t variable(std::size_t i) const { return variables_[i]; }
   double scale(std::size_t i) const { return scales_[i]; }
@@ -161,7 +174,8 @@ class PhasedTranscription::Impl {
       take_over(p, parts, out);
     }
     const auto links = y.empty() ? y : y.subspan(first_link);
-    links_->evaluate(x, links, parts);
+    for (std::size_t l = 0; l < links.size(); ++l) link_weights_[l] = links[l] * link_scale_[l];
+    links_->evaluate(x, link_weights_, parts);
     add_results(parts, out);
     return check_links(parts, out);
   }
@@ -238,6 +252,8 @@ class PhasedTranscription::Impl {
 
   void add_links() {
     const expr::Function& f = links_->function();
+    link_scale_ = links_->row_scales();
+    link_weights_.resize(link_scale_.size());
     structure.rows = first_link + problem_.links().size();
     std::vector<std::size_t> stage(problem_.links().size(), structure.stages);
     for (const auto& entry : f.jacobian_pattern()) {
@@ -249,9 +265,9 @@ class PhasedTranscription::Impl {
     }
     for (std::size_t l = 0; l < problem_.links().size(); ++l) {
       structure.row_stage.push_back(narrow(stage[l]));
-      structure.row_scale.push_back(1);
-      limits.gl.push_back(problem_.links()[l].bounds.lower);
-      limits.gu.push_back(problem_.links()[l].bounds.upper);
+      structure.row_scale.push_back(link_scale_[l]);
+      limits.gl.push_back(problem_.links()[l].bounds.lower * link_scale_[l]);
+      limits.gu.push_back(problem_.links()[l].bounds.upper * link_scale_[l]);
     }
     std::unordered_map<std::uint64_t, std::size_t> known;
     const auto key = [](std::size_t row, std::size_t col) {
@@ -303,12 +319,14 @@ class PhasedTranscription::Impl {
     const expr::Evaluator& at = links_->results();
     const expr::Function& f = links_->function();
     if (parts.values)
-      std::copy(at.values().begin(), at.values().end(),
-                out.rows.begin() + static_cast<std::ptrdiff_t>(first_link));
+      for (std::size_t l = 0; l < link_scale_.size(); ++l)
+        out.rows[first_link + l] = at.values()[l] * link_scale_[l];
     if (parts.derivatives)
-      for (std::size_t e = 0; e < f.jacobian_pattern().size(); ++e)
+      for (std::size_t e = 0; e < f.jacobian_pattern().size(); ++e) {
+        const auto [row, col] = f.jacobian_pattern()[e];
         out.jacobian[links_jacobian_ + e] =
-            at.jacobian()[e] * links_->scale(f.jacobian_pattern()[e].col);
+            at.jacobian()[e] * links_->scale(col) * link_scale_[row];
+      }
     if (parts.hessian)
       for (std::size_t e = 0; e < f.hessian_pattern().size(); ++e) {
         const auto& entry = f.hessian_pattern()[e];
@@ -336,6 +354,7 @@ class PhasedTranscription::Impl {
 
   std::vector<Offsets> offsets_;
   std::optional<Links> links_;
+  std::vector<double> link_scale_, link_weights_;
   std::size_t links_jacobian_ = 0;          ///< first entry of the links' Jacobian
   std::vector<std::size_t> links_hessian_;  ///< place of each entry of the links' Hessian
   std::vector<nlp::Evaluation> at_;         ///< of each phase

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "slalom/base/error.hpp"
-#include "slalom/ocp/interpolant.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -25,25 +24,27 @@ int points_of(const Scheme& scheme) {
   return static_cast<int>(scheme.points.size()) - (scheme.name == "lgl" ? 0 : 1);
 }
 
-void check(const Problem& problem, const RefineSettings& settings) {
-  const std::string where = problem.name() + ": refinement: ";
+void check(const std::string& problem, const RefineRules& rules,
+           const std::vector<PhasedTranscription::Grid>& grids) {
+  const std::string where = problem + ": refinement: ";
   const auto at_least = [&](const char* name, int value, int least) {
     if (value < least)
       throw InvalidValue(where + name, std::to_string(value), fmt::format("at least {}", least));
   };
-  if (!(settings.tolerance > 0 && settings.tolerance < 1))
-    throw InvalidValue(where + "tolerance", fmt::format("{}", settings.tolerance),
+  if (!(rules.tolerance > 0 && rules.tolerance < 1))
+    throw InvalidValue(where + "tolerance", fmt::format("{}", rules.tolerance),
                        "a number > 0 and < 1");
-  at_least("max_meshes", settings.max_meshes, 1);
-  at_least("max_size", settings.max_size, 2);
-  at_least("min_points", settings.min_points, 2);
-  at_least("max_points", settings.max_points, settings.min_points);
-  settings.start.scheme.check(settings.start.mesh);
-  if (settings.refinement == Refinement::h) return;
-  for (std::size_t k = 0; k < settings.start.mesh.intervals(); ++k)
-    if (!has_degrees(settings.start.scheme.of(k)))
-      throw InvalidValue(where + "hp", "the scheme " + settings.start.scheme.of(k).name,
-                         "lgr, lgr_differential or lgl, which have degrees");
+  at_least("max_meshes", rules.max_meshes, 1);
+  at_least("max_size", rules.max_size, 2);
+  at_least("min_points", rules.min_points, 2);
+  at_least("max_points", rules.max_points, rules.min_points);
+  for (const auto& grid : grids) {
+    grid.schemes.check(grid.mesh);
+    for (std::size_t k = 0; k < grid.mesh.intervals() && rules.refinement == Refinement::hp; ++k)
+      if (!has_degrees(grid.schemes.of(k)))
+        throw InvalidValue(where + "hp", "the scheme " + grid.schemes.of(k).name,
+                           "lgr, lgr_differential or lgl, which have degrees");
+  }
 }
 
 /// What becomes of an interval: equal pieces, each by `scheme`.
@@ -61,55 +62,154 @@ Fate cut(const Scheme& scheme, double excess) {
 
 /// Patterson, Hager & Rao 2015, eq. 36 to 38: the error falls by the number of points for each
 /// point more.
-Fate raise(const Scheme& scheme, double excess, const RefineSettings& settings) {
+Fate raise(const Scheme& scheme, double excess, const RefineRules& rules) {
   const int now = points_of(scheme);
   const double more = std::max(1.0, std::ceil(std::log(excess) / std::log(std::max(now, 2))));
-  if (now + more <= settings.max_points)
+  if (now + more <= rules.max_points)
     return {1, ocp::scheme(scheme.name, now + static_cast<int>(more))};
-  const double pieces = std::ceil(std::min(now + more, 1e3) / settings.min_points);
+  const double pieces = std::ceil(std::min(now + more, 1e3) / rules.min_points);
   return {std::clamp(static_cast<int>(pieces), 2, kMostPieces),
-          ocp::scheme(scheme.name, settings.min_points)};
+          ocp::scheme(scheme.name, rules.min_points)};
 }
 
-struct Grid {
-  Mesh mesh;
-  Schemes schemes;
-  std::size_t points;
-};
-
-Grid next_grid(const Solution& solution, const ErrorEstimate& errors,
-               const RefineSettings& settings) {
+PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimate& errors,
+                                    const RefineRules& rules) {
   const auto& breaks = solution.mesh.breakpoints();
   std::vector<double> next{0};
   std::vector<Scheme> schemes;
-  std::size_t points = 1;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const Scheme& scheme = solution.scheme.of(k);
-    const double excess = errors.interval[k] / settings.tolerance;
-    const Fate fate = excess <= 1                            ? Fate{1, scheme}
-                      : settings.refinement == Refinement::h ? cut(scheme, excess)
-                                                             : raise(scheme, excess, settings);
+    const double excess = errors.interval[k] / rules.tolerance;
+    const Fate fate = excess <= 1                         ? Fate{1, scheme}
+                      : rules.refinement == Refinement::h ? cut(scheme, excess)
+                                                          : raise(scheme, excess, rules);
     for (int piece = 1; piece <= fate.pieces; ++piece) {
       const double share = static_cast<double>(piece) / fate.pieces;
       next.push_back(piece == fate.pieces ? breaks[k + 1]
                                           : breaks[k] + share * (breaks[k + 1] - breaks[k]));
       schemes.push_back(fate.scheme);
-      points += fate.scheme.points.size() - 1;
     }
   }
-  return {Mesh(std::move(next)), Schemes(std::move(schemes)), points};
+  return {Mesh(std::move(next)), Schemes(std::move(schemes))};
 }
 
-MeshRecord record_of(const Solution& solution) {
+std::size_t points(const PhasedTranscription::Grid& grid) {
+  std::size_t count = 1;
+  for (std::size_t k = 0; k < grid.mesh.intervals(); ++k)
+    count += grid.schemes.of(k).points.size() - 1;
+  return count;
+}
+
+/// One phase's solves.
+class Single {
+ public:
+  using Answer = Solution;
+  Single(const Problem& problem, SolveSettings settings)
+      : problem_(problem), settings_(std::move(settings)) {}
+
+  const std::string& name() const { return problem_.name(); }
+  std::vector<PhasedTranscription::Grid> grids() const {
+    return {{settings_.mesh, settings_.scheme}};
+  }
+  Solution solve() const { return ocp::solve(problem_, settings_); }
+  static std::vector<const Solution*> phases(const Solution& solution) { return {&solution}; }
+  const Problem& problem(std::size_t) const { return problem_; }
+  std::string phase_name(std::size_t) const { return ""; }
+  void next(std::vector<PhasedTranscription::Grid> grids, const Solution& previous) {
+    settings_.mesh = std::move(grids[0].mesh);
+    settings_.scheme = std::move(grids[0].schemes);
+    settings_.previous = &previous;
+  }
+
+ private:
+  const Problem& problem_;
+  SolveSettings settings_;
+};
+
+/// Those of several phases.
+class Several {
+ public:
+  using Answer = PhasedSolution;
+  Several(const PhasedProblem& problem, PhasedSettings settings)
+      : problem_(problem), settings_(std::move(settings)) {
+    if (settings_.grids.empty()) settings_.grids.resize(problem.phases().size());
+  }
+
+  const std::string& name() const { return problem_.name(); }
+  const std::vector<PhasedTranscription::Grid>& grids() const { return settings_.grids; }
+  PhasedSolution solve() const { return ocp::solve(problem_, settings_); }
+  static std::vector<const Solution*> phases(const PhasedSolution& solution) {
+    std::vector<const Solution*> list;
+    for (const auto& phase : solution.phases) list.push_back(&phase);
+    return list;
+  }
+  const Problem& problem(std::size_t phase) const { return problem_.phases()[phase]; }
+  const std::string& phase_name(std::size_t phase) const { return problem_.phases()[phase].name(); }
+  void next(std::vector<PhasedTranscription::Grid> grids, const PhasedSolution& previous) {
+    settings_.grids = std::move(grids);
+    settings_.previous = &previous;
+  }
+
+ private:
+  const PhasedProblem& problem_;
+  PhasedSettings settings_;
+};
+
+template <class Solves>
+MeshRecord record_of(const typename Solves::Answer& answer) {
   MeshRecord record;
-  record.intervals = solution.mesh.intervals();
-  record.points = solution.trajectory.tau.size();
-  record.status = solution.status;
-  record.iterations = solution.iterations;
-  record.wall_s = solution.wall_s;
-  record.objective = solution.objective;
+  for (const Solution* phase : Solves::phases(answer)) {
+    record.intervals += phase->mesh.intervals();
+    record.points += phase->trajectory.tau.size();
+  }
+  record.status = answer.status;
+  record.iterations = answer.iterations;
+  record.wall_s = answer.wall_s;
+  record.objective = answer.objective;
   record.largest_error = kInfinity;
   return record;
+}
+
+template <class Solves>
+std::vector<ErrorEstimate> judge(const Solves& solves, const typename Solves::Answer& answer,
+                                 MeshRecord& record) {
+  std::vector<ErrorEstimate> errors;
+  const auto phases = Solves::phases(answer);
+  record.largest_error = -1;
+  for (std::size_t p = 0; p < phases.size(); ++p) {
+    errors.push_back(estimate_errors(solves.problem(p), *phases[p]));
+    if (errors[p].largest <= record.largest_error) continue;
+    record.largest_error = errors[p].largest;
+    record.worst_phase = solves.phase_name(p);
+    record.worst_interval = errors[p].worst;
+  }
+  return errors;
+}
+
+/// Fills `answer`, `errors` and `meshes`.
+template <class Solves>
+RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answer& answer,
+                 std::vector<ErrorEstimate>& errors, std::vector<MeshRecord>& meshes) {
+  check(solves.name(), rules, solves.grids());
+  for (int mesh = 1;; ++mesh) {
+    auto now = solves.solve();
+    MeshRecord& record = meshes.emplace_back(record_of<Solves>(now));
+    const bool solved = now.solved();
+    if (solved || mesh == 1) answer = std::move(now);
+    if (!solved) return RefineStatus::not_solved;
+    errors = judge(solves, answer, record);
+    if (record.largest_error <= rules.tolerance) return RefineStatus::converged;
+    if (mesh == rules.max_meshes) return RefineStatus::mesh_limit;
+    std::vector<PhasedTranscription::Grid> grids;
+    std::size_t size = 0;
+    const auto phases = Solves::phases(answer);
+    for (std::size_t p = 0; p < phases.size(); ++p) {
+      grids.push_back(next_grid(*phases[p], errors[p], rules));
+      size += points(grids.back());
+    }
+    if (size > static_cast<std::size_t>(rules.max_size)) return RefineStatus::size_limit;
+    solves.next(std::move(grids), answer);
+  }
 }
 
 }  // namespace
@@ -128,53 +228,32 @@ const char* to_string(RefineStatus status) {
   return "unknown";
 }
 
-std::string Refined::table() const {
+std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status) {
   std::string text = "mesh  intervals  points  status  iterations  solve [s]  objective  error\n";
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const MeshRecord& mesh = meshes[m];
-    text += fmt::format("{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {:.2e} in interval {}\n", m + 1,
+    text += fmt::format("{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {:.2e} in interval {}{}\n", m + 1,
                         mesh.intervals, mesh.points, nlp::to_string(mesh.status), mesh.iterations,
-                        mesh.wall_s, mesh.objective, mesh.largest_error, mesh.worst_interval);
+                        mesh.wall_s, mesh.objective, mesh.largest_error, mesh.worst_interval,
+                        mesh.worst_phase.empty() ? "" : " of " + mesh.worst_phase);
   }
   return text + to_string(status) + "\n";
 }
 
-Refined refine(const Problem& problem, const RefineSettings& settings) {
-  check(problem, settings);
+Refined refine(const Problem& problem, const SolveSettings& start, const RefineRules& rules) {
   Refined result;
-  SolveSettings now = settings.start;
-  for (int mesh = 1;; ++mesh) {
-    Solution solution = solve(problem, now);
-    MeshRecord& record = result.meshes.emplace_back(record_of(solution));
-    if (!solution.solved()) {
-      if (mesh == 1) result.solution = std::move(solution);
-      result.status = RefineStatus::not_solved;
-      return result;
-    }
-    result.solution = std::move(solution);
-    result.errors = estimate_errors(problem, result.solution);
-    record.largest_error = result.errors.largest;
-    record.worst_interval = result.errors.worst;
-    if (record.largest_error <= settings.tolerance) {
-      result.status = RefineStatus::converged;
-      return result;
-    }
-    if (mesh == settings.max_meshes) {
-      result.status = RefineStatus::mesh_limit;
-      return result;
-    }
-    const Grid next = next_grid(result.solution, result.errors, settings);
-    if (next.points > static_cast<std::size_t>(settings.max_size)) {
-      result.status = RefineStatus::size_limit;
-      return result;
-    }
-    const Interpolant polynomials(problem, result.solution.trajectory, result.solution.mesh,
-                                  result.solution.scheme);
-    now.guess = polynomials.resampled(next.mesh, next.schemes);
-    now.mesh = next.mesh;
-    now.scheme = next.schemes;
-    now.warm_start = {};
-  }
+  std::vector<ErrorEstimate> errors;
+  result.status = run(Single(problem, start), rules, result.solution, errors, result.meshes);
+  if (!errors.empty()) result.errors = std::move(errors.front());
+  return result;
+}
+
+PhasedRefined refine(const PhasedProblem& problem, const PhasedSettings& start,
+                     const RefineRules& rules) {
+  PhasedRefined result;
+  result.status =
+      run(Several(problem, start), rules, result.solution, result.errors, result.meshes);
+  return result;
 }
 
 }  // namespace slalom::ocp

@@ -1,10 +1,13 @@
 #include "slalom/ocp/solve.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "objective_scale.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
+#include "slalom/ocp/interpolant.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "start_guess.hpp"
@@ -84,6 +87,7 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
   solution.cost_terms = transcription.cost_terms(point.x);
   solution.trajectory = transcription.trajectory(point.x);
   solution.costates = transcription.costates(point.x, point.y);
+  solution.collocated_costates = transcription.collocated_costates(point.y);
   solution.multipliers = transcription.multipliers(point);
   solution.excesses = transcription.excesses(point.x);
   solution.state_names = names_of(problem.states());
@@ -109,18 +113,12 @@ nlp::Start from_user(nlp::Start point, const nlp::Structure& shape) {
   return point;
 }
 
-/// Solves and checks; `solution` is of one phase or of several. The NLP's answer, in its own units,
-/// is returned.
+/// Solves and checks from a start in the NLP's units, with multipliers or without; `solution` is of
+/// one phase or of several. The NLP's answer, in its own units, is returned.
 template <class Result>
 nlp::Start run(nlp::Problem& problem, const std::string& backend, nlp::Options options,
-               const nlp::Start& warm_start, const std::vector<double>& guess,
-               const std::vector<char>& regular, Result& solution) {
-  nlp::Start start;
-  options.warm_start = !warm_start.x.empty();
-  if (options.warm_start)
-    start = from_user(warm_start, problem.structure());
-  else
-    start.x = guess;
+               const nlp::Start& start, const std::vector<char>& regular, Result& solution) {
+  options.warm_start = !start.y.empty();
   nlp::Answer answer = solve_scaled(problem, *nlp::make_solver(backend), start, options, regular);
   solution.status = answer.status;
   solution.fault = answer.fault;
@@ -134,23 +132,56 @@ nlp::Start run(nlp::Problem& problem, const std::string& backend, nlp::Options o
   return std::move(answer.point);
 }
 
-/// The guess that a solve starts from, checked.
-Trajectory start_of(const Problem& problem, const Trajectory& guess) {
-  if (guess.tau.empty()) return straight_guess(problem);
+/// What one phase starts from.
+struct Beginning {
+  Trajectory guess;
+  std::optional<Duals> duals;
+};
+
+Beginning begin(const Problem& problem, const PhasedTranscription::Grid& grid,
+                const Trajectory& guess, const Solution* previous) {
+  if (previous != nullptr) {
+    const Interpolant polynomials(problem, previous->trajectory, previous->mesh, previous->scheme);
+    return {polynomials.resampled(grid.mesh, grid.schemes),
+            Duals{previous->trajectory.tau, previous->collocated_costates, previous->multipliers}};
+  }
+  if (guess.tau.empty()) return {straight_guess(problem), {}};
   check_guess(guess, problem);
-  return guess;
+  return {guess, {}};
+}
+
+nlp::Start start_of(Transcription& transcription, const Beginning& beginning) {
+  if (beginning.duals) return transcription.carried(beginning.guess, *beginning.duals);
+  return {transcription.point(beginning.guess), {}, {}, {}};
+}
+
+void append(const nlp::Start& part, nlp::Start& whole) {
+  for (auto list : {&nlp::Start::x, &nlp::Start::y, &nlp::Start::zl, &nlp::Start::zu})
+    (whole.*list).insert((whole.*list).end(), (part.*list).begin(), (part.*list).end());
+}
+
+/// One entry a phase, or none for defaults.
+template <class List>
+void check_count(const PhasedProblem& problem, const char* what, const List& list) {
+  if (!list.empty() && list.size() != problem.phases().size())
+    throw InvalidValue(problem.name() + ": " + what, std::to_string(list.size()),
+                       std::to_string(problem.phases().size()) + ", one a phase, or none");
 }
 
 }  // namespace
 
 Solution solve(const Problem& problem, const SolveSettings& settings) {
-  const Trajectory guess = start_of(problem, settings.guess);
-  const Problem scaled = with_scales(problem, guess);
+  const PhasedTranscription::Grid grid{settings.mesh, settings.scheme};
+  const Beginning beginning = begin(problem, grid, settings.guess, settings.previous);
+  const Problem scaled = with_scales(problem, beginning.guess);
   Transcription transcription(scaled, settings.mesh, settings.scheme);
+  const bool warm = settings.previous == nullptr && !settings.warm_start.x.empty();
+  const nlp::Start start = warm ? from_user(settings.warm_start, transcription.structure())
+                                : start_of(transcription, beginning);
   Solution solution;
-  const auto point = run(transcription, settings.backend, settings.options, settings.warm_start,
-                         transcription.point(guess), transcription.regular_variables(), solution);
-  describe(scaled, {settings.mesh, settings.scheme}, transcription, point, solution);
+  const auto point = run(transcription, settings.backend, settings.options, start,
+                         transcription.regular_variables(), solution);
+  describe(scaled, grid, transcription, point, solution);
   return solution;
 }
 
@@ -158,28 +189,36 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
   const std::size_t phases = problem.phases().size();
   auto grids = settings.grids;
   if (grids.empty()) grids.resize(phases);
-  if (!settings.guesses.empty() && settings.guesses.size() != phases)
-    throw InvalidValue(problem.name() + ": guesses", std::to_string(settings.guesses.size()),
-                       std::to_string(phases) + ", one a phase, or none");
-  std::vector<Trajectory> guesses;
+  check_count(problem, "guesses", settings.guesses);
+  const PhasedSolution* previous = settings.previous;
+  if (previous != nullptr)
+    check_count(problem, "phases of the previous solution", previous->phases);
+  std::vector<Beginning> beginnings;
   PhasedProblem scaled = problem;
-  for (std::size_t p = 0; p < phases; ++p) {
-    guesses.push_back(start_of(problem.phases()[p],
-                               settings.guesses.empty() ? Trajectory{} : settings.guesses[p]));
-    scaled.replace(p, with_scales(problem.phases()[p], guesses[p]));
+  for (std::size_t p = 0; p < phases && p < grids.size(); ++p) {
+    beginnings.push_back(begin(problem.phases()[p], grids[p],
+                               settings.guesses.empty() ? Trajectory{} : settings.guesses[p],
+                               previous == nullptr ? nullptr : &previous->phases[p]));
+    scaled.replace(p, with_scales(problem.phases()[p], beginnings[p].guess));
   }
   PhasedTranscription transcription(scaled, grids);
-  std::vector<double> guess;
+  nlp::Start start;
   std::vector<char> regular;
   for (std::size_t p = 0; p < phases; ++p) {
-    const auto part = transcription.phase(p).point(guesses[p]);
-    guess.insert(guess.end(), part.begin(), part.end());
+    append(start_of(transcription.phase(p), beginnings[p]), start);
     const auto counts = transcription.phase(p).regular_variables();
     regular.insert(regular.end(), counts.begin(), counts.end());
   }
+  const auto& row_scale = transcription.structure().row_scale;
+  if (previous != nullptr)
+    for (std::size_t l = 0; l < problem.links().size(); ++l)
+      start.y.push_back(previous->link_multipliers.at(l).second /
+                        row_scale[transcription.first_link() + l]);
+  else if (!settings.warm_start.x.empty())
+    start = from_user(settings.warm_start, transcription.structure());
   PhasedSolution solution;
-  const auto point = run(transcription, settings.backend, settings.options, settings.warm_start,
-                         guess, regular, solution);
+  const auto point =
+      run(transcription, settings.backend, settings.options, start, regular, solution);
   for (std::size_t p = 0; p < phases; ++p) {
     Solution& part = solution.phases.emplace_back();
     describe(scaled.phases()[p], grids[p], transcription.phase(p), transcription.part_of(p, point),
@@ -192,9 +231,10 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
     part.wall_s = solution.wall_s;
     for (const auto& term : part.cost_terms) part.objective += term.second;
   }
-  for (std::size_t l = 0; l < problem.links().size(); ++l)
-    solution.link_multipliers.emplace_back(problem.links()[l].name,
-                                           point.y[transcription.first_link() + l]);
+  for (std::size_t l = 0; l < problem.links().size(); ++l) {
+    const std::size_t row = transcription.first_link() + l;
+    solution.link_multipliers.emplace_back(problem.links()[l].name, point.y[row] * row_scale[row]);
+  }
   return solution;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "builder.hpp"
+#include "carry.hpp"
 #include "duals.hpp"
 #include "model.hpp"
 #include "slalom/base/error.hpp"
@@ -83,8 +84,8 @@ void fill_midpoints(const Problem& problem, const Layout& layout, Trajectory& tr
 
 class Transcription::Impl {
  public:
-  Impl(const ocp::Problem& p, const Mesh& mesh, const Schemes& schemes)
-      : problem(p), symbols(problem), data(transcribe(p, mesh, schemes)) {
+  Impl(const ocp::Problem& p, const Mesh& mesh, const Schemes& s)
+      : problem(p), schemes(s), symbols(problem), data(transcribe(p, mesh, schemes)) {
     terms.resize(data.terms.size());
   }
 
@@ -141,6 +142,7 @@ class Transcription::Impl {
   }
 
   ocp::Problem problem;
+  Schemes schemes;
   Symbols symbols;  ///< of `problem`
   Transcribed data;
   std::vector<double> terms;
@@ -238,6 +240,34 @@ std::vector<std::vector<double>> Transcription::costates(std::span<const double>
   nlp::Evaluation at;
   evaluate(x, 1, {}, {.values = true, .derivatives = true}, at);
   return ocp::costates(impl_->data, y, at);
+}
+
+CollocatedCostates Transcription::collocated_costates(std::span<const double> y) const {
+  return ocp::collocated_costates(impl_->data, impl_->schemes, y);
+}
+
+nlp::Start Transcription::carried(const Trajectory& guess, const Duals& duals) {
+  const Transcribed& data = impl_->data;
+  nlp::Start start;
+  start.x = point(guess);
+  nlp::Evaluation at;
+  evaluate(start.x, 1, {}, {.values = true}, at);
+  for (const Excess& excess : data.excesses) {
+    const double value = at.rows[excess.row], unit = 1 / data.structure.row_scale[excess.row];
+    const auto set = [&](std::size_t variable, double beyond) {
+      if (variable != kNone)
+        start.x[variable] = beyond * unit / data.structure.variable_scale[variable];
+    };
+    const double above = value - data.limits.gu[excess.row];
+    const double below = data.limits.gl[excess.row] - value;
+    const bool both_signs = excess.below == kNone && data.limits.xl[excess.above] < 0;
+    set(excess.above, both_signs && below > 0 ? -below : std::max(above, 0.0));
+    set(excess.below, std::max(below, 0.0));
+  }
+  carry_multipliers(impl_->problem, data, impl_->schemes, duals, start);
+  evaluate(start.x, 1, {}, {.values = true, .derivatives = true}, at);
+  settle_dependents(data, at, start);
+  return start;
 }
 
 std::vector<Multipliers> Transcription::multipliers(const nlp::Start& point) const {

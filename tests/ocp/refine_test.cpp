@@ -28,9 +28,9 @@ Problem hyper_sensitive(double tf) {
 TEST(Refinement, ReachesTheToleranceByEverySchemeAndBothWays) {
   const auto form = brachistochrone();
   const auto reach = [&](const Scheme& scheme, Refinement refinement) {
-    RefineSettings settings{.tolerance = 1e-6, .refinement = refinement};
-    settings.start = {.mesh = Mesh::uniform(2), .scheme = scheme, .guess = form.guess};
-    const Refined refined = refine(form.problem, settings);
+    const Refined refined =
+        refine(form.problem, {.mesh = Mesh::uniform(2), .scheme = scheme, .guess = form.guess},
+               {.tolerance = 1e-6, .refinement = refinement});
     SCOPED_TRACE(scheme.name + "\n" + refined.table());
     EXPECT_EQ(refined.status, RefineStatus::converged);
     EXPECT_LE(estimate_errors(form.problem, refined.solution).largest, 1e-6);
@@ -44,10 +44,9 @@ TEST(Refinement, ReachesTheToleranceByEverySchemeAndBothWays) {
 }
 
 TEST(Refinement, PutsPointsWhereTheSolutionIsFastAndStartsFromTheLastMesh) {
-  RefineSettings settings{.tolerance = 1e-6};
-  settings.start = {.mesh = Mesh::uniform(20), .scheme = lgr(3)};
+  const SolveSettings start{.mesh = Mesh::uniform(20), .scheme = lgr(3)};
   const Problem problem = hyper_sensitive(100);
-  const Refined refined = refine(problem, settings);
+  const Refined refined = refine(problem, start, {.tolerance = 1e-6});
   SCOPED_TRACE(refined.table());
   ASSERT_EQ(refined.status, RefineStatus::converged);
   // Both ends take as long as 10 of the 100; the middle needs none of the new intervals.
@@ -55,7 +54,7 @@ TEST(Refinement, PutsPointsWhereTheSolutionIsFastAndStartsFromTheLastMesh) {
   std::size_t middle = 0;
   for (const double b : breaks) middle += b > 0.21 && b < 0.79 ? 1 : 0;
   EXPECT_LT(3 * middle, breaks.size());
-  SolveSettings cold = settings.start;
+  SolveSettings cold = start;
   cold.mesh = refined.solution.mesh;
   cold.scheme = refined.solution.scheme;
   const Solution anew = solve(problem, cold);
@@ -66,25 +65,22 @@ TEST(Refinement, PutsPointsWhereTheSolutionIsFastAndStartsFromTheLastMesh) {
 
 TEST(Refinement, EndsAtItsLimitsAndSaysSo) {
   const auto form = least_time();  // u jumps: no mesh without a node at the jump is exact
-  RefineSettings settings;
-  settings.start = {.mesh = Mesh::uniform(5)};
-  settings.tolerance = 1e-12;
-  settings.max_meshes = 1;
+  RefineRules rules{.tolerance = 1e-12, .max_meshes = 1};
   const auto fall = brachistochrone();
-  settings.start.guess = fall.guess;
-  Refined refined = refine(fall.problem, settings);
+  SolveSettings start{.mesh = Mesh::uniform(5), .guess = fall.guess};
+  Refined refined = refine(fall.problem, start, rules);
   EXPECT_EQ(refined.status, RefineStatus::mesh_limit);
   EXPECT_EQ(refined.meshes.size(), 1U);
   EXPECT_GT(refined.errors.largest, 1e-12);
-  settings.max_meshes = 15;
-  settings.max_size = 100;
-  refined = refine(fall.problem, settings);
+  rules.max_meshes = 15;
+  rules.max_size = 100;
+  refined = refine(fall.problem, start, rules);
   EXPECT_EQ(refined.status, RefineStatus::size_limit);
   EXPECT_LE(refined.solution.trajectory.tau.size(), 100U);
 
-  settings = {};
-  settings.start.options.max_iterations = 1;
-  refined = refine(form.problem, settings);
+  start = {};
+  start.options.max_iterations = 1;
+  refined = refine(form.problem, start);
   EXPECT_EQ(refined.status, RefineStatus::not_solved);
   EXPECT_EQ(refined.meshes.back().status, nlp::Status::iteration_limit);
   EXPECT_NE(refined.table().find("not_solved"), std::string::npos);
@@ -92,18 +88,17 @@ TEST(Refinement, EndsAtItsLimitsAndSaysSo) {
 
 TEST(Refinement, RefusesSettingsThatCannotBe) {
   const auto form = regulator();
-  RefineSettings settings;
-  settings.refinement = Refinement::hp;
-  EXPECT_EQ(refusal([&] { (void)refine(form.problem, settings); }),
+  RefineRules rules{.refinement = Refinement::hp};
+  EXPECT_EQ(refusal([&] { (void)refine(form.problem, {}, rules); }),
             "linear regulator: refinement: hp: found the scheme hermite_simpson, expected lgr, "
             "lgr_differential or lgl, which have degrees");
-  settings = {};
-  settings.tolerance = std::nan("");
-  EXPECT_EQ(refusal([&] { (void)refine(form.problem, settings); }),
+  rules = {};
+  rules.tolerance = std::nan("");
+  EXPECT_EQ(refusal([&] { (void)refine(form.problem, {}, rules); }),
             "linear regulator: refinement: tolerance: found nan, expected a number > 0 and < 1");
-  settings = {};
-  settings.max_points = 2;
-  EXPECT_EQ(refusal([&] { (void)refine(form.problem, settings); }),
+  rules = {};
+  rules.max_points = 2;
+  EXPECT_EQ(refusal([&] { (void)refine(form.problem, {}, rules); }),
             "linear regulator: refinement: max_points: found 2, expected at least 3");
 }
 

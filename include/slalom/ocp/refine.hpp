@@ -15,12 +15,11 @@ enum class Refinement {
   hp,  ///< its degree rises, and it is cut past `max_points`: Patterson, Hager & Rao 2015
 };
 
-struct RefineSettings {
-  SolveSettings start = {};  ///< first mesh, scheme and guess; options and back end of all
-  double tolerance = 1e-6;   ///< of ErrorEstimate::largest
+struct RefineRules {
+  double tolerance = 1e-6;  ///< of ErrorEstimate::largest
   Refinement refinement = Refinement::h;
   int max_meshes = 15;
-  int max_size = 20000;  ///< points of a mesh
+  int max_size = 20000;  ///< points of a mesh, of all phases
   int min_points = 3;    ///< hp: of a scheme in a new interval
   int max_points = 12;   ///< hp: of a scheme
 };
@@ -42,8 +41,12 @@ struct MeshRecord {
   double wall_s = 0;  ///< of the solve
   double objective = 0;
   double largest_error = 0;  ///< ErrorEstimate::largest
+  std::string worst_phase;   ///< where; empty with one phase alone
   std::size_t worst_interval = 0;
 };
+
+/// The records as a table of plain text, with the status below.
+std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status);
 
 struct Refined {
   RefineStatus status = RefineStatus::not_solved;
@@ -51,13 +54,25 @@ struct Refined {
   ErrorEstimate errors;
   std::vector<MeshRecord> meshes;
 
-  /// The records as a table of plain text.
-  std::string table() const;
+  std::string table() const { return ocp::table(meshes, status); }
 };
 
-/// Solves on one mesh after another, each from the last one's polynomials, until the errors are
-/// within the tolerance. Throws InvalidValue for settings out of range, and for hp with a scheme
-/// that has one degree only.
-[[nodiscard]] Refined refine(const Problem& problem, const RefineSettings& settings = {});
+struct PhasedRefined {
+  RefineStatus status = RefineStatus::not_solved;
+  PhasedSolution solution;            ///< likewise
+  std::vector<ErrorEstimate> errors;  ///< of each phase
+  std::vector<MeshRecord> meshes;
+
+  std::string table() const { return ocp::table(meshes, status); }
+};
+
+/// Solves on one mesh after another, each from the last one's polynomials and multipliers, until
+/// the errors are within the tolerance. `start` has the first mesh, scheme and guess, and the
+/// options and back end of all. Throws InvalidValue for rules out of range, and for hp with a
+/// scheme that has one degree only.
+[[nodiscard]] Refined refine(const Problem& problem, const SolveSettings& start = {},
+                             const RefineRules& rules = {});
+[[nodiscard]] PhasedRefined refine(const PhasedProblem& problem, const PhasedSettings& start = {},
+                                   const RefineRules& rules = {});
 
 }  // namespace slalom::ocp

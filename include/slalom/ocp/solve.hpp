@@ -14,6 +14,8 @@
 
 namespace slalom::ocp {
 
+struct Solution;
+
 /// How to solve a problem; the defaults suit a smooth one.
 struct SolveSettings {
   Mesh mesh = Mesh::uniform(40);
@@ -22,6 +24,9 @@ struct SolveSettings {
   std::string backend = {};    ///< of nlp::make_solver; empty: the default one
   Trajectory guess = {};       ///< empty: straight lines between the bounds at both ends
   nlp::Start warm_start = {};  ///< a Solution's `point`, of the same mesh and scheme; beats guess
+  /// A solution on any mesh and scheme whose trajectory and multipliers are carried to this one;
+  /// beats the two above. It must outlive the call.
+  const Solution* previous = nullptr;
 };
 
 /// A solved problem, in the user's units. `solved()` is the independent checker's word too.
@@ -36,6 +41,7 @@ struct Solution {
   /// dJ*/dx at the mesh nodes, [node][state]: positive where more of a state costs more. Read off
   /// the defects' multipliers; second order accurate at least where no path row is active.
   std::vector<std::vector<double>> costates;
+  CollocatedCostates collocated_costates;
   std::vector<Multipliers> multipliers;  ///< of constraints and bounds, by name
   std::vector<Excesses> excesses;        ///< of soft constraints, by name
   nlp::Residuals residuals;              ///< recomputed from the point; names the worst constraint
@@ -69,6 +75,8 @@ struct Solution {
 /// is in the Solution.
 [[nodiscard]] Solution solve(const Problem& problem, const SolveSettings& settings = {});
 
+struct PhasedSolution;
+
 /// How to solve a phased problem; lists have one entry a phase, or none for defaults.
 struct PhasedSettings {
   std::vector<PhasedTranscription::Grid> grids = {};
@@ -76,6 +84,7 @@ struct PhasedSettings {
   std::string backend = {};
   std::vector<Trajectory> guesses = {};
   nlp::Start warm_start = {};  ///< a PhasedSolution's `point`, of the same grids; beats guesses
+  const PhasedSolution* previous = nullptr;  ///< as SolveSettings::previous
 };
 
 /// A solved phased problem.

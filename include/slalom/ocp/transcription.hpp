@@ -34,6 +34,19 @@ struct Excesses {
   std::vector<double> values;
 };
 
+/// The costates at the collocated points, which may differ on the two sides of a node.
+struct CollocatedCostates {
+  std::vector<double> tau;
+  std::vector<std::vector<double>> values;  ///< [point][state], dJ*/dx
+};
+
+/// What is carried from a solution to another mesh beside its trajectory.
+struct Duals {
+  std::vector<double> tau;  ///< of the points that the multipliers number
+  CollocatedCostates costates;
+  std::vector<Multipliers> multipliers;
+};
+
 /// A problem made into a stage-structured NLP on a mesh by a collocation scheme.
 ///
 /// Stage k holds node k (slacks of that end, states, controls) and the interior points of interval
@@ -67,6 +80,10 @@ class Transcription final : public nlp::Problem {
   /// quadrature and defects), averaged with minus that of what lies before: they differ by active
   /// rows there.
   std::vector<std::vector<double>> costates(std::span<const double> x, std::span<const double> y);
+  CollocatedCostates collocated_costates(std::span<const double> y) const;
+  /// A warm start: the guess's point, and multipliers whose costates and densities over time are
+  /// those of `duals`.
+  nlp::Start carried(const Trajectory& guess, const Duals& duals);
   /// Of all enabled constraints and of all variables with bounds, by name.
   std::vector<Multipliers> multipliers(const nlp::Start& point) const;
   std::vector<Excesses> excesses(std::span<const double> x) const;

@@ -1,0 +1,220 @@
+#include "carry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <unordered_map>
+#include <utility>
+
+#include "duals.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+using Matrix = std::vector<std::vector<double>>;
+
+/// Solves a x = b for a symmetric positive definite a, by elimination.
+std::vector<double> solve_definite(Matrix a, std::vector<double> b) {
+  const std::size_t n = b.size();
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < n; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
+/// The defects' multipliers y with rate' y = -weight * costates, by least squares.
+std::vector<double> defect_multipliers(const Scheme& scheme, const std::vector<double>& costates) {
+  const std::size_t defects = scheme.defects(), points = scheme.points.size();
+  Matrix normal(defects, std::vector<double>(defects, 0.0));
+  std::vector<double> right(defects, 0.0);
+  for (std::size_t d = 0; d < defects; ++d)
+    for (std::size_t j = 0; j < points; ++j) {
+      right[d] -= scheme.rate[d][j] * scheme.weight[j] * costates[j];
+      for (std::size_t e = 0; e < defects; ++e)
+        normal[d][e] += scheme.rate[d][j] * scheme.rate[e][j];
+    }
+  return solve_definite(std::move(normal), std::move(right));
+}
+
+/// Linear between given points, constant beyond them; where two stand at `at`, the limit from the
+/// left or from the right.
+double interpolate(const std::vector<double>& tau, const std::function<double(std::size_t)>& value,
+                   double at, bool from_left = false) {
+  const auto above = from_left ? std::lower_bound(tau.begin(), tau.end(), at)
+                               : std::upper_bound(tau.begin(), tau.end(), at);
+  if (above == tau.begin()) return value(0);
+  if (above == tau.end()) return value(tau.size() - 1);
+  const auto k = static_cast<std::size_t>(above - tau.begin());
+  const double share = (at - tau[k - 1]) / (tau[k] - tau[k - 1]);
+  return value(k - 1) + share * (value(k) - value(k - 1));
+}
+
+/// Half of the way to each neighbour: the part of the horizon that stands for a point.
+double share_of(const std::vector<double>& tau, std::size_t point) {
+  const double before = point > 0 ? tau[point] - tau[point - 1] : 0;
+  const double after = point + 1 < tau.size() ? tau[point + 1] - tau[point] : 0;
+  return (before + after) / 2;
+}
+
+/// A solution's multipliers by name, as densities over time.
+class Densities {
+ public:
+  Densities(const Duals& duals, const Layout& layout) : duals_(duals), layout_(layout) {
+    for (const auto& each : duals.multipliers) by_name_.emplace(each.name, &each);
+  }
+
+  double single(const std::string& name) const {
+    const Multipliers* found = find(name);
+    return found == nullptr || found->values.empty() ? 0 : found->values.front();
+  }
+  /// At a point of the new mesh. `ends_apart`: what stands at the horizon's ends is no part of a
+  /// density but what fixes the ends.
+  double at(const std::string& name, std::size_t point, bool ends_apart) const {
+    const Multipliers* found = find(name);
+    if (found == nullptr || found->points.empty()) return 0;
+    const bool first = point == 0, last = point + 1 == layout_.points();
+    if (ends_apart && first && found->points.front() == 0) return found->values.front();
+    if (ends_apart && last && found->points.back() + 1 == duals_.tau.size())
+      return found->values.back();
+    std::size_t from = 0, to = found->points.size();
+    if (ends_apart && found->points.front() == 0) ++from;
+    if (ends_apart && found->points.back() + 1 == duals_.tau.size()) --to;
+    if (from >= to) return 0;
+    std::vector<double> tau;
+    for (std::size_t k = from; k < to; ++k) tau.push_back(duals_.tau[found->points[k]]);
+    const auto density = [&](std::size_t k) {
+      return found->values[from + k] / share_of(duals_.tau, found->points[from + k]);
+    };
+    return interpolate(tau, density, layout_.tau[point]) * share_of(layout_.tau, point);
+  }
+
+ private:
+  const Multipliers* find(const std::string& name) const {
+    const auto it = by_name_.find(name);
+    return it == by_name_.end() ? nullptr : it->second;
+  }
+
+  const Duals& duals_;
+  const Layout& layout_;
+  std::unordered_map<std::string, const Multipliers*> by_name_;
+};
+
+void carry_defects(const Transcribed& data, const Schemes& schemes,
+                   const CollocatedCostates& costates, nlp::Start& start) {
+  const Layout& layout = data.layout;
+  for (std::size_t k = 0; k < layout.intervals(); ++k) {
+    const Scheme& scheme = schemes.of(k);
+    for (std::size_t i = 0; i < layout.nx; ++i) {
+      std::vector<double> at_points;
+      for (std::size_t j = 0; j < scheme.points.size(); ++j)
+        at_points.push_back(interpolate(
+            costates.tau, [&](std::size_t p) { return costates.values[p][i]; },
+            layout.tau[layout.node_point[k] + j], j + 1 == scheme.points.size()));
+      const auto y = defect_multipliers(scheme, at_points);
+      for (std::size_t d = 0; d < y.size(); ++d) {
+        const std::size_t row = defect_row(data, d, i, k);
+        start.y[row] = y[d] / data.structure.row_scale[row];
+      }
+    }
+  }
+}
+
+void carry_rows(const Problem& problem, const Transcribed& data, const Densities& densities,
+                nlp::Start& start) {
+  for (std::size_t r = 0; r < data.origins.size(); ++r) {
+    const RowOrigin& origin = data.origins[r];
+    if (origin.constraint == kNone) continue;
+    const std::string name = name_of(problem, origin);
+    const bool over_time = problem.constraints()[origin.constraint].kind != Problem::Kind::boundary;
+    const double value =
+        over_time ? densities.at(name, origin.point, false) : densities.single(name);
+    start.y[r] = value / data.structure.row_scale[r];
+  }
+}
+
+void carry_bounds(const Problem& problem, const Transcribed& data, const Densities& densities,
+                  nlp::Start& start) {
+  const Layout& layout = data.layout;
+  const auto set = [&](std::size_t variable, double value) {
+    const double z = value * data.structure.variable_scale[variable];
+    start.zu[variable] = std::max(z, 0.0);
+    start.zl[variable] = std::max(-z, 0.0);
+  };
+  for (std::size_t i = 0; i < layout.nx; ++i)
+    for (const std::size_t p : layout.state_points)
+      set(layout.state(p, i), densities.at(problem.states()[i].name, p, true));
+  for (std::size_t i = 0; i < layout.nu; ++i)
+    for (std::size_t p = 0; p < layout.points(); ++p)
+      set(layout.control(p, i), densities.at(problem.controls()[i].name, p, false));
+  for (std::size_t i = 0; i < layout.slack.size(); ++i)
+    set(layout.slack[i], densities.single(problem.slacks()[i].name));
+  set(layout.t0, densities.single("t0"));
+  set(layout.tf, densities.single("tf"));
+  for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
+    set(layout.static_parameters + i, densities.single(problem.static_parameters()[i].name));
+  for (std::size_t i = 0; i < problem.integrals().size(); ++i)
+    set(layout.integrals + i, densities.single(problem.integrals()[i].name));
+}
+
+}  // namespace
+
+CollocatedCostates collocated_costates(const Transcribed& data, const Schemes& schemes,
+                                       std::span<const double> y) {
+  const Layout& layout = data.layout;
+  CollocatedCostates costates;
+  for (std::size_t k = 0; k < layout.intervals(); ++k) {
+    const Scheme& scheme = schemes.of(k);
+    for (std::size_t j = 0; j < scheme.points.size(); ++j) {
+      if (scheme.weight[j] == 0) continue;
+      costates.tau.push_back(layout.tau[layout.node_point[k] + j]);
+      auto& values = costates.values.emplace_back(layout.nx, 0.0);
+      for (std::size_t i = 0; i < layout.nx; ++i)
+        for (std::size_t d = 0; d < scheme.defects(); ++d) {
+          const std::size_t row = defect_row(data, d, i, k);
+          values[i] -=
+              scheme.rate[d][j] * y[row] * data.structure.row_scale[row] / scheme.weight[j];
+        }
+    }
+  }
+  return costates;
+}
+
+void carry_multipliers(const Problem& problem, const Transcribed& data, const Schemes& schemes,
+                       const Duals& duals, nlp::Start& start) {
+  start.y.assign(data.structure.rows, 0.0);
+  start.zl.assign(data.structure.variables, 0.0);
+  start.zu.assign(data.structure.variables, 0.0);
+  const Densities densities(duals, data.layout);
+  carry_defects(data, schemes, duals.costates, start);
+  carry_rows(problem, data, densities, start);
+  carry_bounds(problem, data, densities, start);
+}
+
+void settle_dependents(const Transcribed& data, const nlp::Evaluation& at, nlp::Start& start) {
+  const auto& shape = data.structure;
+  std::vector<double> slope = at.gradient;
+  for (std::size_t i = 0; i < slope.size(); ++i) slope[i] += start.zu[i] - start.zl[i];
+  for (std::size_t e = 0; e < at.jacobian.size(); ++e)
+    slope[shape.jacobian_col[e]] += start.y[shape.jacobian_row[e]] * at.jacobian[e];
+  std::vector<std::size_t> defined(shape.rows, kNone);
+  for (std::size_t i = 0; i < data.integral_rows.size(); ++i)
+    defined[data.integral_rows[i]] = data.layout.integrals + i;
+  for (const auto& [row, variable] : data.copies) defined[row] = variable;
+  for (std::size_t e = 0; e < at.jacobian.size(); ++e) {
+    const std::size_t row = shape.jacobian_row[e];
+    if (defined[row] == shape.jacobian_col[e]) start.y[row] = -slope[defined[row]] / at.jacobian[e];
+  }
+  for (const Excess& excess : data.excesses)
+    for (const std::size_t variable : {excess.above, excess.below})
+      if (variable != kNone && data.limits.xl[variable] == 0)
+        start.zl[variable] = std::max(slope[variable], 0.0);
+}
+
+}  // namespace slalom::ocp
