@@ -3,15 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
-#include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <numeric>
 
-#include "../base/integrate.hpp"
+#include "integrator.hpp"
 #include "model.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
@@ -19,52 +14,37 @@
 namespace slalom::ocp {
 namespace {
 
-namespace odeint = boost::numeric::odeint;
 using Vector = std::vector<double>;
 
-/// Of an interval: one that needs shorter steps blows up.
-constexpr double kLeastStep = 1e-14;
-
-/// Integrates a problem's dynamics over one interval after another, states in units of their
-/// scales, local time 0 ... 1.
-class Integrator {
+/// Integrates a problem's dynamics over one interval after another.
+class Reintegration {
  public:
-  Integrator(const Problem& problem, const Trajectory& trajectory, const Interpolant& between,
-             const Mesh& mesh, const Vector& units, double tolerance)
+  Reintegration(const Problem& problem, const Trajectory& trajectory, const Interpolant& between,
+                const Mesh& mesh, const Vector& units, double tolerance)
       : model_(problem, trajectory),
+        integrator_(units, tolerance),
         trajectory_(trajectory),
         between_(between),
-        breaks_(mesh.breakpoints()),
-        tolerance_(tolerance),
-        scale_(units) {}
+        breaks_(mesh.breakpoints()) {}
 
   /// The states at the end of interval k, from `x` at its begin; empty where there is no getting
   /// there.
   Vector across(std::size_t k, Vector x) const {
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] /= scale_[i];
-    Vector states(x.size());
     const double duration = (breaks_[k + 1] - breaks_[k]) * (trajectory_.tf - trajectory_.t0);
     const double begin = trajectory_.time_at(breaks_[k]);
-    const auto rates = [&](const Vector& at, Vector& out, double c) {
-      for (std::size_t i = 0; i < at.size(); ++i) states[i] = at[i] * scale_[i];
-      model_.rates(begin + c * duration, states, between_.controls(k, c), out);
-      for (std::size_t i = 0; i < at.size(); ++i) out[i] *= duration / scale_[i];
+    const auto rates = [&](double c, const Vector& at, Vector& out) {
+      model_.rates(begin + c * duration, at, between_.controls(k, c), out);
     };
-    double c = 0;
-    const auto stepper =
-        odeint::make_controlled(tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<Vector>());
-    if (!integrate(stepper, rates, 1, kLeastStep, x, c)) return {};
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale_[i];
+    if (integrator_.across(duration, rates, x) < 1) return {};
     return x;
   }
 
  private:
   Model model_;
+  Integrator integrator_;
   const Trajectory& trajectory_;
   const Interpolant& between_;
   const Vector& breaks_;
-  double tolerance_;
-  Vector scale_;
 };
 
 /// Relative error of `found` and the state with the largest.
@@ -108,7 +88,7 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
   const Trajectory& trajectory = solution.trajectory;
   const Interpolant polynomials = between(problem, solution);
   const Vector units = state_units(problem, solution);
-  const Integrator integrator(problem, trajectory, polynomials, solution.mesh, units, tolerance);
+  const Reintegration integrator(problem, trajectory, polynomials, solution.mesh, units, tolerance);
   Vector size;
   for (std::size_t i = 0; i < problem.states().size(); ++i) {
     double largest = 0;

@@ -106,6 +106,12 @@ void Model::row_values(double t, std::span<const double> x, std::span<const doub
   if (!rows_.empty()) call(row_functions_, t, x, u, out);
 }
 
+std::vector<double> scales_of(const Problem& problem) {
+  std::vector<double> scales;
+  for (const auto& state : problem.states()) scales.push_back(state.unit());
+  return scales;
+}
+
 std::vector<double> end_controls(const Problem& problem, const Trajectory& trajectory,
                                  std::size_t begin, std::size_t end) {
   std::vector<double> controls = trajectory.controls[end];

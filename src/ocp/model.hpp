@@ -42,6 +42,9 @@ class Model {
   mutable std::vector<double> inputs_;
 };
 
+/// The states' scales; 1 where none is given.
+std::vector<double> scales_of(const Problem& problem);
+
 /// The controls at the end of an interval as it sees them: those held over it are its begin's.
 std::vector<double> end_controls(const Problem& problem, const Trajectory& trajectory,
                                  std::size_t begin, std::size_t end);

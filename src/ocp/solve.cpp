@@ -7,10 +7,10 @@
 #include "objective_scale.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
+#include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/interpolant.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/transcription.hpp"
-#include "start_guess.hpp"
 
 namespace slalom::ocp {
 namespace {

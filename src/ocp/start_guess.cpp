@@ -1,5 +1,3 @@
-#include "start_guess.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +5,12 @@
 #include <string>
 
 #include "slalom/base/error.hpp"
+#include "slalom/ocp/guess.hpp"
 
 namespace slalom::ocp {
 namespace {
+
+using Vector = std::vector<double>;
 
 /// A finite value within bounds: their middle, the finite side, or 0.
 double middle(Bounds bounds) {
@@ -20,6 +21,41 @@ double middle(Bounds bounds) {
 
 Bounds intersection(Bounds a, Bounds b) {
   return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+}
+
+std::string place(const Problem& problem) {
+  return problem.name() + ": guess";
+}
+
+void check_finite(const Problem& problem, const std::string& what, double value) {
+  if (!std::isfinite(value))
+    throw InvalidValue(place(problem), fmt::format("{} = {}", what, value), "a finite number");
+}
+
+template <class List>
+void check_once(const Problem& problem, const List& variables, const Vector& values,
+                const char* what) {
+  if (values.size() > variables.size())
+    throw InvalidValue(place(problem), fmt::format("{} {}", values.size(), what),
+                       fmt::format("at most {}", variables.size()));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    check_finite(problem, variables[i].name, values[i]);
+}
+
+template <class List>
+void check_points(const Problem& problem, const List& variables, const std::vector<Vector>& rows,
+                  std::size_t points, const char* what) {
+  if (rows.size() != points)
+    throw InvalidValue(place(problem), fmt::format("{} points of {}", rows.size(), what),
+                       fmt::format("{}, one a tau", points));
+  for (std::size_t k = 0; k < points; ++k) {
+    if (rows[k].size() != variables.size())
+      throw InvalidValue(place(problem), fmt::format("{} {} at point {}", rows[k].size(), what, k),
+                         fmt::format("{}", variables.size()));
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      if (!std::isfinite(rows[k][i]))
+        check_finite(problem, fmt::format("{} at point {}", variables[i].name, k), rows[k][i]);
+  }
 }
 
 }  // namespace
@@ -41,21 +77,22 @@ Trajectory straight_guess(const Problem& problem) {
 }
 
 void check_guess(const Trajectory& guess, const Problem& problem) {
-  const std::string where = problem.name() + ": guess";
   const std::size_t points = guess.tau.size();
-  if (points == 0) throw InvalidValue(where, "no points", "at least one");
-  const auto check_rows = [&](const std::vector<std::vector<double>>& rows, const char* what,
-                              std::size_t width) {
-    if (rows.size() != points)
-      throw InvalidValue(where, fmt::format("{} points of {}", rows.size(), what),
-                         fmt::format("{}, one a tau", points));
-    for (std::size_t k = 0; k < points; ++k)
-      if (rows[k].size() != width)
-        throw InvalidValue(where, fmt::format("{} {} at point {}", rows[k].size(), what, k),
-                           fmt::format("{}", width));
-  };
-  check_rows(guess.states, "states", problem.states().size());
-  check_rows(guess.controls, "controls", problem.controls().size());
+  if (points == 0) throw InvalidValue(place(problem), "no points", "at least one");
+  check_points(problem, problem.states(), guess.states, points, "states");
+  check_points(problem, problem.controls(), guess.controls, points, "controls");
+  check_once(problem, problem.static_parameters(), guess.static_parameters, "static parameters");
+  check_once(problem, problem.slacks(), guess.slacks, "slacks");
+  check_once(problem, problem.integrals(), guess.integrals, "integrals");
+  check_finite(problem, "t0", guess.t0);
+  check_finite(problem, "tf", guess.tf);
+  if (guess.tf < guess.t0)
+    throw InvalidValue(place(problem), fmt::format("tf = {} before t0 = {}", guess.tf, guess.t0),
+                       "tf >= t0");
+  for (std::size_t k = 0; k < points; ++k)
+    if (std::isnan(guess.tau[k]) || (k > 0 && guess.tau[k] < guess.tau[k - 1]))
+      throw InvalidValue(place(problem), fmt::format("tau = {} at point {}", guess.tau[k], k),
+                         "taus that increase");
 }
 
 }  // namespace slalom::ocp

@@ -7,27 +7,17 @@
 #include <cmath>
 #include <utility>
 
+#include "between_points.hpp"
 #include "builder.hpp"
 #include "carry.hpp"
 #include "duals.hpp"
 #include "model.hpp"
 #include "slalom/base/error.hpp"
-#include "start_guess.hpp"
+#include "slalom/ocp/guess.hpp"
 #include "symbols.hpp"
 
 namespace slalom::ocp {
 namespace {
-
-/// Linear interpolation of rows[point][i] given at `tau`; constant beyond the ends.
-double interpolate(const std::vector<double>& tau, const std::vector<std::vector<double>>& rows,
-                   std::size_t i, double at) {
-  const auto above = std::upper_bound(tau.begin(), tau.end(), at);
-  if (above == tau.begin()) return rows.front()[i];
-  const auto k = static_cast<std::size_t>(above - tau.begin());
-  if (k == tau.size()) return rows.back()[i];
-  const double share = (at - tau[k - 1]) / (tau[k] - tau[k - 1]);
-  return rows[k - 1][i] + share * (rows[k][i] - rows[k - 1][i]);
-}
 
 /// Throws unless `now` is `before` with other numbers.
 void check_same(const Problem& before, const Problem& now) {
@@ -175,9 +165,9 @@ std::vector<double> Transcription::point(const Trajectory& guess) const {
   std::vector<double> x(layout.variables, 0.0);
   for (std::size_t point = 0; point < layout.points(); ++point) {
     for (std::size_t i = 0; i < layout.nx && layout.has_state(point); ++i)
-      x[layout.state(point, i)] = interpolate(guess.tau, guess.states, i, layout.tau[point]);
+      x[layout.state(point, i)] = between_points(guess.tau, guess.states, i, layout.tau[point]);
     for (std::size_t i = 0; i < layout.nu; ++i)
-      x[layout.control(point, i)] = interpolate(guess.tau, guess.controls, i, layout.tau[point]);
+      x[layout.control(point, i)] = between_points(guess.tau, guess.controls, i, layout.tau[point]);
   }
   for (std::size_t i = 0; i < layout.slack.size(); ++i)
     x[layout.slack[i]] = i < guess.slacks.size() ? guess.slacks[i] : problem.slacks()[i].guess;
