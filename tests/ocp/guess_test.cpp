@@ -109,6 +109,8 @@ TEST(Guesses, FromAnEarlierSolutionOnAnotherMeshUnderOtherNames) {
     EXPECT_EQ(guess.states[k][0], 2);  // which the earlier one has not
   }
   EXPECT_NEAR(guess.controls.front()[0], -std::tanh(1), 1e-5);
+  for (std::size_t k = 0; k < earlier.trajectory.tau.size(); ++k)  // its points are points
+    EXPECT_NEAR(at(guess, earlier.trajectory.tau[k], 1), earlier.trajectory.states[k][0], 1e-9);
   // So good a start saves iterations.
   const Solution cold = solve(problem), warm = solve(problem, {.guess = guess});
   ASSERT_TRUE(warm.solved());

@@ -113,6 +113,22 @@ TEST(Simulations, OfAnotherModel) {
     EXPECT_NEAR(x[1] * x[1] / 2 - std::cos(x[0]), -std::cos(3.0), 1e-9);
 }
 
+TEST(Simulations, AreAccurateInUnitsOfTheScales) {
+  const double size = 1e-9;
+  const System oscillator{
+      "oscillator",
+      {"x", "v"},
+      {},
+      [](double, std::span<const double> x, std::span<const double>, std::span<double> rates) {
+        rates[0] = x[1];
+        rates[1] = -x[0];
+      },
+      {size, size}};
+  const auto run = simulate(oscillator, {size, 0}, constant_controls({}),
+                            {.tf = 20, .steps = 1, .tolerance = 1e-8});
+  EXPECT_NEAR(run.trajectory.states.back()[0] / size, std::cos(20.0), 1e-5);
+}
+
 TEST(Simulations, ThatBlowUpSayWhere) {
   Problem p("blow-up");
   const Expr x = p.state("x");
