@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # python.sh wheel FOLDER: builds the wheel into FOLDER.
-# python.sh test FOLDER: builds it there, installs it into a fresh environment, runs its tests and
-# checks the types of what it ships. Packages come from PyPI.
+# python.sh test FOLDER: builds it there, installs it into a fresh environment, runs its tests, checks
+# the types of what it ships, and runs the Python blocks of the docs. Packages come from PyPI.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -26,3 +26,4 @@ cp -r python/tests "$work/tests"
 cd "$work"
 SLALOM_README=$root/README.md "$work/venv/bin/python" -m pytest -q tests
 "$work/venv/bin/python" -m mypy --strict tests/typed_use.py
+"$work/venv/bin/python" "$root/tools/doc_blocks.py" "$root"/docs/*.md

@@ -116,6 +116,14 @@ void bind_problem_of_phases(nb::module_& module) {
            "Appends a copy of a phase, as it is now; their names must differ. Returns its number, "
            "from 0.")
       .def(
+          "replace",
+          [](PhasedProblem& p, const std::variant<std::size_t, std::string>& which,
+             const Problem& phase) {
+            const auto* number = std::get_if<std::size_t>(&which);
+            p.replace(number ? *number : phase_number(p, std::get<std::string>(which)), phase);
+          },
+          "phase"_a, "problem"_a, doc::ocp_PhasedProblem_replace)
+      .def(
           "link",
           [](PhasedProblem& p, const std::string& name, const ocp::Expr& value, Limit lower,
              Limit upper, Limit equal) {

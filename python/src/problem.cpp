@@ -43,11 +43,6 @@ ocp::Norm norm_of(const std::string& word) {
   throw InvalidValue("norm of a soft constraint", "'" + word + "'", "'l1' or 'l2'");
 }
 
-/// A scale, automatic where none is given.
-double given(std::optional<double> scale) {
-  return scale.value_or(ocp::kAutomaticScale);
-}
-
 /// A constraint by its handle or name.
 using Which = std::variant<ConstraintId, std::string>;
 
@@ -65,10 +60,16 @@ ConstraintId softened(Problem& problem, ConstraintId id, const Softness& norm, d
   return id;
 }
 
+/// C++ takes 0 for no scale.
+double scale_of(Limit scale) {
+  if (scale && *scale == 0) throw InvalidValue("scale", "0", "a number > 0, or None");
+  return scale.value_or(ocp::kAutomaticScale);
+}
+
 Expr state(Problem& problem, const std::string& name, Limit lower, Limit upper,
            const std::optional<EndBounds>& initial, const std::optional<EndBounds>& final,
-           std::optional<double> scale) {
-  const Expr symbol = problem.state(name, bounds(lower, upper), given(scale));
+           Limit scale) {
+  const Expr symbol = problem.state(name, bounds(lower, upper), scale_of(scale));
   if (initial) problem.initial_bounds(symbol, bounds(*initial));
   if (final) problem.final_bounds(symbol, bounds(*final));
   return symbol;
@@ -92,10 +93,10 @@ void bind_variables(nb::class_<Problem>& type) {
            doc::ocp_Problem_state)
       .def(
           "control",
-          [](Problem& p, const std::string& name, Limit lower, Limit upper,
-             std::optional<double> scale, const std::string& form) {
+          [](Problem& p, const std::string& name, Limit lower, Limit upper, Limit scale,
+             const std::string& form) {
             const auto how = form_of(form);
-            const Expr symbol = p.control(name, bounds(lower, upper), given(scale));
+            const Expr symbol = p.control(name, bounds(lower, upper), scale_of(scale));
             p.control_form(symbol, how);
             return symbol;
           },
@@ -104,9 +105,9 @@ void bind_variables(nb::class_<Problem>& type) {
       .def(
           "static_parameter",
           [](Problem& p, const std::string& name, Limit lower, Limit upper,
-             std::optional<double> guess, std::optional<double> scale) {
+             std::optional<double> guess, Limit scale) {
             const auto limits = bounds(lower, upper);
-            return p.static_parameter(name, limits, guess_of(guess, limits), given(scale));
+            return p.static_parameter(name, limits, guess_of(guess, limits), scale_of(scale));
           },
           "name"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
           "guess"_a = nb::none(), "scale"_a = nb::none(), doc::ocp_Problem_static_parameter)
@@ -119,11 +120,19 @@ void bind_variables(nb::class_<Problem>& type) {
       .def(
           "integral",
           [](Problem& p, const std::string& name, const Expr& integrand, Limit lower, Limit upper,
-             Limit equal, std::optional<double> scale) {
-            return p.integral(name, integrand, bounds(lower, upper, equal), given(scale));
+             Limit equal, Limit scale) {
+            return p.integral(name, integrand, bounds(lower, upper, equal), scale_of(scale));
           },
           "name"_a, "integrand"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
           "equal"_a = nb::none(), "scale"_a = nb::none(), doc::ocp_Problem_integral)
+      .def("set_scale", nb::overload_cast<const Expr&, double>(&Problem::set_scale), "variable"_a,
+           "scale"_a, doc::ocp_Problem_set_scale)
+      .def(
+          "set_scale",
+          [](Problem& p, const Which& which, double scale) {
+            p.set_scale(constraint(p, which), scale);
+          },
+          "constraint"_a, "scale"_a, "Likewise of a constraint.")
       .def("parameter", &Problem::parameter, "name"_a, "value"_a, doc::ocp_Problem_parameter)
       .def("set_parameter", &Problem::set_parameter, "parameter"_a, "value"_a,
            doc::ocp_Problem_set_parameter);
@@ -190,19 +199,6 @@ void bind_constraints(nb::class_<Problem>& type) {
           },
           "constraint"_a, "norm"_a = "l1", nb::kw_only(), "weight"_a = 1.0, "tolerance"_a = 0.0,
           doc::ocp_Problem_soften)
-      .def(
-          "set_scale",
-          [](Problem& p, const std::variant<Expr, ConstraintId, std::string>& of, double scale) {
-            if (const auto* variable = std::get_if<Expr>(&of))
-              p.set_scale(*variable, scale);
-            else if (const auto* id = std::get_if<ConstraintId>(&of))
-              p.set_scale(*id, scale);
-            else
-              p.set_scale(constraint(p, std::get<std::string>(of)), scale);
-          },
-          "of"_a, "scale"_a,
-          "The scale of a variable (t0 and tf among them) or of a constraint, by handle or name: "
-          "its typical size. What has none gets one from solve().")
       .def(
           "harden", [](Problem& p, const Which& which) { p.harden(constraint(p, which)); },
           "constraint"_a, "Makes a constraint hard again.")

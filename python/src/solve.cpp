@@ -108,8 +108,12 @@ void bind_refined(nb::module_& module) {
           doc::ocp_RefineStatus_converged)
       .def_ro("solution", &RefinedAnswer::solution, doc::ocp_Refined_solution)
       .def_prop_ro(
-          "errors", [](const RefinedAnswer& r) { return r.answer.errors; },
-          "The re-integrated errors of that solution.")
+          "errors",
+          [](const RefinedAnswer& r) {
+            const bool none = r.answer.errors.interval.empty();
+            return none ? std::optional<ocp::ErrorEstimate>() : r.answer.errors;
+          },
+          "The re-integrated errors of that solution; None where no mesh was solved.")
       .def_prop_ro(
           "meshes", [](const RefinedAnswer& r) { return r.answer.meshes; },
           "One record a mesh that was solved.")

@@ -95,6 +95,8 @@ def test_refinement(refinement, scheme):
 def test_refinement_says_what_it_did_not_reach():
     r = decay().refine(mesh=4, max_meshes=1)
     assert not r.converged and r.status == "mesh_limit" and r.errors.largest > 1e-6
+    unsolved = decay().refine(max_iterations=0)
+    assert unsolved.status == "not_solved" and unsolved.errors is None
     with pytest.raises(slalom.InvalidValue, match="'h' or 'hp'"):
         decay().refine(refinement="p")
     with pytest.raises(slalom.InvalidValue, match="lgr"):
@@ -226,3 +228,25 @@ def test_forms_of_controls():
         np.testing.assert_allclose(between, 0, atol=1e-12)
     with pytest.raises(slalom.InvalidValue, match="'scheme', 'linear' or 'constant'"):
         p.control("w", form="cubic")
+
+
+def test_scales_do_not_change_the_answer():
+    def in_units(metre, scale=None):
+        p = slalom.Problem("units")
+        x = p.state("x", initial=0, final=metre, scale=scale)
+        v, u = p.state("v", initial=0, final=0), p.control("u", lower=-6 * metre, upper=6 * metre)
+        p.dynamics(x, v)
+        p.dynamics(v, u)
+        p.lagrange("effort", (u / metre) ** 2)
+        p.path("slow", v, upper=1.2 * metre)
+        p.set_scale("slow", metre)
+        p.set_scale(u, metre)
+        return p.solve().objective
+
+    assert in_units(1e4) == pytest.approx(in_units(1), rel=1e-6)
+    assert in_units(1e4, scale=5e3) == pytest.approx(in_units(1), rel=1e-5)
+    for scale in (0, -1, float("nan")):
+        with pytest.raises(slalom.InvalidValue, match="scale"):
+            in_units(1, scale=scale)
+    with pytest.raises(KeyError, match="slow"):
+        wall().set_scale("slow", 1)

@@ -72,3 +72,12 @@ def test_frame_and_plot():
     assert len(axes[0].lines) == 4  # a curve and points for each phase
     np.testing.assert_allclose(axes[0].lines[0].get_ydata()[-1], axes[0].lines[2].get_ydata()[0],
                                atol=1e-6)
+
+
+def test_a_phase_with_other_numbers():
+    p = two_legs()
+    leg = slalom.Problem("slow down")
+    with pytest.raises(slalom.InvalidValue):
+        p.replace("slow down", leg)
+    with pytest.raises(KeyError, match="perhaps 'slow down'"):
+        p.replace("slow dow", leg)

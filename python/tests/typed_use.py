@@ -32,7 +32,7 @@ def solved() -> float:
     r = p.refine(refinement="hp", scheme="lgr", guess=s)
     s.solve()  # type: ignore[attr-defined]
     p.solve(warm_start="s")  # type: ignore[arg-type]
-    return float(values["x"][0] + r.solution.state("x")[0]) + r.errors.largest + len(s.mesh)
+    return float(values["x"][0] + r.solution.state("x")[0]) + (r.errors.largest if r.errors else 0) + len(s.mesh)
 
 
 def phased() -> str:
