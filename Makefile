@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios wheel format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios wheel docs format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -65,6 +65,9 @@ obstacle-choice: ## what leaving out obstacles does, into docs/obstacle-choice.m
 wheel: ## set up, and build the Python package into dist/
 	tools/setup.sh wheel
 	tools/python.sh wheel dist
+
+docs: wheel ## the documentation's site into build/docs/
+	tools/docs.sh dist build/docs
 
 random-scenarios: ## P_A to P_D on 1000 random scenarios, into docs/random-scenarios.md (takes minutes)
 	tools/setup.sh results

@@ -1,93 +1,32 @@
 #!/usr/bin/env python3
 """Takes the `///` comments of public headers and writes them as C++ constants.
 
-The comment of slalom::ocp::Problem::state becomes `doc::ocp_Problem_state`. It holds for the one
-declaration that follows; overloads of one name join theirs. What has no comment gets no constant,
-so that a binding that asks for it does not compile.
+The comment of slalom::ocp::Problem::state becomes `doc::ocp_Problem_state`; overloads of one name
+join theirs. What has no comment gets no constant, so that a binding that asks for it does not
+compile.
 
 usage: docstrings.py --out FILE FOLDER
 """
 
 import argparse
 import pathlib
-import re
 
-COMMENT = re.compile(r"^\s*///(?!<) ?(.*)$")
-TRAILING = re.compile(r"///< ?(.*)$")
-SCOPE = re.compile(r"^\s*(?:template <.*>\s*)?(namespace|class|struct|enum class)\s+([\w:]+)")
-NAME = re.compile(r"([A-Za-z_]\w*)\s*\(")
-MEMBER = re.compile(r"([A-Za-z_]\w*)\s*(?:\[\w*\])*(?:=[^=]*|\{.*\})?[;,]")
-SPECIFIERS = {"operator", "alignas", "noexcept", "decltype", "explicit"}
-
-
-def names_of(code):
-    """The names one line of code declares; none for a line that goes on or calls."""
-    code = code.strip()
-    if not code or code.startswith(("#", "}", ")", ":", "return", "using", "friend")):
-        return []
-    call = NAME.search(code)
-    if call and call.group(1) not in SPECIFIERS:
-        return [call.group(1)] if " " in code[:call.start()] or code.startswith("explicit") else []
-    flat = re.sub(r"<[^<>]*>", "", re.sub(r"\{[^{}]*\}", "", code))
-    return [match.group(1) for match in MEMBER.finditer(flat)]
-
-
-def read(text):
-    """Yields (qualified name, comment) of one header."""
-    scopes, depth, comment, parentheses, fresh, last = [], 0, [], 0, False, None
-    for line in text.splitlines():
-        held = COMMENT.match(line)
-        if held:
-            if parentheses == 0:
-                comment = comment + [held.group(1)] if fresh else [held.group(1)]
-                fresh = True
-            continue
-        trailing = TRAILING.search(line)
-        code = re.sub(r'"(\\.|[^"\\])*"', '""', re.sub(r"//.*$", "", line))
-        if not code.strip():
-            if not trailing:
-                comment = []
-            elif last:
-                yield last, trailing.group(1)
-            fresh = False
-            continue
-        fresh = False
-        here = [name for name, _ in scopes if name]
-        scope = SCOPE.match(code)
-        found = []
-        if scope and not code.rstrip().endswith(";"):
-            found = [scope.group(2)]
-        elif parentheses == 0 and (not scopes or depth == scopes[-1][1] + 1):
-            found = names_of(code)
-        last = None
-        for name in found:
-            last = "::".join(here + [name])
-            if trailing:
-                yield last, trailing.group(1)
-            elif comment:
-                yield last, "\n".join(comment)
-        if found:
-            comment = []
-        if scope and "{" in code:
-            scopes.append((scope.group(2), depth))
-            comment = []
-        parentheses += code.count("(") - code.count(")")
-        depth += code.count("{") - code.count("}")
-        while scopes and depth <= scopes[-1][1]:
-            scopes.pop()
+import headers
 
 
 def identifier(name):
-    return "_".join(name.split("::")).removeprefix("slalom_")
+    return "_".join("::".join(name).split("::")).removeprefix("slalom_")
 
 
 def collect(folder):
     docs = {}
     for header in sorted(folder.rglob("*.hpp")):
-        for name, text in read(header.read_text(encoding="utf-8")):
-            texts = docs.setdefault(identifier(name), [])
-            if text not in texts:
-                texts.append(text)
+        for entry in headers.read(header):
+            text = "\n".join(entry.comment)
+            for name in entry.names if entry.comment else []:
+                texts = docs.setdefault(identifier((*entry.scope, name)), [])
+                if text not in texts:
+                    texts.append(text)
     return {name: "\n".join(texts) for name, texts in docs.items()}
 
 

@@ -67,7 +67,7 @@ def cell(key, s):
 def table(key, results):
     environment, planner = key
     columns = [(tex, shift) for tex in TEXES for shift in STARTS]
-    lines = [f"### {environment}, {planner}", ""]
+    lines = [f"## {environment}, {planner}", ""]
     lines.append("| floor | " + " | ".join(f"tex {tex:g}, x {shift:+g}" if shift else f"tex {tex:g}"
                                            for tex, shift in columns) + " |")
     lines.append("|---|" + "---|" * len(columns))

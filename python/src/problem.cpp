@@ -154,8 +154,8 @@ void bind_symbols(nb::class_<Problem>& type) {
 template <class Add, class... Extra>
 void def_constraint(nb::class_<Problem>& type, const char* name, const Add& add,
                     const char* documentation, const Extra&... arguments) {
-  static const std::string soft = std::string("\n\n`soft` \"l1\" or \"l2\" makes it soft: ") +
-                                  doc::ocp_Norm + "\n" + doc::ocp_Soft;
+  static const std::string soft = std::string("\n\n`soft`, \"l1\" or \"l2\", makes it soft. ") +
+                                  doc::ocp_Soft + "\n\nThe norm: " + doc::ocp_Norm;
   type.def(name, add, arguments..., "lower"_a = nb::none(), "upper"_a = nb::none(),
            "equal"_a = nb::none(), "soft"_a = nb::none(), "weight"_a = 1.0, "tolerance"_a = 0.0,
            (documentation + soft).c_str());

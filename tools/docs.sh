@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# docs.sh DIST SITE: makes the documentation's site in SITE, of docs/, the wheel in DIST and the public
+# headers; a warning is an error. Sphinx comes from PyPI, in an environment of its own.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+if [ $# -ne 2 ]; then
+  echo "usage: tools/docs.sh DIST SITE" >&2
+  exit 2
+fi
+wheel=$(echo "$1"/slalom-*.whl)
+if [ ! -f "$wheel" ]; then
+  echo "docs: no one wheel of slalom in '$1'; make wheel builds one into dist/" >&2
+  exit 2
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+python3 -m venv "$work/venv"
+"$work/venv/bin/python" -m pip --disable-pip-version-check install -q "$(realpath "$wheel")[docs]"
+mkdir "$work/pages"
+cp -r docs/*.md docs/figures docs/site/* "$work/pages/"
+"$work/venv/bin/python" tools/cpp_reference.py --out "$work/pages/cpp" include/slalom
+"$work/venv/bin/python" -m sphinx -q -W --keep-going -b html "$work/pages" "$work/site"
+mkdir -p "$(dirname "$2")"
+rm -rf "$2"
+mv "$work/site" "$2"
+echo "docs: $2/index.html"
