@@ -14,59 +14,6 @@
 
 namespace slalom::ocp {
 
-PhasedProblem::PhasedProblem(std::string name) : name_(std::move(name)) {}
-
-std::size_t PhasedProblem::add(Problem phase) {
-  for (const auto& known : phases_)
-    if (known.name() == phase.name())
-      throw InvalidValue(name_, "the phase '" + phase.name() + "' twice", "names that differ");
-  phases_.push_back(std::move(phase));
-  return phases_.size() - 1;
-}
-
-void PhasedProblem::link(const std::string& name, const Expr& value, Bounds bounds) {
-  for (const auto& known : links_)
-    if (known.name == name)
-      throw InvalidValue(name_, "the link '" + name + "' twice", "names that differ");
-  if (!(bounds.lower <= bounds.upper))
-    throw InvalidValue(name_ + ": link " + name,
-                       fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
-                       "a lower bound not above the upper one");
-  links_.push_back({name, value, bounds});
-}
-
-void PhasedProblem::replace(std::size_t number, Problem with) {
-  const Problem& now = phase(number, "replace");
-  if (with.name() != now.name() || !with.time().same(now.time()))
-    throw InvalidValue(name_ + ": replace", "another problem " + with.name(),
-                       "the phase " + now.name() + " with other numbers");
-  phases_[number] = std::move(with);
-}
-
-const Problem& PhasedProblem::phase(std::size_t number, const char* what) const {
-  if (number >= phases_.size())
-    throw InvalidValue(name_ + ": " + what, fmt::format("phase {}", number),
-                       fmt::format("one of the {} phases, from 0", phases_.size()));
-  return phases_[number];
-}
-
-void PhasedProblem::connect(std::size_t from, std::size_t to) {
-  const Problem &a = phase(from, "connect"), &b = phase(to, "connect");
-  std::size_t common = 0;
-  for (const auto& state : a.states())
-    for (const auto& other : b.states()) {
-      if (state.name != other.name) continue;
-      link(fmt::format("{} from {} to {}", state.name, a.name(), b.name()),
-           state.final_symbol - other.initial_symbol);
-      ++common;
-    }
-  if (common == 0)
-    throw InvalidValue(name_ + ": connect",
-                       fmt::format("no state of {} that {} has too", a.name(), b.name()),
-                       "states of the same name, or links of their own");
-  link(fmt::format("time from {} to {}", a.name(), b.name()), a.final_time() - b.initial_time());
-}
-
 namespace {
 
 std::uint32_t narrow(std::size_t n) {
