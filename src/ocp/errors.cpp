@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <string>
 
 #include "integrator.hpp"
 #include "model.hpp"
@@ -16,35 +18,73 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// Integrates a problem's dynamics over one interval after another.
+/// The point of each mesh node.
+std::vector<std::size_t> nodes(const Solution& solution) {
+  std::vector<std::size_t> list{0};
+  for (std::size_t k = 0; k < solution.mesh.intervals(); ++k)
+    list.push_back(list.back() + solution.scheme.of(k).points.size() - 1);
+  return list;
+}
+
+/// Integrates a problem's dynamics, its cost's integrand and its integrals' over one interval after
+/// another.
 class Reintegration {
  public:
-  Reintegration(const Problem& problem, const Trajectory& trajectory, const Interpolant& between,
-                const Mesh& mesh, const Vector& units, double tolerance)
-      : model_(problem, trajectory),
+  Reintegration(const Problem& problem, const Solution& solution, const Interpolant& between,
+                const Vector& units, double tolerance)
+      : problem_(problem),
+        solution_(solution),
+        model_(problem, solution.trajectory),
         integrator_(units, tolerance),
-        trajectory_(trajectory),
         between_(between),
-        breaks_(mesh.breakpoints()) {}
+        nodes_(nodes(solution)) {}
 
-  /// The states at the end of interval k, from `x` at its begin; empty where there is no getting
-  /// there.
+  /// States and integrals at the end of interval k, from those at its begin; empty where there is
+  /// no getting there.
   Vector across(std::size_t k, Vector x) const {
-    const double duration = (breaks_[k + 1] - breaks_[k]) * (trajectory_.tf - trajectory_.t0);
-    const double begin = trajectory_.time_at(breaks_[k]);
-    const auto rates = [&](double c, const Vector& at, Vector& out) {
-      model_.rates(begin + c * duration, at, between_.controls(k, c), out);
+    const auto [begin, duration] = stretch(k);
+    const std::size_t nx = problem_.states().size();
+    const auto rates = [&, begin = begin, duration = duration](double c, const Vector& at,
+                                                               Vector& out) {
+      const Vector u = between_.controls(k, c);
+      const std::span<const double> states(at.data(), nx);
+      model_.rates(begin + c * duration, states, u, {out.data(), nx});
+      model_.integrands(begin + c * duration, states, u, {out.data() + nx, model_.integrands()});
     };
     if (integrator_.across(duration, rates, x) < 1) return {};
     return x;
   }
 
+  /// The scheme's own quadrature of the integrands over interval k; with their sizes' instead.
+  Vector quadrature(std::size_t k, bool of_sizes) const {
+    const auto [begin, duration] = stretch(k);
+    const Scheme& scheme = solution_.scheme.of(k);
+    const std::size_t first = nodes_[k], last = scheme.points.size() - 1;
+    const Trajectory& at = solution_.trajectory;
+    Vector sum(model_.integrands(), 0.0), values(model_.integrands());
+    for (std::size_t j = 0; j <= last; ++j) {
+      if (scheme.weight[j] == 0) continue;
+      const bool held = j == last && scheme.collocates(0);
+      const Vector u = held ? end_controls(problem_, at, first, first + j) : at.controls[first + j];
+      model_.integrands(begin + scheme.points[j] * duration, at.states[first + j], u, values);
+      for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += scheme.weight[j] * duration * (of_sizes ? std::fabs(values[i]) : values[i]);
+    }
+    return sum;
+  }
+
  private:
+  std::pair<double, double> stretch(std::size_t k) const {
+    const auto& breaks = solution_.mesh.breakpoints();
+    const Trajectory& at = solution_.trajectory;
+    return {at.time_at(breaks[k]), (breaks[k + 1] - breaks[k]) * (at.tf - at.t0)};
+  }
+  const Problem& problem_;
+  const Solution& solution_;
   Model model_;
   Integrator integrator_;
-  const Trajectory& trajectory_;
   const Interpolant& between_;
-  const Vector& breaks_;
+  std::vector<std::size_t> nodes_;
 };
 
 /// Relative error of `found` and the state with the largest.
@@ -71,11 +111,36 @@ Vector state_units(const Problem& problem, const Solution& solution) {
   return units;
 }
 
-/// The point of each mesh node.
-std::vector<std::size_t> nodes(const Solution& solution) {
-  std::vector<std::size_t> list{0};
-  for (std::size_t k = 0; k < solution.mesh.intervals(); ++k)
-    list.push_back(list.back() + solution.scheme.of(k).points.size() - 1);
+/// Of states, cost and integrals: names, solver's units, and what an error is relative to.
+struct Sizes {
+  std::vector<std::string> names;
+  Vector units, sizes;
+};
+
+Sizes sizes_of(const Problem& problem, const Solution& solution, const Interpolant& polynomials) {
+  Sizes list;
+  list.units = state_units(problem, solution);
+  for (std::size_t i = 0; i < problem.states().size(); ++i) {
+    double largest = 0;
+    for (const auto& x : solution.trajectory.states) largest = std::max(largest, std::fabs(x[i]));
+    list.names.push_back(problem.states()[i].name);
+    list.sizes.push_back(list.units[i] + largest);
+  }
+  // An integral's size is that of all that adds up to it; the whole cost counts for the cost's.
+  const Reintegration integrator(problem, solution, polynomials, list.units, 0.5);
+  Vector integrals;
+  for (std::size_t k = 0; k < solution.mesh.intervals(); ++k) {
+    const Vector part = integrator.quadrature(k, true);
+    integrals.resize(part.size(), 0.0);
+    for (std::size_t i = 0; i < part.size(); ++i) integrals[i] += part[i];
+  }
+  integrals.front() += std::fabs(solution.objective);
+  list.names.emplace_back("the cost's integral");
+  for (const auto& integral : problem.integrals()) list.names.push_back(integral.name);
+  for (const double size : integrals) {
+    list.sizes.push_back(size > 0 ? size : 1);
+    list.units.push_back(size > 0 ? size : 1);
+  }
   return list;
 }
 
@@ -87,33 +152,70 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
                        "a number > 0 and < 1");
   const Trajectory& trajectory = solution.trajectory;
   const Interpolant polynomials = between(problem, solution);
-  const Vector units = state_units(problem, solution);
-  const Reintegration integrator(problem, trajectory, polynomials, solution.mesh, units, tolerance);
-  Vector size;
-  for (std::size_t i = 0; i < problem.states().size(); ++i) {
-    double largest = 0;
-    for (const auto& x : trajectory.states) largest = std::max(largest, std::fabs(x[i]));
-    size.push_back(units[i] + largest);
-  }
-  ErrorEstimate estimate;
+  const Sizes sizes = sizes_of(problem, solution, polynomials);
+  const Reintegration integrator(problem, solution, polynomials, sizes.units, tolerance);
   const auto node = nodes(solution);
-  Vector running = trajectory.states.front();
+  const auto begin = [&](std::size_t k) {
+    Vector x = trajectory.states[node[k]];
+    x.resize(sizes.names.size(), 0.0);
+    return x;
+  };
+  ErrorEstimate estimate;
+  Vector running = begin(0);
   for (std::size_t k = 0; k < solution.mesh.intervals(); ++k) {
-    const Vector& expected = trajectory.states[node[k + 1]];
-    const auto [error, state] =
-        error_of(integrator.across(k, trajectory.states[node[k]]), expected, size);
+    Vector expected = trajectory.states[node[k + 1]];
+    for (const double integral : integrator.quadrature(k, false)) expected.push_back(integral);
+    const auto [error, which] = error_of(integrator.across(k, begin(k)), expected, sizes.sizes);
     estimate.interval.push_back(error);
-    estimate.state.push_back(problem.states()[state].name);
+    estimate.state.push_back(sizes.names[which]);
     if (error > estimate.largest) {
       estimate.largest = error;
       estimate.worst = k;
     }
+    std::fill(running.begin() + static_cast<std::ptrdiff_t>(problem.states().size()), running.end(),
+              0.0);
     if (!running.empty()) running = integrator.across(k, running);
-    estimate.horizon = std::max(estimate.horizon, error_of(running, expected, size).first);
+    const Vector states(running.begin(),
+                        running.begin() + static_cast<std::ptrdiff_t>(
+                                              running.empty() ? 0 : problem.states().size()));
+    estimate.horizon = std::max(
+        estimate.horizon, error_of(states, trajectory.states[node[k + 1]], sizes.sizes).first);
   }
   const double sum = std::accumulate(estimate.interval.begin(), estimate.interval.end(), 0.0);
   estimate.amplification = sum > 0 && std::isfinite(sum) ? estimate.horizon / sum : 0;
   return estimate;
+}
+
+std::vector<double> unresolved_controls(const Problem& problem, const Solution& solution) {
+  const Interpolant polynomials = between(problem, solution);
+  const auto& breaks = solution.mesh.breakpoints();
+  const std::size_t intervals = solution.mesh.intervals(), nu = problem.controls().size();
+  Vector unresolved(intervals, 0.0);
+  if (intervals < 3) return unresolved;
+  // A polynomial's slope at an end by a difference over a small part of the interval.
+  constexpr double kPart = 1e-3;
+  for (std::size_t i = 0; i < nu; ++i) {
+    double low = kInfinity, high = -kInfinity;
+    for (const auto& u : solution.trajectory.controls) {
+      low = std::min(low, u[i]);
+      high = std::max(high, u[i]);
+    }
+    if (!(high - low > 1e-6 * (std::fabs(high) + std::fabs(low)))) continue;
+    const auto value = [&](std::size_t k, double c) { return polynomials.controls(k, c)[i]; };
+    const auto length = [&](std::size_t k) { return breaks[k + 1] - breaks[k]; };
+    Vector gap(intervals + 1, kInfinity);  // by node; none counts at the horizon's ends
+    for (std::size_t k = 1; k < intervals; ++k) {
+      const double before = value(k - 1, 1), after = value(k, 0);
+      const double slope_before = (before - value(k - 1, 1 - kPart)) / (kPart * length(k - 1));
+      const double slope_after = (value(k, kPart) - after) / (kPart * length(k));
+      gap[k] = std::fabs(after - before) +
+               std::fabs(slope_after - slope_before) * std::min(length(k - 1), length(k));
+    }
+    for (std::size_t k = 0; k < intervals; ++k)
+      unresolved[k] = std::max(unresolved[k],
+                               length(k) * length(k) * std::min(gap[k], gap[k + 1]) / (high - low));
+  }
+  return unresolved;
 }
 
 Violation largest_violation(const Problem& problem, const Solution& solution, int samples) {

@@ -1,10 +1,6 @@
 #include "integrator.hpp"
 
-#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
-#include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 
 #include "../base/integrate.hpp"
 
@@ -28,8 +24,8 @@ double Integrator::across(double duration, const Rates& rates, std::vector<doubl
     for (std::size_t i = 0; i < at.size(); ++i) out[i] *= duration / scale_[i];
   };
   double c = 0;
-  const auto stepper =
-      odeint::make_controlled(tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<Vector>());
+  // Not Fehlberg's pair of order 8: its error estimate is 0 where rates depend on time alone.
+  const odeint::bulirsch_stoer<Vector> stepper(tolerance_, tolerance_);
   const bool there = integrate(stepper, scaled, 1, kLeastStep, x, c);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale_[i];
   return there ? 1 : c;

@@ -5,8 +5,9 @@
 
 namespace slalom::ocp {
 
-/// Integrates states over a stretch of time by the method of Runge, Kutta and Fehlberg of order
-/// 8(7), in units of their scales, to a tolerance that is absolute there and relative.
+/// Integrates states over a stretch of time by Bulirsch and Stoer's extrapolation of the modified
+/// midpoint rule, with adaptive order and steps (Hairer, Norsett & Wanner 1993, section II.9), in
+/// units of their scales, to a tolerance that is absolute there and relative.
 class Integrator {
  public:
   /// Sets the rates of states x [per time unit] at local time c, 0 ... 1.

@@ -77,7 +77,9 @@ Model::Model(const Problem& problem, const Trajectory& at) : t0_(at.t0), tf_(at.
     return expr::Function(inputs, {}, expr::substitute(outputs, fixed.symbols, fixed.numbers));
   };
   rates_ = compile(rates);
-  integrand_ = compile({integrand});
+  std::vector<Expr> integrands{integrand};
+  for (const auto& integral : problem.integrals()) integrands.push_back(integral.integrand);
+  integrand_ = compile(integrands);
   row_functions_ = compile(values);
 }
 
@@ -96,9 +98,14 @@ void Model::rates(double t, std::span<const double> x, std::span<const double> u
 }
 
 double Model::integrand(double t, std::span<const double> x, std::span<const double> u) const {
-  double value = 0;
-  call(integrand_, t, x, u, {&value, 1});
-  return value;
+  std::vector<double> values(integrands());
+  call(integrand_, t, x, u, values);
+  return values.front();
+}
+
+void Model::integrands(double t, std::span<const double> x, std::span<const double> u,
+                       std::span<double> out) const {
+  call(integrand_, t, x, u, out);
 }
 
 void Model::row_values(double t, std::span<const double> x, std::span<const double> u,

@@ -28,6 +28,10 @@ class Model {
              std::span<double> out) const;
   /// Sum of the integrands of the cost.
   double integrand(double t, std::span<const double> x, std::span<const double> u) const;
+  /// That sum, then the problem's integrals' integrands.
+  std::size_t integrands() const { return integrand_.outputs(); }
+  void integrands(double t, std::span<const double> x, std::span<const double> u,
+                  std::span<double> out) const;
   const std::vector<Row>& rows() const { return rows_; }
   void row_values(double t, std::span<const double> x, std::span<const double> u,
                   std::span<double> out) const;

@@ -72,7 +72,15 @@ Fate raise(const Scheme& scheme, double excess, const RefineRules& rules) {
           ocp::scheme(scheme.name, rules.min_points)};
 }
 
+/// A control's error falls as h^2 (unresolved_controls).
+Fate cut_for_control(const Scheme& scheme, double excess) {
+  const double pieces = std::ceil(std::sqrt(excess));
+  return {std::clamp(pieces < kMostPieces ? static_cast<int>(pieces) : kMostPieces, 2, kMostPieces),
+          scheme};
+}
+
 PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimate& errors,
+                                    const std::vector<double>& unresolved,
                                     const RefineRules& rules) {
   const auto& breaks = solution.mesh.breakpoints();
   std::vector<double> next{0};
@@ -80,9 +88,12 @@ PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimat
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const Scheme& scheme = solution.scheme.of(k);
     const double excess = errors.interval[k] / rules.tolerance;
-    const Fate fate = excess <= 1                         ? Fate{1, scheme}
-                      : rules.refinement == Refinement::h ? cut(scheme, excess)
-                                                          : raise(scheme, excess, rules);
+    const Fate fate =
+        unresolved[k] > rules.tolerance
+            ? cut_for_control(scheme, std::max(excess, unresolved[k] / rules.tolerance))
+        : excess <= 1                       ? Fate{1, scheme}
+        : rules.refinement == Refinement::h ? cut(scheme, excess)
+                                            : raise(scheme, excess, rules);
     for (int piece = 1; piece <= fate.pieces; ++piece) {
       const double share = static_cast<double>(piece) / fate.pieces;
       next.push_back(piece == fate.pieces ? breaks[k + 1]
@@ -186,6 +197,29 @@ std::vector<ErrorEstimate> judge(const Solves& solves, const typename Solves::An
   return errors;
 }
 
+/// By phase; zeros where it is not asked for.
+template <class Solves>
+std::vector<std::vector<double>> unresolved_by_phase(const Solves& solves,
+                                                     const typename Solves::Answer& answer,
+                                                     const RefineRules& rules, MeshRecord& record) {
+  std::vector<std::vector<double>> list;
+  const auto phases = Solves::phases(answer);
+  for (std::size_t p = 0; p < phases.size(); ++p) {
+    list.emplace_back(phases[p]->mesh.intervals(), 0.0);
+    if (rules.resolve_controls) list[p] = unresolved_controls(solves.problem(p), *phases[p]);
+    record.unresolved += static_cast<std::size_t>(std::count_if(
+        list[p].begin(), list[p].end(), [&](double each) { return each > rules.tolerance; }));
+  }
+  return list;
+}
+
+/// Whether the last mesh's objective is that of the one before.
+bool settled(const std::vector<MeshRecord>& meshes, double tolerance) {
+  if (meshes.size() < 2) return false;
+  const double now = meshes.back().objective, before = meshes[meshes.size() - 2].objective;
+  return std::fabs(now - before) <= tolerance * std::max(std::fabs(now), std::fabs(before));
+}
+
 /// Fills `answer`, `errors` and `meshes`.
 template <class Solves>
 RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answer& answer,
@@ -198,13 +232,16 @@ RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answe
     if (solved || mesh == 1) answer = std::move(now);
     if (!solved) return RefineStatus::not_solved;
     errors = judge(solves, answer, record);
-    if (record.largest_error <= rules.tolerance) return RefineStatus::converged;
+    const auto unresolved = unresolved_by_phase(solves, answer, rules, record);
+    if (record.largest_error <= rules.tolerance &&
+        (record.unresolved == 0 || settled(meshes, rules.tolerance)))
+      return RefineStatus::converged;
     if (mesh == rules.max_meshes) return RefineStatus::mesh_limit;
     std::vector<PhasedTranscription::Grid> grids;
     std::size_t size = 0;
     const auto phases = Solves::phases(answer);
     for (std::size_t p = 0; p < phases.size(); ++p) {
-      grids.push_back(next_grid(*phases[p], errors[p], rules));
+      grids.push_back(next_grid(*phases[p], errors[p], unresolved[p], rules));
       size += points(grids.back());
     }
     if (size > static_cast<std::size_t>(rules.max_size)) return RefineStatus::size_limit;
@@ -229,13 +266,15 @@ const char* to_string(RefineStatus status) {
 }
 
 std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status) {
-  std::string text = "mesh  intervals  points  status  iterations  solve [s]  objective  error\n";
+  std::string text =
+      "mesh  intervals  points  status  iterations  solve [s]  objective  unresolved  error\n";
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const MeshRecord& mesh = meshes[m];
-    text += fmt::format("{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {:.2e} in interval {}{}\n", m + 1,
-                        mesh.intervals, mesh.points, nlp::to_string(mesh.status), mesh.iterations,
-                        mesh.wall_s, mesh.objective, mesh.largest_error, mesh.worst_interval,
-                        mesh.worst_phase.empty() ? "" : " of " + mesh.worst_phase);
+    text +=
+        fmt::format("{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {}  {:.2e} in interval {}{}\n", m + 1,
+                    mesh.intervals, mesh.points, nlp::to_string(mesh.status), mesh.iterations,
+                    mesh.wall_s, mesh.objective, mesh.unresolved, mesh.largest_error,
+                    mesh.worst_interval, mesh.worst_phase.empty() ? "" : " of " + mesh.worst_phase);
   }
   return text + to_string(status) + "\n";
 }

@@ -105,6 +105,56 @@ TEST(Errors, AreThoseOfAnIndependentIntegration) {
   EXPECT_LT(estimate.amplification, 1);
 }
 
+TEST(Errors, CountTheQuadratureOfTheCostAndOfIntegrals) {
+  // States at rest are exact; the trapezoidal rule for the integral of sin^2(3 t) is not.
+  Problem p("clock");
+  const Expr x = p.state("x"), u = p.control("u");
+  p.dynamics(x, u);
+  p.lagrange("cost", square(u) + square(sin(3 * p.time())));
+  p.integral("area", 5 * square(sin(3 * p.time())) - 1);
+  p.initial_bounds(x, Bounds::equal(0));
+  const Solution solution = solve(p, {.mesh = Mesh({0, 0.4, 1}), .scheme = trapezoidal()});
+  ASSERT_TRUE(solution.solved());
+  const auto f = [](double t) { return std::pow(std::sin(3 * t), 2); };
+  const auto exact = [](double t) { return t / 2 - std::sin(6 * t) / 12; };
+  const double first = 0.2 * (f(0) + f(0.4)), second = 0.3 * (f(0.4) + f(1));
+  const auto estimate = estimate_errors(p, solution);
+  // The cost is relative to twice its size, the objective being that integral alone.
+  const double error = std::fabs(first - exact(0.4)) / (2 * (first + second));
+  EXPECT_GT(estimate.interval[0], error - 1e-9);
+  EXPECT_EQ(estimate.state[1], "area");
+  const double size = 0.2 * (1 + std::fabs(5 * f(0.4) - 1)) +
+                      0.3 * (std::fabs(5 * f(0.4) - 1) + std::fabs(5 * f(1) - 1));
+  EXPECT_NEAR(estimate.interval[1], 5 * std::fabs(second - exact(1) + exact(0.4)) / size, 1e-7);
+  EXPECT_LT(estimate.horizon, 1e-9) << "of the states alone";
+}
+
+TEST(UnresolvedControls, AreWhereAControlJumpsOrBendsWithinAnInterval) {
+  const auto form = moon_lander();  // one switch, of thrust 0 to 3
+  for (const Scheme& scheme : {trapezoidal(), hermite_simpson(), lgr(4), lgl(4)}) {
+    SCOPED_TRACE(scheme.name);
+    const Solution solution = solve(form.problem, {.mesh = Mesh::uniform(20), .scheme = scheme});
+    ASSERT_TRUE(solution.solved());
+    const auto unresolved = unresolved_controls(form.problem, solution);
+    double when = 0;  // thrust begins when x has fallen far enough
+    const auto u = solution.control("u"), t = solution.time();
+    for (std::size_t k = 0; k < u.size(); ++k)
+      if (u[k] < 1.5) when = t[k] / t.back();
+    const auto worst = static_cast<std::size_t>(
+        std::max_element(unresolved.begin(), unresolved.end()) - unresolved.begin());
+    EXPECT_NEAR((static_cast<double>(worst) + 0.5) / 20, when, 0.08);
+    EXPECT_GT(unresolved[worst], 1e-4);
+    for (std::size_t k = 0; k < 20; ++k)
+      if (std::fabs(static_cast<double>(k) - static_cast<double>(worst)) > 2)
+        EXPECT_LT(unresolved[k], 1e-6) << k;
+  }
+  // A smooth control is resolved.
+  const auto smooth = regulator();
+  const auto all = unresolved_controls(
+      smooth.problem, solve(smooth.problem, {.mesh = Mesh::uniform(10), .scheme = lgr(5)}));
+  EXPECT_LT(*std::max_element(all.begin(), all.end()), 1e-7);
+}
+
 TEST(Errors, SayWhereDynamicsBlowUpAndWhereTheyAmplify) {
   const auto unstable = [](double rate) {
     Problem p("unstable");

@@ -63,6 +63,20 @@ TEST(Refinement, PutsPointsWhereTheSolutionIsFastAndStartsFromTheLastMesh) {
   EXPECT_LT(refined.meshes.back().iterations, anew.iterations);
 }
 
+TEST(Refinement, FindsTheCostOfControlsThatJumpAndBend) {
+  for (const auto& form : {moon_lander(), bryson_denham(1.0 / 9)})
+    for (const Scheme& scheme : {hermite_simpson(), lgr(4), lgl(4)}) {
+      const SolveSettings start{.mesh = Mesh::uniform(20), .scheme = scheme};
+      const Refined refined = refine(form.problem, start);
+      SCOPED_TRACE(form.name + " by " + scheme.name + "\n" + refined.table());
+      EXPECT_EQ(refined.status, RefineStatus::converged);
+      EXPECT_NEAR(refined.solution.objective / form.objective, 1, 2e-6);
+      const Refined careless = refine(form.problem, start, {.resolve_controls = false});
+      EXPECT_EQ(careless.meshes.size(), 1U) << "its states are exact at once";
+      EXPECT_GT(std::fabs(careless.solution.objective / form.objective - 1), 2e-6);
+    }
+}
+
 TEST(Refinement, EndsAtItsLimitsAndSaysSo) {
   const auto form = least_time();  // u jumps: no mesh without a node at the jump is exact
   RefineRules rules{.tolerance = 1e-12, .max_meshes = 1};

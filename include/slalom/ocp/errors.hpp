@@ -9,13 +9,15 @@
 
 namespace slalom::ocp {
 
-/// How far a solution's states are from the dynamics, found by integrating these anew (Runge,
-/// Kutta & Fehlberg's method of order 8) with the solution's own controls. Errors are relative:
+/// How far a solution's states are from the dynamics, found by integrating these anew
+/// (Bulirsch & Stoer's extrapolation) with the solution's own controls. Errors are relative:
 /// |error of state i| / (scale_i + largest |state i|), the measure of Patterson, Hager & Rao,
-/// Optim. Control Appl. Meth. 36(4), 2015, eq. 27, with the state's scale for 1.
+/// Optim. Control Appl. Meth. 36(4), 2015, eq. 27, with the state's scale for 1. The cost's
+/// integral and the problem's integrals count as states, relative to the sum of all that adds up to
+/// them (and to the whole objective), so that a quadrature is judged too.
 struct ErrorEstimate {
   std::vector<double> interval;    ///< of each, from its own begin: largest over the states
-  std::vector<std::string> state;  ///< the state where it stands
+  std::vector<std::string> state;  ///< the state, or "the cost's integral", where it stands
   double largest = 0;              ///< over the intervals
   std::size_t worst = 0;           ///< that interval
   double horizon = 0;              ///< largest at a node, integrated from t0 on without a restart
@@ -28,6 +30,12 @@ struct ErrorEstimate {
 /// cannot be integrated to an interval's end (blow-up, NaN) has an infinite error.
 ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution,
                               double tolerance = 1e-12);
+
+/// By interval, how much of a control its polynomial cannot follow, such as a jump or kink within
+/// it: where it meets the polynomials of both neighbours badly, (h / T)^2 times the gap in value
+/// and slope at the better of its two ends, over the control's range; the cost's error falls as
+/// fast.
+std::vector<double> unresolved_controls(const Problem& problem, const Solution& solution);
 
 /// The largest violation of a bound of a state or control or of a path constraint.
 struct Violation {

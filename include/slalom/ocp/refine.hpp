@@ -18,6 +18,9 @@ enum class Refinement {
 struct RefineRules {
   double tolerance = 1e-6;  ///< of ErrorEstimate::largest
   Refinement refinement = Refinement::h;
+  /// Intervals whose control is not resolved to the tolerance (unresolved_controls) are cut too,
+  /// until the objective moves by less than the tolerance, relative, from mesh to mesh.
+  bool resolve_controls = true;
   int max_meshes = 15;
   int max_size = 20000;  ///< points of a mesh, of all phases
   int min_points = 3;    ///< hp: of a scheme in a new interval
@@ -43,6 +46,7 @@ struct MeshRecord {
   double largest_error = 0;  ///< ErrorEstimate::largest
   std::string worst_phase;   ///< where; empty with one phase alone
   std::size_t worst_interval = 0;
+  std::size_t unresolved = 0;  ///< intervals whose control is not resolved
 };
 
 /// The records as a table of plain text, with the status below.

@@ -60,8 +60,8 @@ struct Simulation {
   std::string message;    ///< one sentence on where; empty when complete
 };
 
-/// Integrates from x0 (Runge, Kutta & Fehlberg's method of order 8 with adaptive steps; Hairer,
-/// Norsett & Wanner 1993, section II.5) from corner to corner of the controls. Throws InvalidValue
+/// Integrates from x0 (Bulirsch & Stoer's extrapolation with adaptive order and steps; Hairer,
+/// Norsett & Wanner 1993, section II.9) from corner to corner of the controls. Throws InvalidValue
 /// for numbers of states or controls that do not match, numbers not finite, and t0 above tf.
 [[nodiscard]] Simulation simulate(const System& system, const std::vector<double>& x0,
                                   const Controls& controls, const SimulateSettings& settings = {});
