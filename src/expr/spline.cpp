@@ -12,17 +12,16 @@ namespace {
 
 using Vector = std::vector<double>;
 
-void check(const Vector& knots, const Vector& values) {
+void check(const Vector& knots, std::size_t values) {
   const std::string where = "spline";
   if (knots.size() < 2)
     throw InvalidValue(where, fmt::format("{} knots", knots.size()), "at least 2");
-  if (values.size() != knots.size())
-    throw InvalidValue(where, fmt::format("{} values", values.size()),
+  if (values != knots.size())
+    throw InvalidValue(where, fmt::format("{} values", values),
                        fmt::format("{}, one a knot", knots.size()));
   for (std::size_t i = 0; i < knots.size(); ++i) {
-    if (!std::isfinite(knots[i]) || !std::isfinite(values[i]))
-      throw InvalidValue(where, fmt::format("({}, {}) at knot {}", knots[i], values[i], i),
-                         "finite numbers");
+    if (!std::isfinite(knots[i]))
+      throw InvalidValue(where, fmt::format("knot {} = {}", i, knots[i]), "finite numbers");
     if (i > 0 && !(knots[i] > knots[i - 1]))
       throw InvalidValue(where, fmt::format("knot {} = {} after {}", i, knots[i], knots[i - 1]),
                          "strictly increasing knots");
@@ -46,7 +45,7 @@ Vector curvatures(const Vector& x, const Vector& y) {
 
 /// list[k] for the piece k that x lies in: pieces begin at `begins`. The choice has derivative 0,
 /// so that the derivative is that of the piece.
-Expr pick(const Expr& x, const Vector& begins, const Vector& list, std::size_t first,
+Expr pick(const Expr& x, const Vector& begins, const std::vector<Expr>& list, std::size_t first,
           std::size_t last) {
   if (first == last) return list[first];
   const std::size_t middle = (first + last + 1) / 2;
@@ -54,33 +53,59 @@ Expr pick(const Expr& x, const Vector& begins, const Vector& list, std::size_t f
                 pick(x, begins, list, first, middle - 1));
 }
 
-}  // namespace
-
-Expr cubic_spline(const Expr& x, const Vector& knots, const Vector& values) {
-  check(knots, values);
-  const Vector m = curvatures(knots, values);
+/// The spline of these values and second derivatives at the knots.
+Expr assemble(const Expr& x, const Vector& knots, const std::vector<Expr>& values,
+              const std::vector<Expr>& m) {
   const std::size_t last = knots.size() - 1;
   // Pieces: the line before the first knot, one from each knot on, the last a line again.
-  Vector begins, at, value, slope, second, third;
-  const auto add = [&](double begin, std::size_t i, double first_derivative, double curvature,
-                       double jerk) {
+  Vector begins;
+  std::vector<Expr> at, value, slope, second, third;
+  const auto add = [&](double begin, std::size_t i, const Expr& first_derivative,
+                       const Expr& curvature, const Expr& jerk) {
     begins.push_back(begin);
-    at.push_back(knots[i]);
+    at.emplace_back(knots[i]);
     value.push_back(values[i]);
     slope.push_back(first_derivative);
     second.push_back(curvature / 2);
     third.push_back(jerk / 6);
   };
   for (std::size_t i = 0; i < last; ++i) {
-    const double h = knots[i + 1] - knots[i], chord = (values[i + 1] - values[i]) / h;
-    const double begin = chord - h * (2 * m[i] + m[i + 1]) / 6;
+    const double h = knots[i + 1] - knots[i];
+    const Expr chord = (values[i + 1] - values[i]) / h;
+    const Expr begin = chord - h * (2 * m[i] + m[i + 1]) / 6;
     if (i == 0) add(knots[0], 0, begin, 0, 0);
     add(knots[i], i, begin, m[i], (m[i + 1] - m[i]) / h);
     if (i + 1 == last) add(knots[last], last, chord + h * (m[i] + 2 * m[i + 1]) / 6, 0, 0);
   }
-  const auto chosen = [&](const Vector& list) { return pick(x, begins, list, 0, list.size() - 1); };
+  const auto chosen = [&](const std::vector<Expr>& list) {
+    return pick(x, begins, list, 0, list.size() - 1);
+  };
   const Expr d = x - chosen(at);
   return chosen(value) + d * (chosen(slope) + d * (chosen(second) + d * chosen(third)));
+}
+
+}  // namespace
+
+Expr cubic_spline(const Expr& x, const Vector& knots, const Vector& values) {
+  check(knots, values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw InvalidValue("spline", fmt::format("{} at knot {}", values[i], i), "finite numbers");
+  const Vector m = curvatures(knots, values);
+  return assemble(x, knots, {values.begin(), values.end()}, {m.begin(), m.end()});
+}
+
+Expr cubic_spline(const Expr& x, const Vector& knots, const std::vector<Expr>& values) {
+  check(knots, values.size());
+  std::vector<Expr> m(knots.size(), Expr(0));  // linear in the values
+  for (std::size_t j = 0; j < knots.size(); ++j) {
+    Vector unit(knots.size(), 0.0);
+    unit[j] = 1;
+    const Vector effect = curvatures(knots, unit);
+    for (std::size_t i = 0; i < knots.size(); ++i)
+      if (effect[i] != 0) m[i] = m[i] + effect[i] * values[j];
+  }
+  return assemble(x, knots, values, m);
 }
 
 }  // namespace slalom::expr

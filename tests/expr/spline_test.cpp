@@ -101,7 +101,25 @@ TEST(Splines, RefuseTablesThatAreNone) {
   EXPECT_EQ(message({1, 2, 2}, {1, 2, 3}),
             "spline: found knot 2 = 2 after 2, expected strictly increasing knots");
   EXPECT_EQ(message({1, 2}, {1, std::nan("")}),
-            "spline: found (2, nan) at knot 1, expected finite numbers");
+            "spline: found nan at knot 1, expected finite numbers");
+}
+
+TEST(Splines, OfExpressionsAreThoseOfTheirNumbers) {
+  const std::vector<double> knots{-1, 0.5, 1, 2.5, 4}, values{3, -2, 0.5, 7, 1};
+  const Expr x = Expr::symbol("x");
+  std::vector<Expr> inputs{x}, symbols;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    symbols.push_back(Expr::symbol("v" + std::to_string(i)));
+  inputs.insert(inputs.end(), symbols.begin(), symbols.end());
+  const Function f(inputs, {}, {cubic_spline(x, knots, symbols)});
+  for (const double number : {-3.0, -1.0, 0.1, 0.75, 1.9, 2.5, 3.3, 6.0}) {
+    std::vector<double> in{number};
+    in.insert(in.end(), values.begin(), values.end());
+    double value = 0;
+    f(in, {}, {&value, 1});
+    EXPECT_NEAR(value, at(knots, values, number).value, 1e-13) << number;
+  }
+  EXPECT_THROW((void)cubic_spline(x, {1, 2}, std::vector<Expr>{x}), InvalidValue);
 }
 
 }  // namespace

@@ -12,5 +12,8 @@ namespace slalom::expr {
 /// numbers that are not finite, for knots that do not rise, and for another number of values.
 Expr cubic_spline(const Expr& x, const std::vector<double>& knots,
                   const std::vector<double>& values);
+/// The same through values that are expressions, such as parameters of an optimal-control problem:
+/// a function of time that changes between solves.
+Expr cubic_spline(const Expr& x, const std::vector<double>& knots, const std::vector<Expr>& values);
 
 }  // namespace slalom::expr
