@@ -185,8 +185,14 @@ void bind_expressions(nb::module_& module) {
   }
   module.def("select", &expr::select, "condition"_a, "if_positive"_a, "otherwise"_a,
              doc::expr_select);
-  module.def("cubic_spline", &expr::cubic_spline, "x"_a, "knots"_a, "values"_a,
-             doc::expr_cubic_spline);
+  module.def("cubic_spline",
+             nb::overload_cast<const Expr&, const std::vector<double>&, const std::vector<double>&>(
+                 &expr::cubic_spline),
+             "x"_a, "knots"_a, "values"_a, doc::expr_cubic_spline);
+  module.def("cubic_spline",
+             nb::overload_cast<const Expr&, const std::vector<double>&, const std::vector<Expr>&>(
+                 &expr::cubic_spline),
+             "x"_a, "knots"_a, "values"_a, doc::expr_cubic_spline);
 }
 
 }  // namespace slalom::python

@@ -58,6 +58,7 @@ struct Refined {
   ErrorEstimate errors;
   std::vector<MeshRecord> meshes;
 
+  /// The records as a table of plain text, with the status below.
   std::string table() const { return ocp::table(meshes, status); }
 };
 
@@ -67,6 +68,7 @@ struct PhasedRefined {
   std::vector<ErrorEstimate> errors;  ///< of each phase
   std::vector<MeshRecord> meshes;
 
+  /// The records as a table of plain text, with the status below.
   std::string table() const { return ocp::table(meshes, status); }
 };
 
