@@ -4,7 +4,7 @@
 Each module may include itself and those above it in LAYERS, and never another module's private
 headers, except that sources of all may include those of SHARED_PRIVATE: its vectors and aligned
 memory serve the kernels of several modules, and installed they would tie users to instruction
-sets. Public headers keep the libraries of FORBIDDEN_IN_PUBLIC to the sources. Files beyond
+sets. A header include/slalom/X.hpp gathers those of module X and belongs to it. Public headers keep the libraries of FORBIDDEN_IN_PUBLIC to the sources. Files beyond
 WARN_LINES lines are named, beyond FAIL_LINES they fail.
 
 usage: check_layers.py [ROOT]
@@ -26,8 +26,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 def module_of(path):
     """The module of a file given relative to the root; None for a file outside the modules."""
     parts = path.parts
-    if parts[:2] == ("include", "slalom") and len(parts) > 3:
-        return parts[2]
+    if parts[:2] == ("include", "slalom"):
+        return parts[2] if len(parts) > 3 else path.stem
     if parts[0] == "src" and len(parts) > 2:
         return parts[1]
     return "apps" if parts[0] == "apps" else None
@@ -44,8 +44,7 @@ def includes(text):
 def included_module(root, path, quoted, target):
     """The module whose header `path` includes, and whether the header is private."""
     if target.startswith("slalom/"):
-        parts = target.split("/")
-        return (parts[1] if len(parts) > 2 else None), False
+        return module_of(pathlib.Path("include", target)), False
     if quoted:
         near = (root / path.parent / target).resolve()
         if near.is_relative_to(root.resolve()):

@@ -48,6 +48,15 @@ class CheckLayers(unittest.TestCase):
         self.assert_wrong("include/slalom/expr/expr.hpp", "#include <slalom/nlp/solver.hpp>\n",
                           "expr includes slalom/nlp/solver.hpp")
 
+    def test_a_header_that_gathers_a_module_belongs_to_it(self):
+        gathering = {"include/slalom/sim.hpp": '#include "slalom/sim/plant.hpp"\n'}
+        self.assertEqual(self.run_on(RIGHT | gathering).returncode, 0)
+        self.assert_wrong("include/slalom/base.hpp", '#include "slalom/sim/plant.hpp"\n',
+                          "base includes slalom/sim/plant.hpp")
+        self.assert_wrong("src/base/error.cpp", '#include "slalom/sim.hpp"\n',
+                          "src/base/error.cpp:1: base includes slalom/sim.hpp")
+        self.assert_wrong("include/slalom/all.hpp", "\n", "in no known module")
+
     def test_modules_do_not_include_the_program(self):
         self.assert_wrong("src/io/x.cpp", '#include "../../apps/slalom/main.cpp"\n',
                           "io includes a private header of apps")

@@ -308,4 +308,9 @@ void Problem::final_bounds(const Expr& state, Bounds bounds) {
   target.final = bounds;
 }
 
+void Problem::fix(const Expr& state, double initial, double final) {
+  initial_bounds(state, Bounds::equal(initial));
+  final_bounds(state, Bounds::equal(final));
+}
+
 }  // namespace slalom::ocp

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run.sh CMAKE BUILD: installs the build tree BUILD into a fresh prefix, builds the consumer in this
-# folder from that prefix alone, and runs it and the installed program.
+# folder and the README's programs from that prefix alone, and runs them and the installed program.
 set -euo pipefail
 
 cmake=$1
@@ -14,9 +14,35 @@ prefix=$work/prefix
   cat "$work/install.log"
   exit 1
 }
-"$cmake" -S "$here" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug
+# The README's C++ blocks, in their order: readme_1.cpp, readme_2.cpp, ...
+mkdir "$work/readme"
+awk -v folder="$work/readme" '
+  /^```cpp$/ { file = folder "/readme_" ++count ".cpp"; next }
+  /^```$/ { file = "" }
+  file { print > file }' "$here/../../README.md"
+
+"$cmake" -S "$here" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
+  -DREADME_PROGRAMS="$work/readme"
 "$cmake" --build "$work/consumer"
-SLALOM_CONFIG_DIR=$prefix/share/slalom/config "$work/consumer/consumer"
+export SLALOM_CONFIG_DIR=$prefix/share/slalom/config
+"$work/consumer/consumer"
+
+# expect PROGRAM PATTERN: what the README's program prints.
+expect() {
+  local says
+  says=$("$work/consumer/$1")
+  grep -Eq "$2" <<<"$says" || {
+    echo "$1 of the README says '$says', expected $2"
+    exit 1
+  }
+  echo "$1: $says"
+}
+expect readme_1 '^goal at 6\.[0-9]+ s$'
+expect readme_2 '^solved (4|3\.9999|4\.0000)[0-9]* [0-9.]+e-[0-9]+$'
+if [ -e "$work/readme/readme_3.cpp" ]; then
+  echo "the README has a third program that nothing here expects"
+  exit 1
+fi
 
 # The installed program finds the configuration installed beside it, not the source tree's.
 version=$(sed -n 's/^set(PACKAGE_VERSION "\(.*\)")$/\1/p' \

@@ -23,8 +23,7 @@ struct ClosedForm {
 };
 
 inline void fix(Problem& problem, const Expr& state, double from, double to) {
-  problem.initial_bounds(state, Bounds::equal(from));
-  problem.final_bounds(state, Bounds::equal(to));
+  problem.fix(state, from, to);
 }
 
 /// x'' = u, v from 1 to -1, x <= l, least half of the integral of u^2 (Bryson and Ho 1975, 3.11).

@@ -150,6 +150,8 @@ class Problem {
   void initial_bounds(const Expr& state, Bounds bounds);
   /// Extra bounds of a state at tf, likewise.
   void final_bounds(const Expr& state, Bounds bounds);
+  /// Fixes a state at both ends.
+  void fix(const Expr& state, double initial, double final);
 
   // --- what a transcription reads ----------------------------------------------------------
   struct Variable {

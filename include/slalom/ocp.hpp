@@ -1,0 +1,20 @@
+#pragma once
+
+/// Optimal control whole: expressions, problems in one phase or several, guesses, solving, answers
+/// judged and refined. All of it is in slalom::ocp but for
+/// slalom::expr, whose functions (sin, square, min, cubic_spline, ...) are found by their
+/// arguments.
+
+#include "slalom/expr/expr.hpp"
+#include "slalom/expr/spline.hpp"
+#include "slalom/ocp/errors.hpp"
+#include "slalom/ocp/guess.hpp"
+#include "slalom/ocp/interpolant.hpp"
+#include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/refine.hpp"
+#include "slalom/ocp/scaling.hpp"
+#include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/simulate.hpp"
+#include "slalom/ocp/solve.hpp"
+#include "slalom/ocp/trajectory.hpp"
