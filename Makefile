@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios wheel docs format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios peers wheel docs format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -30,6 +30,11 @@ test: ## set up, build, and run every test and check, with sanitizers too
 bench: ## set up, and time the planner's solver beside its peers into docs/benchmarks.md (takes hours)
 	tools/setup.sh bench
 	python3 benchmarks/run.py
+
+peers: ## time tools for optimal control on the same problems into docs/peers.md (takes an hour)
+	tools/setup.sh bench
+	tools/setup.sh wheel
+	python3 benchmarks/ocp/peers.py
 
 reproduce: ## all drives of the paper's figures into run/reproduce/, ours beside the paper's
 	tools/setup.sh run

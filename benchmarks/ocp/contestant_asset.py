@@ -7,7 +7,8 @@ import asset_asrl as ast
 import numpy as np
 
 vf, oc = ast.VectorFunctions, ast.OptimalControl
-SCHEMES = ["LGL3", "LGL5", "LGL7"]
+# With a line search and without: which is better depends on the problem.
+SCHEMES = ["LGL3 L1", "LGL5 L1", "LGL7 L1", "LGL3 NOLS", "LGL5 NOLS", "LGL7 NOLS"]
 POINTS = 101  # of the guess that the phase interpolates
 
 
@@ -41,6 +42,7 @@ def bound(phase, region, index, low, high):
 
 def build(statement, scheme, intervals):
     """The phase."""
+    mode, search = scheme.split()
     nx, nu = len(statement.states), len(statement.controls)
     guess = []
     for tau in np.linspace(0, 1, POINTS):
@@ -50,7 +52,7 @@ def build(statement, scheme, intervals):
         row += [statement.line(n)[0] * (1 - tau) + statement.line(n)[1] * tau
                 for n in statement.controls]
         guess.append(row)
-    phase = Dynamics(statement).phase(scheme, guess, intervals)
+    phase = Dynamics(statement).phase(mode, guess, intervals)
     first = [i for i in range(nx) if statement.first[i] is not None]
     last = [i for i in range(nx) if statement.last[i] is not None]
     phase.addBoundaryValue("Front", first + [nx], [statement.first[i] for i in first] + [0])
@@ -80,7 +82,7 @@ def build(statement, scheme, intervals):
         phase.addStateObjective("Back", statement.mayer(Functions, z[:nx], z[nx]),
                                 list(range(nx + 1)))
     phase.optimizer.PrintLevel = 3
-    phase.optimizer.set_OptLSMode("L1")
+    phase.optimizer.set_OptLSMode(search)
     phase.optimizer.set_QPOrderingMode("MINDEG")
     phase.optimizer.set_EContol(1e-9)
     phase.optimizer.set_KKTtol(1e-8)

@@ -6,7 +6,7 @@ import time
 import casadi as ca
 import numpy as np
 
-SCHEMES = ["hermite_simpson", "radau3", "radau4"]
+SCHEMES = ["hermite_simpson", "hermite_simpson linear", "radau3", "radau4"]
 # As CasADi's users set it: SX graphs, exact Hessian, no output.
 OPTIONS = {"ipopt.print_level": 0, "print_time": 0, "ipopt.sb": "yes", "ipopt.tol": 1e-8,
            "ipopt.max_iter": 1000, "expand": True}
@@ -77,14 +77,15 @@ def build(statement, scheme, intervals):
     h = tf / intervals
     points = []  # of each interval: states at both ends, controls at the collocated points
     x = state(0, statement.first)
-    if scheme == "hermite_simpson":
+    if scheme.startswith("hermite_simpson"):
         u = control(0)
         path(x, u)
         for k in range(intervals):
-            um = control((k + 0.5) / intervals)
+            um = None if scheme.endswith("linear") else control((k + 0.5) / intervals)
             last = k + 1 == intervals
             x1 = state((k + 1) / intervals, statement.last if last else None)
             u1 = control((k + 1) / intervals)
+            um = (u + u1) / 2 if um is None else um
             f0, f1 = rates(x, u), rates(x1, u1)
             xm = (x + x1) / 2 + h / 8 * (f0 - f1)
             b.equal(x1 - x - h / 6 * (f0 + 4 * rates(xm, um) + f1))

@@ -6,7 +6,7 @@ import time
 import numpy as np
 import slalom
 
-SCHEMES = ["hermite_simpson", "lgr 4", "lgl 4", "lgl 5"]
+SCHEMES = ["hermite_simpson", "hermite_simpson linear", "lgr 4", "lgl 4", "lgl 5"]
 
 
 class Functions:
@@ -15,13 +15,8 @@ class Functions:
     sin, cos, exp, sqrt = np.sin, np.cos, np.exp, np.sqrt
 
 
-def end(value):
-    """A free end is left out."""
-    return {} if value is None else value
-
-
-def build(statement):
-    """The problem and the guess."""
+def build(statement, form="scheme"):
+    """The problem and the guess; `form` of the controls."""
     p = slalom.Problem(statement.name)
     x = []
     for i, name in enumerate(statement.states):
@@ -34,7 +29,7 @@ def build(statement):
     for i, name in enumerate(statement.controls):
         low, high = statement.control_bounds[i]
         u.append(p.control(name, lower=low if math.isfinite(low) else None,
-                           upper=high if math.isfinite(high) else None))
+                           upper=high if math.isfinite(high) else None, form=form))
     for state, rate in zip(x, statement.rates(Functions, x, u)):
         p.dynamics(state, rate)
     if statement.lagrange:
@@ -56,10 +51,11 @@ def build(statement):
 
 def solve(statement, scheme, intervals):
     """(answer or None, set-up seconds, solve seconds)."""
-    name, _, points = scheme.partition(" ")
+    name, _, rest = scheme.partition(" ")
     begin = time.perf_counter()
-    p, guess = build(statement)
-    s = p.solve(mesh=intervals, scheme=name, points=int(points or 4), guess=guess)
+    p, guess = build(statement, "linear" if rest == "linear" else "scheme")
+    s = p.solve(mesh=intervals, scheme=name, points=int(rest) if rest.isdigit() else 4,
+                guess=guess)
     total = time.perf_counter() - begin
     if not s.solved:
         return None, total - s.wall_s, s.wall_s
