@@ -7,6 +7,8 @@
 namespace slalom::nlp {
 namespace {
 
+/// Of what is relative, in dual_tol.
+constexpr double kRelativeTolerance = 0.1;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// One variable or row between its limits, in the user's units.
@@ -123,9 +125,51 @@ bool Residuals::solved(const Options& options) const {
   if (options.floor > 0)
     return violation <= options.constraint_tol && stationarity <= options.dual_tol &&
            complementarity <= options.floor_tol;
-  return violation <= options.constraint_tol && stationarity <= options.dual_tol &&
-         complementarity <= options.dual_tol;
+  const double tol = kRelativeTolerance * options.dual_tol;
+  return relative_violation <= options.constraint_tol && relative_stationarity <= tol &&
+         relative_complementarity <= tol;
 }
+
+namespace {
+
+/// The residuals in the NLP's own units, whose scales are the user's idea of what is large; those
+/// of duals relative to what adds up in them, and to the objective.
+void judge_scaled(const Structure& shape, const Limits& limits, const Start& point,
+                  const Evaluation& at, const std::vector<double>& lagrangian, Residuals& result) {
+  const auto outside = [](double value, double lower, double upper) {
+    return std::max({0.0, lower - value, value - upper});
+  };
+  double most = 1;
+  for (const double slope : at.gradient) most = std::max(most, std::fabs(slope));
+  for (std::size_t e = 0; e < at.jacobian.size(); ++e)
+    most = std::max(most, std::fabs(point.y[shape.jacobian_row[e]] * at.jacobian[e]));
+  double violation = 0, stationarity = 0, complementarity = 0;
+  for (std::size_t r = 0; r < shape.rows; ++r) {
+    violation = std::max(violation, outside(at.rows[r], limits.gl[r], limits.gu[r]));
+    if (limits.gl[r] == limits.gu[r]) continue;
+    const Item item{at.rows[r],
+                    limits.gl[r],
+                    limits.gu[r],
+                    std::max(-point.y[r], 0.0),
+                    std::max(point.y[r], 0.0),
+                    true};
+    complementarity = std::max({complementarity, product(item.value - item.lower, item.z_lower),
+                                product(item.upper - item.value, item.z_upper)});
+  }
+  for (std::size_t i = 0; i < shape.variables; ++i) {
+    violation = std::max(violation, outside(point.x[i], limits.xl[i], limits.xu[i]));
+    if (limits.xl[i] == limits.xu[i]) continue;
+    most = std::max({most, std::fabs(point.zl[i]), std::fabs(point.zu[i])});
+    stationarity = std::max(stationarity, std::fabs(lagrangian[i] - point.zl[i] + point.zu[i]));
+    complementarity = std::max({complementarity, product(point.x[i] - limits.xl[i], point.zl[i]),
+                                product(limits.xu[i] - point.x[i], point.zu[i])});
+  }
+  result.relative_violation = violation;
+  result.relative_stationarity = stationarity / most;
+  result.relative_complementarity = complementarity / std::max(std::fabs(at.objective), most);
+}
+
+}  // namespace
 
 Residuals check(Problem& problem, const Start& point, const Options& options) {
   const Structure& shape = problem.structure();
@@ -136,7 +180,8 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
   result.fault = problem.evaluate(point.x, 1, {}, {.values = true, .derivatives = true}, at);
   if (result.fault) {
     result.violation = result.stationarity = result.complementarity = kNaN;
-    result.objective = result.phi = kNaN;
+    result.relative_violation = result.relative_stationarity = kNaN;
+    result.relative_complementarity = result.objective = result.phi = kNaN;
     return result;
   }
   result.objective = at.objective;
@@ -165,6 +210,7 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
     name = worst.which < shape.rows ? problem.row_name(worst.which)
                                     : problem.variable_name(worst.which - shape.rows);
   };
+  judge_scaled(shape, limits, point, at, lagrangian, result);
   tell(judge.violation, result.violation, result.worst_constraint);
   tell(judge.stationarity, result.stationarity, result.worst_variable);
   tell(judge.complementarity, result.complementarity, result.worst_pair);

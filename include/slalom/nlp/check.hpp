@@ -15,7 +15,11 @@ struct Residuals {
   std::string worst_variable;    ///< its name
   double complementarity = 0;    ///< largest |s z / mu - 1| at a floor; largest |s z| without
   std::string worst_pair;        ///< the row or bound where it stands
-  Fault fault;                   ///< where a function is not finite; all numbers here are then NaN
+  /// In the NLP's own units (of the scales); the last two over the largest term of the Lagrangian's
+  /// slopes, and the objective, where these are above 1. Large units do not matter to them, and
+  /// they are what "solved" means without a floor.
+  double relative_violation = 0, relative_stationarity = 0, relative_complementarity = 0;
+  Fault fault;  ///< where a function is not finite; all numbers here are then NaN
   double objective = 0;
   double phi = 0;  ///< f - mu sum log s, rows and bounds unscaled
 
