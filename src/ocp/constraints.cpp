@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "draft.hpp"
@@ -51,6 +52,17 @@ void use_as_row(Draft& draft, std::size_t batch, std::size_t output, std::size_t
     name.text = row.name + name.text;
   }
   add_constraint(draft, batch, output, lane, std::move(name), {constraint, member, point});
+}
+
+/// An equation that determines controls has none to determine where they are held, at a point that
+/// no interval collocates.
+bool overdetermines(const Draft& draft, const Problem::Constraint& row, std::size_t point) {
+  if (draft.collocated[point] || row.bounds.lower != row.bounds.upper || row.soft) return false;
+  const auto symbols = expr::symbols_of({row.value});
+  return std::any_of(symbols.begin(), symbols.end(), [&](const Expr& symbol) {
+    const Meaning* meaning = draft.symbols.find(symbol);
+    return meaning != nullptr && meaning->kind == Meaning::Kind::control;
+  });
 }
 
 void add_families(Draft& draft) {
@@ -144,7 +156,9 @@ void use_paths(Draft& draft, const std::vector<std::size_t>& batches, std::size_
   for (std::size_t i = 0; i < constraints.size(); ++i)
     for (const std::size_t batch : batches)
       for (std::size_t lane = 0; lane < draft.out.batches[batch].lanes; ++lane)
-        use_as_row(draft, batch, first_output + i, lane, constraints[i]);
+        if (!overdetermines(draft, draft.problem.constraints()[constraints[i]],
+                            draft.out.batches[batch].lane_point[lane]))
+          use_as_row(draft, batch, first_output + i, lane, constraints[i]);
 }
 
 void add_constraints(Draft& draft) {

@@ -29,6 +29,10 @@ Draft::Draft(const Problem& p, const Mesh& m, const Schemes& s)
     if (row.soft && !absent(row, row.kind)) out.terms.push_back("soft " + row.name);
   out.layout = make_layout(problem, mesh, schemes, symbols.find_lifts());
   out.structure.variable_scale = variable_scales(problem, out.layout);
+  collocated.assign(out.layout.points(), 0);
+  for (std::size_t k = 0; k < out.layout.intervals(); ++k)
+    for (std::size_t j = 0; j < schemes.of(k).points.size(); ++j)
+      if (schemes.of(k).collocates(j)) collocated[out.layout.node_point[k] + j] = 1;
   if (out.layout.state_points.size() < out.layout.points()) midpoints_.emplace(problem, out.layout);
 }
 

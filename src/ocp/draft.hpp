@@ -35,6 +35,7 @@ struct Draft {
   std::vector<RowInfo> rows;
   std::vector<RowTerm> linear;
   std::vector<std::vector<Use>> uses;  ///< of each batch
+  std::vector<char> collocated;        ///< whether an interval collocates the point
 
  private:
   Compiler compiler_;

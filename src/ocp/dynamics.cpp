@@ -120,10 +120,6 @@ class Dynamics {
   /// in the air, to that of the point beside it.
   void shape_controls() {
     const Layout& layout = draft_.out.layout;
-    std::vector<char> collocated(layout.points(), 0);
-    for (std::size_t k = 0; k < layout.intervals(); ++k)
-      for (std::size_t j = 0; j < draft_.schemes.of(k).points.size(); ++j)
-        if (draft_.schemes.of(k).collocates(j)) collocated[layout.node_point[k] + j] = 1;
     const std::size_t last = layout.intervals() - 1;
     for (std::size_t i = 0; i < layout.nu; ++i) {
       const ControlForm form = draft_.problem.controls()[i].form;
@@ -132,8 +128,8 @@ class Dynamics {
       // A line's end is a control of its own even where the scheme does not collocate it.
       const bool free_end = form == ControlForm::linear && draft_.schemes.of(last).interior() > 0;
       for (std::size_t point = 0; point < layout.points(); ++point)
-        if (!collocated[point] && !(free_end && point + 1 == layout.points()))
-          hold_control(i, point, collocated);
+        if (!draft_.collocated[point] && !(free_end && point + 1 == layout.points()))
+          hold_control(i, point);
     }
   }
 
@@ -150,10 +146,10 @@ class Dynamics {
       tie_control(i, begin + last, {{begin, 1}});
   }
 
-  void hold_control(std::size_t i, std::size_t point, const std::vector<char>& collocated) {
+  void hold_control(std::size_t i, std::size_t point) {
     std::size_t from = point;
-    while (from > 0 && !collocated[from]) --from;
-    while (!collocated[from]) ++from;
+    while (from > 0 && !draft_.collocated[from]) --from;
+    while (!draft_.collocated[from]) ++from;
     tie_control(i, point, {{from, 1}});
   }
 

@@ -107,6 +107,29 @@ TEST(LinearControls, AreLinesBetweenTheNodes) {
       EXPECT_NEAR(u[4 * k + j], u[4 * k] + scheme.points[j] * (u[4 * k + 4] - u[4 * k]), 1e-7);
 }
 
+TEST(HeldControls, AreNotAskedToMeetEquationsToo) {
+  // u + x = 0 makes x = exp(-t), and leaves no freedom at a point whose control is another's.
+  for (const Scheme& scheme : schemes()) {
+    if (scheme.order < 2) continue;
+    SCOPED_TRACE(scheme.name);
+    Problem p("equation");
+    const Expr x = p.state("x"), u = p.control("u"), w = p.control("w");
+    p.dynamics(x, u);
+    p.path("law", u + x, Bounds::equal(0));
+    p.path("circle", square(w), Bounds::equal(4));
+    p.lagrange("cost", w);
+    p.initial_bounds(x, Bounds::equal(1));
+    Trajectory guess;
+    guess.tau = {0, 1};
+    guess.states = {{1}, {1}};
+    guess.controls = {{0, -1}, {0, -1}};
+    const Solution solution = solve(p, {.mesh = kUneven, .scheme = scheme, .guess = guess});
+    ASSERT_TRUE(solution.solved()) << to_string(solution.status);
+    EXPECT_NEAR(solution.state("x").back(), std::exp(-1), scheme.order > 2 ? 1e-4 : 1e-2);
+    EXPECT_NEAR(solution.objective, -2, 1e-7);
+  }
+}
+
 TEST(ControlForms, AreAskedForByTheControl) {
   Problem p("forms");
   const Expr x = p.state("x");
