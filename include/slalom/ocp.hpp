@@ -1,7 +1,7 @@
 #pragma once
 
 /// Optimal control whole: expressions, problems in one phase or several, guesses, solving, answers
-/// judged and refined. All of it is in slalom::ocp but for
+/// judged and refined, receding horizons. All of it is in slalom::ocp but for
 /// slalom::expr, whose functions (sin, square, min, cubic_spline, ...) are found by their
 /// arguments.
 
@@ -10,7 +10,9 @@
 #include "slalom/ocp/errors.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/interpolant.hpp"
+#include "slalom/ocp/mpc.hpp"
 #include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/prepared.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/refine.hpp"
 #include "slalom/ocp/scaling.hpp"

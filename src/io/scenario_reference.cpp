@@ -7,6 +7,7 @@
 #include "scenario_tables.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/mpc.hpp"
 
 namespace slalom::io {
 namespace {
@@ -158,7 +159,14 @@ The members of `nlp::Options` (`slalom/nlp/solver.hpp`), which every back end ta
 its range is refused before a solve begins, with option, value and rule.
 
 )" + std::string(kHead) +
-         table(nlp::solver_options(), nlp::Options{});
+         table(nlp::solver_options(), nlp::Options{}) + R"(
+## Receding horizon
+
+The members of `ocp::MpcSettings` (`slalom/ocp/mpc.hpp`) that are numbers, switches or choices; see
+[mpc.md](mpc.md).
+
+)" + std::string(kHead) +
+         table(ocp::mpc_options(), ocp::MpcSettings{});
 }
 
 }  // namespace slalom::io

@@ -1,16 +1,13 @@
 #include "slalom/ocp/solve.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "objective_scale.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
-#include "slalom/ocp/guess.hpp"
-#include "slalom/ocp/interpolant.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/transcription.hpp"
+#include "solved.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -33,13 +30,6 @@ std::vector<double> column(const std::vector<std::vector<double>>& rows, std::si
   result.reserve(rows.size());
   for (const auto& row : rows) result.push_back(row[i]);
   return result;
-}
-
-template <class List>
-std::vector<std::string> names_of(const List& list) {
-  std::vector<std::string> names;
-  for (const auto& item : list) names.push_back(item.name);
-  return names;
 }
 
 }  // namespace
@@ -78,83 +68,6 @@ std::vector<double> Solution::costate(const std::string& state_name) const {
 
 namespace {
 
-/// What a point says of one phase.
-void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
-              Transcription& transcription, const nlp::Start& point, Solution& solution) {
-  solution.mesh = grid.mesh;
-  for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
-  solution.scheme = grid.schemes;
-  solution.cost_terms = transcription.cost_terms(point.x);
-  solution.trajectory = transcription.trajectory(point.x);
-  solution.costates = transcription.costates(point.x, point.y);
-  solution.collocated_costates = transcription.collocated_costates(point.y);
-  solution.multipliers = transcription.multipliers(point);
-  solution.excesses = transcription.excesses(point.x);
-  solution.state_names = names_of(problem.states());
-  solution.control_names = names_of(problem.controls());
-  solution.static_parameter_names = names_of(problem.static_parameters());
-  solution.slack_names = names_of(problem.slacks());
-}
-
-/// A point of the NLP in the user's units, and back.
-nlp::Start to_user(nlp::Start point, const nlp::Structure& shape) {
-  for (std::size_t i = 0; i < point.x.size(); ++i) point.x[i] *= shape.variable_scale[i];
-  for (auto* z : {&point.zl, &point.zu})
-    for (std::size_t i = 0; i < z->size(); ++i) (*z)[i] /= shape.variable_scale[i];
-  for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] *= shape.row_scale[r];
-  return point;
-}
-nlp::Start from_user(nlp::Start point, const nlp::Structure& shape) {
-  nlp::check_sizes(point, shape, true);
-  for (std::size_t i = 0; i < point.x.size(); ++i) point.x[i] /= shape.variable_scale[i];
-  for (auto* z : {&point.zl, &point.zu})
-    for (std::size_t i = 0; i < z->size(); ++i) (*z)[i] *= shape.variable_scale[i];
-  for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] /= shape.row_scale[r];
-  return point;
-}
-
-/// Solves and checks from a start in the NLP's units, with multipliers or without; `solution` is of
-/// one phase or of several. The NLP's answer, in its own units, is returned.
-template <class Result>
-nlp::Start run(nlp::Problem& problem, const std::string& backend, nlp::Options options,
-               const nlp::Start& start, const std::vector<char>& regular, Result& solution) {
-  options.warm_start = !start.y.empty();
-  nlp::Answer answer = solve_scaled(problem, *nlp::make_solver(backend), start, options, regular);
-  solution.status = answer.status;
-  solution.fault = answer.fault;
-  solution.objective = answer.objective;
-  solution.residuals = nlp::check(problem, answer.point, options);
-  solution.options = options;
-  solution.backend = answer.backend;
-  solution.iterations = answer.iterations;
-  solution.wall_s = answer.wall_s;
-  solution.point = to_user(answer.point, problem.structure());
-  return std::move(answer.point);
-}
-
-/// What one phase starts from.
-struct Beginning {
-  Trajectory guess;
-  std::optional<Duals> duals;
-};
-
-Beginning begin(const Problem& problem, const PhasedTranscription::Grid& grid,
-                const Trajectory& guess, const Solution* previous) {
-  if (previous != nullptr) {
-    const Interpolant polynomials(problem, previous->trajectory, previous->mesh, previous->scheme);
-    return {polynomials.resampled(grid.mesh, grid.schemes),
-            Duals{previous->trajectory.tau, previous->collocated_costates, previous->multipliers}};
-  }
-  if (guess.tau.empty()) return {straight_guess(problem), {}};
-  check_guess(guess, problem);
-  return {guess, {}};
-}
-
-nlp::Start start_of(Transcription& transcription, const Beginning& beginning) {
-  if (beginning.duals) return transcription.carried(beginning.guess, *beginning.duals);
-  return {transcription.point(beginning.guess), {}, {}, {}};
-}
-
 void append(const nlp::Start& part, nlp::Start& whole) {
   for (auto list : {&nlp::Start::x, &nlp::Start::y, &nlp::Start::zl, &nlp::Start::zu})
     (whole.*list).insert((whole.*list).end(), (part.*list).begin(), (part.*list).end());
@@ -178,8 +91,9 @@ Solution solve(const Problem& problem, const SolveSettings& settings) {
   const bool warm = settings.previous == nullptr && !settings.warm_start.x.empty();
   const nlp::Start start = warm ? from_user(settings.warm_start, transcription.structure())
                                 : start_of(transcription, beginning);
+  const auto solver = nlp::make_solver(settings.backend);
   Solution solution;
-  const auto point = run(transcription, settings.backend, settings.options, start,
+  const auto point = run(transcription, *solver, settings.options, start,
                          transcription.regular_variables(), solution);
   describe(scaled, grid, transcription, point, solution);
   return solution;
@@ -216,9 +130,9 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
                         row_scale[transcription.first_link() + l]);
   else if (!settings.warm_start.x.empty())
     start = from_user(settings.warm_start, transcription.structure());
+  const auto solver = nlp::make_solver(settings.backend);
   PhasedSolution solution;
-  const auto point =
-      run(transcription, settings.backend, settings.options, start, regular, solution);
+  const auto point = run(transcription, *solver, settings.options, start, regular, solution);
   for (std::size_t p = 0; p < phases; ++p) {
     Solution& part = solution.phases.emplace_back();
     describe(scaled.phases()[p], grids[p], transcription.phase(p), transcription.part_of(p, point),

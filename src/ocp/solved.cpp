@@ -1,0 +1,58 @@
+#include "solved.hpp"
+
+#include "slalom/ocp/guess.hpp"
+#include "slalom/ocp/interpolant.hpp"
+
+namespace slalom::ocp {
+
+void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
+              Transcription& transcription, const nlp::Start& point, Solution& solution) {
+  solution.mesh = grid.mesh;
+  for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
+  solution.scheme = grid.schemes;
+  solution.cost_terms = transcription.cost_terms(point.x);
+  solution.trajectory = transcription.trajectory(point.x);
+  solution.costates = transcription.costates(point.x, point.y);
+  solution.collocated_costates = transcription.collocated_costates(point.y);
+  solution.multipliers = transcription.multipliers(point);
+  solution.excesses = transcription.excesses(point.x);
+  solution.state_names = names_of(problem.states());
+  solution.control_names = names_of(problem.controls());
+  solution.static_parameter_names = names_of(problem.static_parameters());
+  solution.slack_names = names_of(problem.slacks());
+}
+
+nlp::Start to_user(nlp::Start point, const nlp::Structure& shape) {
+  for (std::size_t i = 0; i < point.x.size(); ++i) point.x[i] *= shape.variable_scale[i];
+  for (auto* z : {&point.zl, &point.zu})
+    for (std::size_t i = 0; i < z->size(); ++i) (*z)[i] /= shape.variable_scale[i];
+  for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] *= shape.row_scale[r];
+  return point;
+}
+nlp::Start from_user(nlp::Start point, const nlp::Structure& shape) {
+  nlp::check_sizes(point, shape, true);
+  for (std::size_t i = 0; i < point.x.size(); ++i) point.x[i] /= shape.variable_scale[i];
+  for (auto* z : {&point.zl, &point.zu})
+    for (std::size_t i = 0; i < z->size(); ++i) (*z)[i] *= shape.variable_scale[i];
+  for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] /= shape.row_scale[r];
+  return point;
+}
+
+Beginning begin(const Problem& problem, const PhasedTranscription::Grid& grid,
+                const Trajectory& guess, const Solution* previous) {
+  if (previous != nullptr) {
+    const Interpolant polynomials(problem, previous->trajectory, previous->mesh, previous->scheme);
+    return {polynomials.resampled(grid.mesh, grid.schemes),
+            Duals{previous->trajectory.tau, previous->collocated_costates, previous->multipliers}};
+  }
+  if (guess.tau.empty()) return {straight_guess(problem), {}};
+  check_guess(guess, problem);
+  return {guess, {}};
+}
+
+nlp::Start start_of(Transcription& transcription, const Beginning& beginning) {
+  if (beginning.duals) return transcription.carried(beginning.guess, *beginning.duals);
+  return {transcription.point(beginning.guess), {}, {}, {}};
+}
+
+}  // namespace slalom::ocp

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "objective_scale.hpp"
+#include "slalom/nlp/check.hpp"
+#include "slalom/ocp/solve.hpp"
+
+namespace slalom::ocp {
+
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& item : list) names.push_back(item.name);
+  return names;
+}
+
+/// Fills `solution` with what a point says of one phase.
+void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
+              Transcription& transcription, const nlp::Start& point, Solution& solution);
+
+/// A point of the NLP in the user's units, and back.
+nlp::Start to_user(nlp::Start point, const nlp::Structure& shape);
+nlp::Start from_user(nlp::Start point, const nlp::Structure& shape);
+
+/// Solves and checks from a start in the NLP's units, with multipliers or without; `solution` is of
+/// one phase or of several. The NLP's answer, in its own units, is returned.
+template <class Result>
+nlp::Start run(nlp::Problem& problem, nlp::Solver& solver, nlp::Options options,
+               const nlp::Start& start, const std::vector<char>& regular, Result& solution) {
+  options.warm_start = !start.y.empty();
+  nlp::Answer answer = solve_scaled(problem, solver, start, options, regular);
+  solution.status = answer.status;
+  solution.fault = answer.fault;
+  solution.objective = answer.objective;
+  solution.residuals = nlp::check(problem, answer.point, options);
+  solution.options = options;
+  solution.backend = answer.backend;
+  solution.iterations = answer.iterations;
+  solution.wall_s = answer.wall_s;
+  solution.point = to_user(answer.point, problem.structure());
+  return std::move(answer.point);
+}
+
+/// What one phase starts from.
+struct Beginning {
+  Trajectory guess;
+  std::optional<Duals> duals;
+};
+
+/// From `previous` if there is one, else from the guess, checked, or straight lines.
+Beginning begin(const Problem& problem, const PhasedTranscription::Grid& grid,
+                const Trajectory& guess, const Solution* previous);
+nlp::Start start_of(Transcription& transcription, const Beginning& beginning);
+
+}  // namespace slalom::ocp

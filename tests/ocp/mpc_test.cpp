@@ -1,0 +1,412 @@
+// Receding horizons: modes, horizons, plants, failures, and how they end.
+
+#include "slalom/ocp/mpc.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "ocp/closed_forms.hpp"
+#include "ocp/messages.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+using test::refusal;
+
+/// A cart drawn to x = target with bounded thrust; `wall` keeps v from 0.9 up, say.
+struct Cart {
+  Problem problem{"cart"};
+  Expr x = problem.state("x", {-10, 10}), v = problem.state("v", {-3, 3});
+  Expr u = problem.control("u", {-1, 1}), target = problem.parameter("target", 1);
+  ConstraintId wall = problem.path("wall", v, Bounds::at_most(2.5));
+  Cart() {
+    problem.dynamics(x, v);
+    problem.dynamics(v, u);
+    problem.lagrange("cost", square(x - target) + square(v) / 10 + square(u) / 10);
+    problem.final_time(Bounds::equal(4), 4);
+  }
+  MpcSettings settings() const {
+    return {.solve = {.mesh = Mesh::uniform(20)},
+            .tex = 0.25,
+            .max_cycles = 60,
+            .goal = {{"x", 1, 0.01}, {"v", 0, 0.01}}};
+  }
+};
+
+int iterations(const MpcResult& result) {
+  return std::accumulate(result.cycles.begin(), result.cycles.end(), 0,
+                         [](int sum, const MpcCycle& c) { return sum + c.solution.iterations; });
+}
+
+TEST(Mpc, ComesToItsGoalAndPredictsTheModelsPlant) {
+  Cart cart;
+  const auto result = Mpc(cart.problem, cart.settings()).run({-2, 0});
+  ASSERT_EQ(result.status, MpcStatus::goal) << result.message;
+  EXPECT_NEAR(result.states.back()[0], 1, 0.01);
+  EXPECT_NEAR(result.states.back()[1], 0, 0.01);
+  ASSERT_GT(result.cycles.size(), 8u);
+  for (std::size_t k = 0; k < result.cycles.size(); ++k) {
+    const MpcCycle& cycle = result.cycles[k];
+    EXPECT_EQ(cycle.index, static_cast<int>(k) + 1);
+    EXPECT_TRUE(cycle.used);
+    EXPECT_NEAR(cycle.t, 0.25 * static_cast<double>(k), 1e-12);
+    EXPECT_EQ(cycle.t_plan, cycle.t + 0.25);
+    EXPECT_EQ(cycle.t_swap, cycle.t_plan);
+    EXPECT_NEAR(cycle.solution.trajectory.t0, cycle.t_plan, 1e-12);
+    EXPECT_NEAR(cycle.solution.tf(), cycle.t_plan + 4, 1e-12);  // fixed, moving
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(cycle.x0[i], cycle.arrived[i], 1e-7);
+  }
+  // Until the first plan takes effect nothing is driven.
+  for (std::size_t k = 0; k < result.t.size() && result.t[k] < 0.25 - 1e-9; ++k) {
+    EXPECT_EQ(result.states[k][0], -2);
+    EXPECT_EQ(result.controls[k][0], 0);
+  }
+  EXPECT_TRUE(std::is_sorted(result.t.begin(), result.t.end()));
+}
+
+TEST(Mpc, InstantPlansTakeEffectWhereTheyBegin) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.planning = Planning::instant;
+  const auto result = Mpc(cart.problem, settings).run({-2, 0});
+  ASSERT_EQ(result.status, MpcStatus::goal) << result.message;
+  EXPECT_EQ(result.cycles.front().t_swap, 0);
+  EXPECT_GT(result.controls.front()[0], 0.9);
+  const auto later = Mpc(cart.problem, cart.settings()).run({-2, 0});
+  EXPECT_NEAR(later.t.back() - result.t.back(), 0.25, 1e-9);  // what the first plan waited for
+}
+
+TEST(Mpc, MeasuredPlansAreLateAndReadAtTheirOwnTime) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.planning = Planning::measured;
+  settings.max_cycles = 3;
+  Mpc mpc(cart.problem, settings);
+  EXPECT_EQ(mpc.step({-2, 0}, 0), MpcStatus::running);
+  const MpcCycle& cycle = mpc.cycles().back();
+  EXPECT_EQ(cycle.t_plan, 0);
+  EXPECT_EQ(cycle.t_swap, 0.25);
+  EXPECT_EQ(cycle.x0, (std::vector<double>{-2, 0}));
+  EXPECT_EQ(mpc.controls(0.1)[0], 0);
+  EXPECT_NEAR(mpc.controls(0.25)[0], cycle.solution.control("u")[2], 0.1);  // 1.25 intervals in
+  EXPECT_EQ(Mpc(cart.problem, settings).run({-2, 0}).status, MpcStatus::cycle_limit);
+}
+
+/// From the exact answer of a linear problem each plan is the rest of the last one.
+TEST(Mpc, ShrinkingHorizonFollowsTheOptimumToItsEnd) {
+  const auto form = least_energy();
+  const auto result =
+      Mpc(form.problem, {.tex = 0.1, .planning = Planning::instant, .horizon = Horizon::shrinking})
+          .run({0, 0});
+  ASSERT_EQ(result.status, MpcStatus::horizon_over) << result.message;
+  EXPECT_EQ(result.cycles.size(), 10u);
+  EXPECT_NEAR(result.t.back(), 1, 1e-12);
+  for (std::size_t k = 0; k < result.t.size(); ++k)
+    EXPECT_NEAR(result.states[k][0], form.states(result.t[k])[0], 1e-5);
+  // With prediction the first cycle drives on nothing, and the last on a plan made before.
+  const auto late = Mpc(form.problem, {.tex = 0.1, .horizon = Horizon::shrinking}).run({0, 0});
+  ASSERT_EQ(late.status, MpcStatus::horizon_over) << late.message;
+  EXPECT_EQ(late.cycles.size(), 9u);
+  EXPECT_NEAR(late.t.back(), 1, 1e-12);
+  EXPECT_NEAR(late.states.back()[0], 1, 1e-5);
+}
+
+/// NLOptControl's own test: the moon lander with free final time.
+TEST(Mpc, LandsOnTheMoonWithAFreeHorizon) {
+  // Full thrust to the end leaves no margin: without its tolerances the first error of a plan is
+  // one too many.
+  auto form = moon_lander();
+  form.problem.final_time({0.01, 20}, 5);
+  for (const auto& state : form.problem.states())
+    form.problem.final_bounds(state.symbol, {-0.1, 0.1});
+  const MpcSettings settings{.solve = {.mesh = Mesh::uniform(20), .scheme = trapezoidal()},
+                             .tex = 0.2,
+                             .goal = {{"h", 0, 0.1}, {"v", 0, 0.1}},
+                             .start_tolerance = {{"h", 0.1}, {"v", 0.1}}};
+  const auto result = Mpc(form.problem, settings).run({10, -2});
+  EXPECT_TRUE(result.status == MpcStatus::goal || result.status == MpcStatus::expanded_goal)
+      << to_string(result.status) << ": " << result.message;
+  EXPECT_NEAR(result.states.back()[0], 0, 0.2);
+  EXPECT_NEAR(result.states.back()[1], 0, 0.2);
+  EXPECT_NEAR(result.t.back(), solve(moon_lander().problem).tf(), 0.5);
+  EXPECT_LT(result.t.back(), result.cycles.front().solution.tf() + 0.5);
+}
+
+TEST(Mpc, JudgesTheGoalWhereAPlanShorterThanACycleEnds) {
+  Problem p("dash");
+  const Expr x = p.state("x"), u = p.control("u", {-1, 1});
+  p.dynamics(x, u);
+  p.mayer("duration", p.final_time());
+  p.final_bounds(x, Bounds::equal(1));
+  p.final_time({0.01, 5}, 1);
+  const auto run = [&](double drift, double tolerance) {
+    MpcSettings settings{.tex = 0.3, .goal = {{"x", 1, tolerance}}};
+    settings.plant = System{"drifting",
+                            {"x"},
+                            {"u"},
+                            [drift](double, std::span<const double>, std::span<const double> u,
+                                    std::span<double> rates) { rates[0] = u[0] + drift; }};
+    return Mpc(p, settings).run({0});
+  };
+  const auto met = run(0, 1e-4);
+  EXPECT_EQ(met.status, MpcStatus::goal) << met.message;
+  EXPECT_NEAR(met.t.back(), 1.3, 1e-3);  // the plan's end, not the cycle's
+  EXPECT_EQ(run(0.1, 0.018).status, MpcStatus::expanded_goal);
+  const auto missed = run(0.1, 0.001);
+  EXPECT_EQ(missed.status, MpcStatus::goal_missed) << missed.message;
+  EXPECT_NE(missed.message.find("tolerances from the goal"), std::string::npos);
+}
+
+/// A plant with drag and an actuator that lags, by names of its own order.
+System lagging_cart() {
+  return {
+      "lagging cart",
+      {"thrust", "v", "x"},
+      {"u"},
+      [](double, std::span<const double> x, std::span<const double> u, std::span<double> rates) {
+        rates[0] = (u[0] - x[0]) / 0.05;
+        rates[1] = x[0] - 0.1 * x[1];
+        rates[2] = x[1];
+      }};
+}
+
+TEST(Mpc, DrivesAPlantOtherThanTheModel) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.plant = lagging_cart();
+  const auto result = Mpc(cart.problem, settings).run({0, 0, -2});
+  ASSERT_EQ(result.status, MpcStatus::goal) << result.message;
+  EXPECT_EQ(result.plant_states, (std::vector<std::string>{"thrust", "v", "x"}));
+  EXPECT_NEAR(result.states.back()[2], 1, 0.01);
+  const auto miss = [](const MpcResult& r) {
+    double most = 0;
+    for (const auto& cycle : r.cycles)
+      most = std::max(most, std::fabs(cycle.x0[0] - cycle.arrived[0]));
+    return most;
+  };
+  EXPECT_GT(miss(result), 1e-3);
+  settings.measure = [](std::span<const double> plant) {
+    return std::vector<double>{plant[2], plant[1]};
+  };
+  const auto same = Mpc(cart.problem, settings).run({0, 0, -2});
+  EXPECT_EQ(same.t, result.t);
+  EXPECT_EQ(same.states, result.states);
+  settings.plant_known = true;
+  EXPECT_LT(miss(Mpc(cart.problem, settings).run({0, 0, -2})), 1e-6);
+}
+
+TEST(Mpc, PlantsMayTakePlannedStatesAsInputs) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.plant = System{"follower",
+                          {"x"},
+                          {"v"},
+                          [](double, std::span<const double>, std::span<const double> v,
+                             std::span<double> rates) { rates[0] = v[0]; }};
+  double speed = 0;
+  settings.measure = [&](std::span<const double> plant) {
+    return std::vector<double>{plant[0], speed};
+  };
+  settings.check = [&](const MpcCycle& cycle) {
+    speed = cycle.solution.state("v").front();  // the speed at t + tex, when it is measured next
+    return std::string();
+  };
+  const auto result = Mpc(cart.problem, settings).run({-2});
+  ASSERT_EQ(result.status, MpcStatus::goal) << result.message;
+  EXPECT_NEAR(result.states.back()[0], 1, 0.01);
+}
+
+TEST(Mpc, ServesAPlantOutside) {
+  Cart cart;
+  Mpc mpc(cart.problem, cart.settings());
+  const double h = 0.25 / 10;
+  double x = -2, v = 0;
+  int cycle = 0;
+  for (; mpc.status() == MpcStatus::running && cycle < 60; ++cycle) {
+    const double t = 0.25 * cycle;
+    if (mpc.step({x, v}, t) != MpcStatus::running) break;
+    for (int k = 0; k < 10; ++k) {
+      const double u = mpc.controls(t + (k + 0.5) * h)[0];
+      x += h * v + h * h * u / 2;
+      v += h * u;
+    }
+  }
+  EXPECT_EQ(mpc.status(), MpcStatus::goal) << mpc.message();
+  EXPECT_EQ(mpc.cycles().size(), static_cast<std::size_t>(cycle));
+  EXPECT_NEAR(x, 1, 0.01);
+  EXPECT_THROW(mpc.step({x, v}, 100), Error);
+}
+
+TEST(Mpc, AFailedSolveLeavesTheLastPlanOrEnds) {
+  Cart cart;
+  auto settings = cart.settings();
+  int from = 3, to = 4;
+  settings.update = [&](Problem& problem, const MpcCycle& cycle) {
+    const bool fail = cycle.index >= from && cycle.index <= to;
+    problem.final_bounds(cart.x, fail ? Bounds::equal(9.9) : Bounds{});  // out of reach
+  };
+  const auto result = Mpc(cart.problem, settings).run({-2, 0});
+  ASSERT_EQ(result.status, MpcStatus::goal) << result.message;
+  EXPECT_FALSE(result.cycles[2].used);
+  EXPECT_FALSE(result.cycles[3].used);
+  EXPECT_TRUE(result.cycles[4].used);
+  for (const std::size_t k : {2u, 3u})  // the plan of cycle 2, as predicted, was driven
+    EXPECT_NEAR(result.cycles[k].arrived[0], result.cycles[k].x0[0], 1e-7);
+  settings.max_unsolved = 1;
+  const auto twice = Mpc(cart.problem, settings).run({-2, 0});
+  EXPECT_EQ(twice.status, MpcStatus::not_solved);
+  EXPECT_EQ(twice.cycles.size(), 4u);
+  settings.max_unsolved = 3;
+  settings.on_unsolved = OnUnsolved::stop;
+  const auto stopped = Mpc(cart.problem, settings).run({-2, 0});
+  EXPECT_EQ(stopped.status, MpcStatus::not_solved);
+  EXPECT_EQ(stopped.cycles.size(), 3u);
+  EXPECT_EQ(stopped.message.find("cycle 3 was not solved: infeasible, worst at "), 0u)
+      << stopped.message;
+  settings.on_unsolved = OnUnsolved::last_plan;
+  from = 1;  // and there is no last plan
+  EXPECT_EQ(Mpc(cart.problem, settings).run({-2, 0}).cycles.size(), 1u);
+}
+
+TEST(Mpc, TheUpdateMayChangeNumbersAndStructure) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.goal = {{"x", 2, 0.02}, {"v", 0, 0.05}};
+  settings.update = [&](Problem& problem, const MpcCycle& cycle) {
+    problem.set_parameter(cart.target, cycle.index < 5 ? 1 : 2);
+    problem.enable(cart.wall, cycle.index < 4);
+  };
+  const auto result = Mpc(cart.problem, settings).run({-2, 0});
+  EXPECT_EQ(result.status, MpcStatus::goal) << result.message;
+  EXPECT_EQ(result.cycles[2].solution.multiplier("wall").values.size(), 41u);
+  EXPECT_NE(refusal([&] { (void)result.cycles[4].solution.multiplier("wall"); }), "accepted");
+}
+
+TEST(Mpc, TheCheckStopsIt) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.check = [](const MpcCycle& cycle) {
+    return cycle.index == 4 ? "a cow on the track" : "";
+  };
+  const auto result = Mpc(cart.problem, settings).run({-2, 0});
+  EXPECT_EQ(result.status, MpcStatus::stopped);
+  EXPECT_EQ(result.message, "a cow on the track");
+  EXPECT_EQ(result.cycles.size(), 4u);
+}
+
+TEST(Mpc, ShiftedPlansAndMultipliersSaveIterations) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.goal.clear();
+  settings.max_cycles = 20;
+  const auto warm = Mpc(cart.problem, settings).run({-2, 0});
+  settings.warm_start = false;
+  const auto cold = Mpc(cart.problem, settings).run({-2, 0});
+  EXPECT_EQ(warm.status, MpcStatus::cycle_limit);
+  EXPECT_LT(iterations(warm), 0.72 * iterations(cold));  // 56, 84; unshifted multipliers: 64
+  for (std::size_t k = 0; k < 20; ++k)
+    EXPECT_NEAR(warm.cycles[k].solution.objective, cold.cycles[k].solution.objective, 1e-6);
+}
+
+TEST(Mpc, WarmsUpAndForgetsCyclesWhenTold) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.warm_up = true;
+  settings.max_cycles = 3;
+  const auto result = Mpc(cart.problem, settings).run({-2, 0});
+  ASSERT_EQ(result.cycles.size(), 4u);
+  EXPECT_EQ(result.cycles[0].index, 0);
+  EXPECT_FALSE(result.cycles[0].used);
+  EXPECT_EQ(result.cycles[1].t, 0);
+  EXPECT_LT(result.cycles[1].solution.iterations, result.cycles[0].solution.iterations);
+  settings.keep_cycles = false;
+  const auto last = Mpc(cart.problem, settings).run({-2, 0});
+  ASSERT_EQ(last.cycles.size(), 1u);
+  EXPECT_EQ(last.cycles[0].index, 3);
+}
+
+TEST(Mpc, AStateBeyondItsBoundsIsPutOnThem) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.planning = Planning::instant;
+  settings.start_tolerance = {{"x", 0.1}};
+  Mpc mpc(cart.problem, settings);
+  EXPECT_EQ(mpc.step({-10.5, 0.2}, 0), MpcStatus::running) << mpc.message();
+  const MpcCycle& cycle = mpc.cycles().back();
+  EXPECT_EQ(cycle.x0, (std::vector<double>{-10, 0.2}));
+  EXPECT_TRUE(cycle.used);
+  EXPECT_NEAR(cycle.solution.state("x").front(), -9.9, 1e-6);  // what the tolerance is used for
+}
+
+TEST(Mpc, EndsWhereThePlantIsLost) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.plant = System{
+      "explosive",
+      {"x", "v"},
+      {"u"},
+      [](double, std::span<const double> x, std::span<const double>, std::span<double> rates) {
+        rates[0] = 1 + x[0] * x[0];
+        rates[1] = 0;
+      }};
+  const auto result = Mpc(cart.problem, settings).run({0.9, 0});
+  EXPECT_EQ(result.status, MpcStatus::lost);
+  EXPECT_EQ(result.message.find("explosive cannot be integrated past t = 0.8"), 0u)
+      << result.message;
+  settings.plant_known = true;
+  const auto known = Mpc(cart.problem, settings).run({0.9, 0});
+  EXPECT_EQ(known.status, MpcStatus::lost);
+  EXPECT_NE(known.message.find("cannot predict"), std::string::npos) << known.message;
+}
+
+TEST(MpcErrors, NameWhatIsWrong) {
+  Cart cart;
+  const auto refused = [&](auto change) {
+    auto settings = cart.settings();
+    change(settings);
+    return refusal([&] { (void)Mpc(cart.problem, settings).run({-2, 0}); });
+  };
+  using S = MpcSettings;
+  EXPECT_EQ(refused([](S& s) { s.tex = 0; }), "cart: mpc: found tex = 0, expected a number > 0");
+  EXPECT_NE(refused([](S& s) { s.max_cycles = 0; }), "accepted");
+  EXPECT_EQ(refused([](S& s) { s.goal[0].state = "vv"; }),
+            "cart: mpc: goal: found no state 'vv', expected perhaps 'v'");
+  EXPECT_EQ(refused([](S& s) { s.goal[0].tolerance = -1; }),
+            "cart: mpc: goal x: found 1 with tolerance -1, expected a finite value and a finite "
+            "tolerance >= 0");
+  EXPECT_EQ(refused([](S& s) {
+              s.first_controls = {1, 2};
+            }),
+            "cart: mpc: first_controls: found 2, expected 1, one a control, or none");
+  EXPECT_EQ(refused([](S& s) {
+              s.start_tolerance = {{"y", 1}};
+            }),
+            "cart: mpc: start_tolerance: found no state 'y', expected a state of this problem");
+  EXPECT_EQ(refused([](S& s) {
+              s.plant = lagging_cart();
+              s.plant->controls = {"w"};
+            }),
+            "lagging cart: input: found 'w', expected a control or state of the problem");
+  EXPECT_EQ(
+      refused([](S& s) {
+        s.plant = lagging_cart();
+        s.plant->states = {"thrust", "speed", "x"};
+      }),
+      "lagging cart: state to measure: found 'v', expected a function `measure`, for the plant "
+      "has no such state");
+  Mpc mpc(cart.problem, cart.settings());
+  EXPECT_EQ(refusal([&] { mpc.step({1}, 0); }), "cart: mpc: measured states: found 1, expected 2");
+  EXPECT_EQ(refusal([&] {
+              mpc.step({1, std::nan("")}, 0);
+            }),
+            "cart: mpc: measured states: found v = nan, expected a finite number");
+  cart.problem.initial_time({0, 1}, 0);
+  EXPECT_EQ(refused([](S&) {}),
+            "cart: mpc: found t0 free from 0 to 1, expected a t0 that each cycle can set");
+}
+
+}  // namespace
+}  // namespace slalom::ocp
