@@ -53,7 +53,13 @@ void add_what_tells_planners_apart(Table& table) {
                "How many obstacles `nearest` keeps.")
       .real("obstacle_group_gap", &S::obstacle_group_gap, Range::non_negative(), "m",
             "Obstacles of one velocity with less between their edges than this become one ellipse "
-            "that covers them; 0: each stays on its own.");
+            "that covers them; 0: each stays on its own.")
+      .choice(
+          "obstacle_constraint", &S::obstacle_constraint, {"hard", "soft"},
+          "hard: a plan stays off its obstacles (paper Eqn. 7); soft: it pays w_obstacle for how "
+          "far its rows fall below 1, integrated over time (l1).")
+      .real("w_obstacle", &S::w_obstacle, Range::positive(), "1/s",
+            "Weight of going into obstacles, where they are soft.");
 }
 
 void add_weights(Table& table) {
@@ -111,8 +117,9 @@ void add_horizon(Table& table) {
   table
       .integer("N", &S::N, Range::closed(1, 1000), "1",
                "Mesh intervals of the horizon: 10, and 15 in E_C.", kTable)
-      .choice("scheme", &S::scheme, {"trapezoidal", "hermite_simpson"},
-              "Collocation scheme; the paper's is trapezoidal.")
+      .choice(
+          "scheme", &S::scheme, {"trapezoidal", "hermite_simpson", "backward_euler"},
+          "Collocation scheme; the paper's is trapezoidal, that of earlier work backward Euler.")
       .real("tf_min", &S::tf_min, Range::positive(), "s", "Shortest horizon.", kSection)
       .real("tf_max", &S::tf_max, Range::positive(), "s", "Longest horizon, the paper's tfMax.",
             kSection)

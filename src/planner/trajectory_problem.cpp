@@ -31,7 +31,15 @@ std::array<ocp::Expr, N> in_terms_of(const std::array<ocp::Expr, N>& values, con
 }  // namespace
 
 const ocp::Scheme& scheme_of(const Settings& settings) {
-  return settings.scheme == SchemeChoice::trapezoidal ? ocp::trapezoidal() : ocp::hermite_simpson();
+  static const ocp::Scheme backward_euler = ocp::backward_euler();
+  switch (settings.scheme) {
+    case SchemeChoice::hermite_simpson:
+      return ocp::hermite_simpson();
+    case SchemeChoice::backward_euler:
+      return backward_euler;
+    default:
+      return ocp::trapezoidal();
+  }
 }
 
 TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters& vehicle,
@@ -172,6 +180,8 @@ void TrajectoryProblem::add_obstacles() {
   const Expr outside = square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
   obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
                                         Bounds::at_least(0), Points::after_first);
+  if (settings_.obstacle_constraint == ObstacleConstraint::soft)
+    problem_.soften(obstacle_rows_, {ocp::Norm::l1, settings_.w_obstacle, 0});
 }
 
 void TrajectoryProblem::set_obstacles(const std::vector<Obstacle>& obstacles) {

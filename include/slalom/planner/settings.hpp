@@ -8,13 +8,16 @@
 
 namespace slalom::planner {
 
-enum class SchemeChoice { trapezoidal, hermite_simpson };
+enum class SchemeChoice { trapezoidal, hermite_simpson, backward_euler };
 /// The method that solves the NLP.
 enum class SolverChoice { interior_point, ipopt };
 /// The name by which nlp::backends() and files know it.
 const char* to_string(SolverChoice solver);
 /// Form of the wheel-load cost: the paper's tanh pair, or with 2 added (zero when safe).
 enum class WheelLoadCost { paper, shifted };
+
+/// Whether a plan must stay off obstacles, or pays for going into them.
+enum class ObstacleConstraint { hard, soft };
 
 /// The obstacles that a plan avoids.
 enum class ObstacleChoice { all, in_reach, nearest };
@@ -32,6 +35,8 @@ struct Settings {
   ObstacleChoice obstacle_choice = ObstacleChoice::all;
   int obstacle_count = 5;         ///< of `nearest`
   double obstacle_group_gap = 0;  ///< nearer ones become one ellipse [m]; 0: none
+  ObstacleConstraint obstacle_constraint = ObstacleConstraint::hard;
+  double w_obstacle = 1000;  ///< of `soft`: weight of the rows' excess (l1) [1/s]
 
   /// The vehicle as the planner has it, whatever drives.
   vehicle::ModelKind model = vehicle::ModelKind::pacejka;
