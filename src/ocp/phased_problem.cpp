@@ -25,6 +25,9 @@ void PhasedProblem::link(const std::string& name, const Expr& value, Bounds boun
     throw InvalidValue(name_ + ": link " + name,
                        fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
                        "a lower bound not above the upper one");
+  if (expr::symbols_of({value}).empty())
+    throw InvalidValue(name_ + ": link " + name, "a function of no variable",
+                       "one of end values, times, static parameters or integrals");
   links_.push_back({name, value, bounds});
 }
 

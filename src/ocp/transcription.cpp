@@ -10,6 +10,7 @@
 #include "between_points.hpp"
 #include "builder.hpp"
 #include "carry.hpp"
+#include "checks.hpp"
 #include "duals.hpp"
 #include "model.hpp"
 #include "slalom/base/error.hpp"
@@ -76,6 +77,8 @@ class Transcription::Impl {
  public:
   Impl(const ocp::Problem& p, const Mesh& mesh, const Schemes& s)
       : problem(p), schemes(s), symbols(problem), data(transcribe(p, mesh, schemes)) {
+    check_times(problem);
+    check_rows(problem, data);
     terms.resize(data.terms.size());
   }
 
@@ -144,6 +147,7 @@ Transcription::~Transcription() = default;
 
 void Transcription::update(const ocp::Problem& problem) {
   check_same(impl_->problem, problem);
+  check_times(problem);
   for (const auto& data : impl_->data.batch_data) {
     if (data.family == kNone) continue;
     const auto& now = problem.constraints().at(data.family).members;

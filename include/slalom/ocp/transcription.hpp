@@ -57,7 +57,8 @@ struct Duals {
 class Transcription final : public nlp::Problem {
  public:
   /// Throws InvalidValue for what no single declaration shows: a state without dynamics, no states,
-  /// a function of a foreign symbol, more equations than unknowns.
+  /// a function of a foreign symbol, no tf after t0, more equations than unknowns, a constraint
+  /// that no variable can change.
   Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes);
   ~Transcription() override;
 
