@@ -20,6 +20,7 @@ from ._core import (  # noqa: E402
     MeshRecord,
     Obstacle,
     PhasedProblem,
+    PhasedRefined,
     PhasedSolution,
     Plan,
     Planner,
@@ -28,6 +29,7 @@ from ._core import (  # noqa: E402
     Refined,
     Region,
     Scenario,
+    Simulation,
     Solution,
     UnknownName,
     Violation,
@@ -66,8 +68,8 @@ from ._core import (  # noqa: E402
 
 __all__ = [
     "ConstraintId", "Cycle", "Drive", "Error", "ErrorEstimate", "Expr", "Goal", "InvalidValue",
-    "MeshRecord", "Obstacle", "PhasedProblem", "PhasedSolution", "Plan", "Planner", "Plant",
-    "Problem", "Refined", "Region", "Scenario", "Solution", "UnknownName", "Violation",
+    "MeshRecord", "Obstacle", "PhasedProblem", "PhasedRefined", "PhasedSolution", "Plan", "Planner", "Plant",
+    "Problem", "Refined", "Region", "Scenario", "Simulation", "Solution", "UnknownName", "Violation",
     "__version__", "absolute", "arccos", "arcsin", "arctan", "arctan2", "backends", "control_names",
     "cos", "cosh", "cubic_spline", "exp", "load_scenario", "log", "maximum", "minimum",
     "planner_names", "power", "scenario_names", "scheme_names", "select", "sign", "simulate", "sin",

@@ -71,6 +71,8 @@ void bind_expressions(nb::module_& module);
 void bind_problem(nb::module_& module);
 void bind_solution(nb::module_& module);
 void bind_solve(nb::module_& module);
+void bind_simulation(nb::module_& module);
+void bind_refine(nb::module_& module);
 void bind_judge(nb::module_& module);
 void bind_phases(nb::module_& module);
 void bind_drive(nb::module_& module);

@@ -4,7 +4,7 @@
 #include "settings.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
-#include "slalom/ocp/transcription.hpp"
+#include "slalom/ocp/guess.hpp"
 #include "solved.hpp"
 
 namespace slalom::python {
@@ -44,7 +44,7 @@ std::vector<double> numbers_at(nb::handle given, const Trajectory& guess, bool a
   return spread;
 }
 
-/// The lines a transcription guesses by itself, at `points` equal steps.
+/// The lines between the ends' bounds, at `points` equal steps.
 Trajectory straight(const Trajectory& ends, std::size_t points) {
   Trajectory guess = ends;
   guess.tau.clear();
@@ -145,14 +145,18 @@ Trajectory from_dictionary(const ocp::Problem& problem, const Trajectory& ends,
 
 }  // namespace
 
-Trajectory guess_of(const ocp::Problem& problem, const ocp::PhasedTranscription::Grid& grid,
-                    nb::handle given) {
+Trajectory guess_of(const ocp::Problem& problem, nb::handle given) {
   if (given.is_none()) return {};
-  if (nb::isinstance<Solved>(given))
-    return nb::cast<const Solved&>(given).between().resampled(grid.mesh, grid.schemes);
-  const auto ends = ocp::Transcription(problem, grid.mesh, grid.schemes).straight_guess();
-  return from_dictionary(problem, ends,
-                         as<nb::dict>(given, "guess", "a Solution or a dict by name"));
+  if (nb::isinstance<Solved>(given)) {
+    const auto& earlier = nb::cast<const Solved&>(given);
+    return ocp::Guess(problem).from(*earlier.problem, earlier.answer);
+  }
+  if (nb::isinstance<Simulated>(given)) {
+    const auto& earlier = nb::cast<const Simulated&>(given);
+    return ocp::Guess(problem).from(*earlier.problem, earlier.answer.trajectory);
+  }
+  return from_dictionary(problem, ocp::straight_guess(problem),
+                         as<nb::dict>(given, "guess", "a Solution, a Simulation or a dict"));
 }
 
 }  // namespace slalom::python

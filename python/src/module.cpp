@@ -67,8 +67,10 @@ NB_MODULE(_core, module) {
   bind_solution(module);
   bind_problem(module);
   bind_solve(module);
+  bind_simulation(module);
   bind_judge(module);
   bind_phases(module);
+  bind_refine(module);
   bind_scenario(module);
   bind_planner(module);
   bind_drive(module);

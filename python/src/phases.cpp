@@ -6,6 +6,7 @@
 #include "answers.hpp"
 #include "binding.hpp"
 #include "bounds.hpp"
+#include "phased.hpp"
 #include "running.hpp"
 #include "settings.hpp"
 #include "slalom/base/error.hpp"
@@ -18,13 +19,6 @@ namespace {
 using ocp::PhasedProblem;
 using ocp::PhasedSolution;
 using ocp::Problem;
-
-/// What Python knows as PhasedSolution.
-struct PhasedSolved {
-  PhasedSolution answer;
-  std::vector<Solved> phases;
-  double elapsed_s = 0;
-};
 
 std::size_t phase_number(const PhasedProblem& problem, const std::string& name) {
   std::vector<std::string> names;
@@ -55,57 +49,100 @@ void check_keys(const nb::dict& of_phase, const std::string& phase) {
   }
 }
 
-ocp::PhasedSettings settings_of(const PhasedProblem& problem, const GridChoice& all,
-                                const nb::dict& phases, const PhasedSolved* guess) {
-  const std::size_t count = problem.phases().size();
-  if (guess != nullptr && guess->phases.size() != count)
-    throw InvalidValue(problem.name() + ": guess", std::to_string(guess->phases.size()) + " phases",
-                       std::to_string(count));
-  std::vector<nb::dict> own(count);
+std::vector<nb::dict> own_settings(const PhasedProblem& problem, const nb::dict& phases) {
+  std::vector<nb::dict> own(problem.phases().size());
   for (const auto& [key, value] : phases) {
     const auto name = as<std::string>(key, "phases", "names of phases");
     auto& settings = own[phase_number(problem, name)];
     settings = as<nb::dict>(value, "phase " + name, "a dict of settings");
     check_keys(settings, name);
   }
-  ocp::PhasedSettings settings;
-  for (std::size_t p = 0; p < count; ++p) {
+  return own;
+}
+
+void check_count(const PhasedProblem& problem, const char* what, const PhasedSolved* answer) {
+  if (answer != nullptr && answer->phases.size() != problem.phases().size())
+    throw InvalidValue(problem.name() + ": " + what,
+                       std::to_string(answer->phases.size()) + " phases",
+                       std::to_string(problem.phases().size()));
+}
+
+void start_warm(const PhasedProblem& problem, const PhasedSolved& answer, PhasedStart& start) {
+  bool same = true;
+  for (std::size_t p = 0; p < answer.phases.size(); ++p) {
+    check_alike(problem.phases()[p], *answer.phases[p].problem);
+    same = same && same_grid(answer.phases[p].answer, start.settings.grids[p]);
+  }
+  if (same) {
+    start.settings.warm_start = answer.answer.point;
+    return;
+  }
+  if (answer.answer.link_multipliers.size() != problem.links().size())
+    throw InvalidValue(problem.name() + ": warm_start",
+                       std::to_string(answer.answer.link_multipliers.size()) + " links",
+                       std::to_string(problem.links().size()));
+  start.previous = std::make_unique<const PhasedSolution>(answer.whole());
+  start.settings.previous = start.previous.get();
+}
+
+}  // namespace
+
+PhasedStart start_of(const PhasedProblem& problem, const GridChoice& all, const nb::dict& phases,
+                     const std::string& backend, const PhasedSolved* guess,
+                     const PhasedSolved* warm_start, const nb::kwargs& options,
+                     const std::vector<std::string>& keywords) {
+  check_count(problem, "guess", guess);
+  check_count(problem, "warm_start", warm_start);
+  const auto own = own_settings(problem, phases);
+  PhasedStart start;
+  start.settings.backend = backend;
+  start.settings.options = options_of(options, keywords);
+  for (std::size_t p = 0; p < own.size(); ++p) {
     const Problem& phase = problem.phases()[p];
-    settings.grids.push_back(
+    start.settings.grids.push_back(
         grid_of({choice(own[p], "mesh", all.mesh), choice(own[p], "scheme", all.scheme),
                  choice(own[p], "points", all.points)},
                 problem.name() + ": phase " + phase.name()));
     const nb::object given = own[p].contains("guess") ? nb::object(own[p]["guess"])
                              : guess != nullptr       ? nb::cast(guess->phases[p])
                                                       : nb::none();
-    settings.guesses.push_back(guess_of(phase, settings.grids.back(), given));
+    start.settings.guesses.push_back(guess_of(phase, given));
   }
-  return settings;
+  if (warm_start != nullptr) start_warm(problem, *warm_start, start);
+  return start;
 }
+
+PhasedSolved::PhasedSolved(const PhasedProblem& problem, PhasedSolution solution, double elapsed)
+    : answer(std::move(solution)), elapsed_s(elapsed) {
+  forget_stop(answer.options);
+  for (std::size_t p = 0; p < problem.phases().size(); ++p) {
+    Solved& phase = phases.emplace_back();
+    phase.problem = std::make_shared<const Problem>(problem.phases()[p]);
+    phase.answer = std::move(answer.phases[p]);
+    phase.elapsed_s = elapsed;
+    forget_stop(phase.answer.options);
+  }
+  answer.phases.clear();
+}
+
+PhasedSolution PhasedSolved::whole() const {
+  PhasedSolution result = answer;
+  for (const auto& phase : phases) result.phases.push_back(phase.answer);
+  return result;
+}
+
+namespace {
 
 PhasedSolved solve(const PhasedProblem& problem, const MeshChoice& mesh, const SchemeChoice& scheme,
                    const PointsChoice& points, const ByName<nb::any>& phases,
                    const std::string& backend, const PhasedSolved* guess,
                    const PhasedSolved* warm_start, const nb::kwargs& options) {
-  auto settings = settings_of(problem, {mesh, scheme, points}, phases, guess);
-  settings.backend = backend;
-  settings.options =
-      options_of(options, {"mesh", "scheme", "points", "phases", "backend", "guess", "warm_start"});
-  if (warm_start != nullptr) settings.warm_start = warm_start->answer.point;
+  auto start =
+      start_of(problem, {mesh, scheme, points}, phases, backend, guess, warm_start, options);
   const PhasedProblem copy = problem;
-  PhasedSolved solved;
-  std::tie(solved.answer, solved.elapsed_s) =
-      run_released(settings.options, [&] { return ocp::solve(copy, settings); });
-  forget_stop(solved.answer.options);
-  for (std::size_t p = 0; p < copy.phases().size(); ++p) {
-    Solved& phase = solved.phases.emplace_back();
-    phase.problem = std::make_shared<const Problem>(copy.phases()[p]);
-    phase.answer = std::move(solved.answer.phases[p]);
-    phase.elapsed_s = solved.elapsed_s;
-    forget_stop(phase.answer.options);
-  }
-  solved.answer.phases.clear();
-  return solved;
+  auto [answer, elapsed] =
+      run_released(start.settings.options, [&] { return ocp::solve(copy, start.settings); });
+  return {copy, std::move(answer), elapsed};
 }
 
 void bind_problem_of_phases(nb::module_& module) {

@@ -30,7 +30,24 @@ OptionValue option_value(nb::handle value, const std::string& name) {
   return as<double>(value, "option " + name, "a number, a word or a truth value");
 }
 
+template <class List>
+std::string names_of(const List& list) {
+  std::string names;
+  for (const auto& each : list) names += (names.empty() ? "" : ", ") + each.name;
+  return names;
+}
+
 }  // namespace
+
+void check_alike(const ocp::Problem& problem, const ocp::Problem& earlier) {
+  const auto form = [](const ocp::Problem& p) {
+    return "states " + names_of(p.states()) + "; controls " + names_of(p.controls()) +
+           "; static parameters " + names_of(p.static_parameters()) + "; slacks " +
+           names_of(p.slacks()) + "; integrals " + names_of(p.integrals());
+  };
+  if (form(problem) != form(earlier))
+    throw InvalidValue(problem.name() + ": warm_start", form(earlier), form(problem));
+}
 
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where) {
   const auto* intervals = std::get_if<int>(&choice.mesh);
@@ -46,6 +63,15 @@ ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::stri
   return {mesh, ocp::Schemes(std::move(schemes))};
 }
 
+bool same_grid(const ocp::Solution& answer, const ocp::PhasedTranscription::Grid& grid) {
+  if (answer.mesh.breakpoints() != grid.mesh.breakpoints()) return false;
+  for (std::size_t k = 0; k < grid.mesh.intervals(); ++k) {
+    const auto &a = answer.scheme.of(k), &b = grid.schemes.of(k);
+    if (a.name != b.name || a.points != b.points) return false;
+  }
+  return true;
+}
+
 nlp::Options options_of(const nb::kwargs& given, const std::vector<std::string>& others) {
   nlp::Options options;
   const auto& table = nlp::solver_options();
@@ -53,7 +79,9 @@ nlp::Options options_of(const nb::kwargs& given, const std::vector<std::string>&
     const auto name = nb::cast<std::string>(key);
     const auto* entry = table.find(name);
     if (entry == nullptr) {
-      auto names = others;
+      std::vector<std::string> names = {"mesh",  "scheme",     "points", "backend",
+                                        "guess", "warm_start", "phases"};
+      names.insert(names.end(), others.begin(), others.end());
       for (const auto& each : table.entries()) names.push_back(each.info.name);
       const auto nearest = nearest_name(name, names);
       throw InvalidValue("solve", "option '" + name + "'",
@@ -65,6 +93,26 @@ nlp::Options options_of(const nb::kwargs& given, const std::vector<std::string>&
     table.set(options, *entry, wanted, "solve: " + name);
   }
   return options;
+}
+
+ocp::SolveSettings settings_of(const ocp::Problem& problem, const GridChoice& choice,
+                               const std::string& backend, nb::handle guess,
+                               const Solved* warm_start, const nb::kwargs& options,
+                               const std::vector<std::string>& keywords) {
+  const auto grid = grid_of(choice, problem.name());
+  ocp::SolveSettings settings;
+  settings.mesh = grid.mesh;
+  settings.scheme = grid.schemes;
+  settings.backend = backend;
+  settings.options = options_of(options, keywords);
+  settings.guess = guess_of(problem, guess);
+  if (warm_start == nullptr) return settings;
+  check_alike(problem, *warm_start->problem);
+  if (same_grid(warm_start->answer, grid))
+    settings.warm_start = warm_start->answer.point;
+  else
+    settings.previous = &warm_start->answer;
+  return settings;
 }
 
 }  // namespace slalom::python

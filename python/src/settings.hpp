@@ -10,6 +10,7 @@
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/phases.hpp"
 #include "slalom/ocp/trajectory.hpp"
+#include "solved.hpp"
 
 namespace slalom::python {
 
@@ -29,14 +30,23 @@ struct GridChoice {
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where);
 
 /// Solver options from keyword arguments, by their table. Throws InvalidValue for another name;
-/// `others` are the keywords that a misspelt one may have meant besides.
+/// `others` are keywords that a misspelt one may have meant, besides those of every solve.
 nlp::Options options_of(const nb::kwargs& given, const std::vector<std::string>& others);
 
-/// None, an earlier Solution, or a dictionary over straight lines between the bounds of both ends:
-/// "t0" and "tf", or "t", times from t0 to tf; and by name each state's and control's number,
-/// numbers (one a time of "t", else at equal steps) or function of times, and each static
-/// parameter's and slack's number.
-ocp::Trajectory guess_of(const ocp::Problem& problem, const ocp::PhasedTranscription::Grid& grid,
-                         nb::handle given);
+/// None; an earlier Solution or a Simulation, by name; or a dictionary over straight lines between
+/// the bounds of both ends: "t0" and "tf", or "t", times from t0 to tf; and by name each state's
+/// and control's number, numbers (one a time of "t", else at equal steps) or function of times, and
+/// each static parameter's and slack's number.
+ocp::Trajectory guess_of(const ocp::Problem& problem, nb::handle given);
+
+/// What Problem.solve's keywords come to. The settings may point to `warm_start`.
+ocp::SolveSettings settings_of(const ocp::Problem& problem, const GridChoice& choice,
+                               const std::string& backend, nb::handle guess,
+                               const Solved* warm_start, const nb::kwargs& options,
+                               const std::vector<std::string>& keywords = {});
+
+/// Throws InvalidValue unless the earlier problem has this one's states and controls: then an
+/// answer to it may be carried over whole.
+void check_alike(const ocp::Problem& problem, const ocp::Problem& earlier);
 
 }  // namespace slalom::python

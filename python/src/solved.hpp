@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
+#include "slalom/ocp/simulate.hpp"
 #include "slalom/ocp/solve.hpp"
 
 namespace slalom::python {
@@ -42,5 +44,26 @@ struct Solved {
  private:
   mutable std::shared_ptr<const ocp::Interpolant> interpolant_;
 };
+
+/// What Python knows as Simulation: with the problem whose dynamics were integrated.
+struct Simulated {
+  std::shared_ptr<const ocp::Problem> problem;
+  ocp::Simulation answer;
+};
+
+/// What Python knows as PhasedSolution: the phases' answers stand in `phases`, not in `answer`.
+struct PhasedSolved {
+  ocp::PhasedSolution answer;
+  std::vector<Solved> phases;
+  double elapsed_s = 0;
+
+  PhasedSolved() = default;
+  PhasedSolved(const ocp::PhasedProblem& problem, ocp::PhasedSolution solution, double elapsed);
+  /// As C++ has it.
+  ocp::PhasedSolution whole() const;
+};
+
+/// Whether both stand on the same mesh, by the same schemes.
+bool same_grid(const ocp::Solution& answer, const ocp::PhasedTranscription::Grid& grid);
 
 }  // namespace slalom::python

@@ -26,8 +26,11 @@ def test_grids_and_guesses_of_single_phases():
         guess=cold)
     assert s.solved and s.objective == pytest.approx(2, rel=1e-3)
     assert s[0].schemes == [("lgr", 5)] * 6 and s[1].schemes == [("lgl", 5)] * 2
-    with pytest.raises(slalom.InvalidValue):
-        two_legs().solve(mesh=11, warm_start=cold)
+    assert two_legs().solve(mesh=11, warm_start=cold).solved
+    single = slalom.PhasedProblem("single")
+    single.add(slalom.Problem("alone"))
+    with pytest.raises(slalom.InvalidValue, match="2 phases"):
+        single.solve(warm_start=cold)
 
 
 @pytest.mark.parametrize("state, error, message", [
@@ -81,3 +84,14 @@ def test_a_phase_with_other_numbers():
         p.replace("slow down", leg)
     with pytest.raises(KeyError, match="perhaps 'slow down'"):
         p.replace("slow dow", leg)
+
+
+def test_refinement():
+    r = two_legs().refine(mesh=4, refinement="hp", scheme="lgr", points=2, tolerance=1e-8)
+    assert r.converged and len(r.errors) == 2 and max(e.largest for e in r.errors) <= 1e-8
+    assert r.solution["slow down"].tf == pytest.approx(2, rel=1e-2)
+    assert r.table().splitlines()[-1] == "converged"
+    warm = two_legs().solve(mesh=30, warm_start=r.solution)
+    assert warm.solved
+    with pytest.raises(slalom.InvalidValue, match="max_meshes"):
+        two_legs().refine(max_mesh=2)

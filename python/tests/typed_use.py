@@ -61,3 +61,10 @@ def driven() -> float:
     slalom.simulate(3)  # type: ignore[arg-type]
     plant.advance(scenario.start, "plan", 0, 1)  # type: ignore[arg-type]
     return drive.time + (drive.goal_time or 0) + len(ahead)
+
+
+def simulated() -> str:
+    p = stated()
+    s = p.simulate({"x": 1.0}, lambda t, x: [0.0], tf=1)
+    r = slalom.PhasedProblem("p").refine(refinement="hp")
+    return s.message + r.solution["typed"].status + str(p.solve(guess=s).objective)
