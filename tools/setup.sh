@@ -23,6 +23,7 @@ coinor-libipopt-dev | run   | pc:ipopt                  | solves the nonlinear p
 libsqlite3-dev      | run   | inc:sqlite3.h             | keeps the results of sweeps
 libsleef-dev        | run   | inc:sleef.h               | elementary functions on vectors
 libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests
+libamplsolver-dev   | test  | inc:ampl-netlib-solvers/asl_pfgh.h | reads .nl files, in the tests' own solver
 clang-format        | test  | cmd:clang-format          | checks the format of the source
 clang-tidy          | test  | cmd:clang-tidy            | checks the source for mistakes
 python3             | test  | cmd:python3               | runs the checks of the source and of the command line

@@ -66,6 +66,11 @@ class Dag {
   int mask_depth_ = 0;
 };
 
+/// The vertices `ids` as expressions of `inputs`, one an input of the graph; what several of them
+/// use is one node.
+std::vector<Expr> expressions(const Dag& dag, const std::vector<Dag::Id>& ids,
+                              const std::vector<Expr>& inputs);
+
 /// A symbolic sparse derivative: positions and the vertices that hold their values.
 struct SparseDerivative {
   std::vector<Entry> pattern;

@@ -73,6 +73,9 @@ void Evaluator::prepare(Wanted wanted) {
 void Evaluator::set_variable(std::size_t i, const double* numbers, bool same) {
   impl_->inputs[i] = {numbers, same};
 }
+std::span<const double> Evaluator::data() const {
+  return impl_->data;
+}
 std::span<double> Evaluator::data() {
   return impl_->data;
 }

@@ -1,6 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "slalom/nlp/solver.hpp"
 
@@ -9,7 +13,18 @@ namespace slalom::nlp {
 /// Ipopt (Waechter & Biegler, Math. Program. 106, 2006); only in builds with SLALOM_WITH_IPOPT.
 std::unique_ptr<Solver> make_ipopt();
 
+/// Any solver that reads AMPL's .nl files, as a process of its own.
+std::unique_ptr<Solver> make_nl();
+
 /// The interior-point method on the stage-structured factorisation.
 std::unique_ptr<Solver> make_interior_point();
+
+/// A solver's own options, in its words.
+using NativeOptions = std::vector<std::pair<std::string, std::variant<int, double, const char*>>>;
+/// What makes Ipopt honour `options`, but for the time limit.
+NativeOptions ipopt_options(const Options& options);
+
+/// Finds the row of `answer` that is violated most, from the problem's functions.
+void note_violation(Problem& problem, Answer& answer);
 
 }  // namespace slalom::nlp

@@ -181,32 +181,15 @@ class Adapter : public Ipopt::TNLP {
 };
 
 void configure(Ipopt::OptionsList& list, const Options& options) {
-  list.SetIntegerValue("print_level", options.print_level);
   list.SetStringValue("sb", "yes");
-  list.SetIntegerValue("max_iter", options.max_iterations);
   list.SetStringValue("linear_solver", "mumps");
-  list.SetNumericValue("bound_relax_factor", 0.0);
-  if (options.floor > 0) {
-    // Section 3 of docs/formulation.md: stop at the central point of the floor.
-    list.SetStringValue("nlp_scaling_method", "none");
-    list.SetNumericValue("mu_target", options.floor);
-    list.SetNumericValue("mu_init", options.floor);
-    list.SetNumericValue("kappa_d", 0.0);
-    list.SetNumericValue("tol", 1e-6);
-    list.SetNumericValue("dual_inf_tol", options.dual_tol);
-    list.SetNumericValue("constr_viol_tol", options.constraint_tol);
-    list.SetNumericValue("compl_inf_tol", options.floor_tol * options.floor);
-  } else {
-    list.SetNumericValue("tol", options.tol);
-    if (options.warm_start) list.SetNumericValue("mu_init", std::max(options.tol, 1e-4));
-  }
-  list.SetIntegerValue("acceptable_iter", 0);  // no early stop
-  if (options.warm_start) {
-    list.SetStringValue("warm_start_init_point", "yes");
-    for (const char* name :
-         {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_slack_bound_push",
-          "warm_start_slack_bound_frac", "warm_start_mult_bound_push"})
-      list.SetNumericValue(name, 1e-6);
+  for (const auto& [name, value] : ipopt_options(options)) {
+    if (const auto* count = std::get_if<int>(&value))
+      list.SetIntegerValue(name, *count);
+    else if (const auto* number = std::get_if<double>(&value))
+      list.SetNumericValue(name, *number);
+    else
+      list.SetStringValue(name, std::get<const char*>(value));
   }
 }
 
@@ -242,18 +225,6 @@ class IpoptSolver final : public Solver {
   }
 
  private:
-  static void note_violation(Problem& problem, Answer& answer) {
-    Evaluation at;
-    if (problem.evaluate(answer.point.x, 1, {}, {.values = true}, at)) return;
-    for (std::size_t r = 0; r < at.rows.size(); ++r) {
-      const double outside =
-          std::max(problem.limits().gl[r] - at.rows[r], at.rows[r] - problem.limits().gu[r]) /
-          problem.structure().row_scale[r];
-      if (outside <= answer.violation) continue;
-      answer.violation = outside;
-      answer.worst_row = r;
-    }
-  }
   static Status refused(Ipopt::ApplicationReturnStatus code) {
     if (code == Ipopt::Not_Enough_Degrees_Of_Freedom) return Status::too_few_freedoms;
     if (code == Ipopt::Invalid_Number_Detected) return Status::invalid_number;

@@ -44,7 +44,14 @@ OptionTable<Options> make_table() {
           "= 0 would get, takes its second-order terms off the next, and falls back to monotone "
           "when the error does not fall; it takes fewer iterations on most problems.")
       .integer("print_level", &O::print_level, Range::closed(0, 12), "1",
-               "Detail of the back end's log on standard output; 0: none.");
+               "Detail of the back end's log on standard output; 0: none.")
+      .text("nl_solver", &O::nl_solver,
+            "Of back end nl: the solver's executable, a path or a name looked for in PATH. Ipopt, "
+            "KNITRO and ripopt, known by the begin of the name, are told the options above in "
+            "their own words; others take nl_options alone.")
+      .text("nl_options", &O::nl_options,
+            "Of back end nl: words for the solver's command line, such as `max_iter=100 "
+            "linear_solver=ma57`; they come last and win.");
   return table;
 }
 

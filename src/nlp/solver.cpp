@@ -1,5 +1,6 @@
 #include "slalom/nlp/solver.hpp"
 
+#include <algorithm>
 #include <atomic>
 
 #include "backends.hpp"
@@ -49,6 +50,19 @@ void check_sizes(const Start& start, const Structure& structure, bool with_duals
   expect("zu", start.zu, structure.variables);
 }
 
+void note_violation(Problem& problem, Answer& answer) {
+  Evaluation at;
+  if (problem.evaluate(answer.point.x, 1, {}, {.values = true}, at)) return;
+  for (std::size_t r = 0; r < at.rows.size(); ++r) {
+    const double outside =
+        std::max(problem.limits().gl[r] - at.rows[r], at.rows[r] - problem.limits().gu[r]) /
+        problem.structure().row_scale[r];
+    if (outside <= answer.violation) continue;
+    answer.violation = outside;
+    answer.worst_row = r;
+  }
+}
+
 std::vector<std::string> backends() {
   std::vector<std::string> names;
 #ifdef SLALOM_WITH_IPOPT
@@ -63,9 +77,10 @@ std::unique_ptr<Solver> make_solver(const std::string& backend) {
 #ifdef SLALOM_WITH_IPOPT
   if (backend == "ipopt") return make_ipopt();
 #endif
+  if (backend == "nl") return make_nl();
   std::string have;
-  for (const auto& name : backends()) have += (have.empty() ? "" : ", ") + name;
-  throw InvalidValue("solver", "'" + backend + "'", "one of " + have);
+  for (const auto& name : backends()) have += name + ", ";
+  throw InvalidValue("solver", "'" + backend + "'", "one of " + have + "nl");
 }
 
 }  // namespace slalom::nlp

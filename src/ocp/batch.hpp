@@ -31,6 +31,7 @@ struct Batch {
 
   void finish();  ///< once all but the runs above is set
   std::span<double> data() { return evaluator->data(); }
+  std::span<const double> data() const { return evaluator->data(); }
   /// Points the function's variables to their numbers in `point`.
   void load(std::span<const double> point);
   void set_weights(double sigma, std::span<const double> y);

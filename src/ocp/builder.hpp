@@ -83,6 +83,9 @@ Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Schemes& 
 /// Bounds of all variables, as `problem` has them now.
 void fill_limits(const Problem& problem, Transcribed& transcribed);
 
+/// The NLP's functions as expressions, each lane of a batch a copy of its function.
+nlp::Formulas formulas(const Transcribed& transcribed);
+
 /// Refills the batches' data from the problem's parameters and members.
 void fill_data(const Problem& problem, Transcribed& transcribed);
 

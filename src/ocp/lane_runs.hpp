@@ -36,6 +36,15 @@ class LaneRuns {
     bool sets;            ///< scatter sets its targets
   };
   std::size_t runs() const { return runs_.size(); }
+  /// Calls f(source, target, coefficient) for each scatter.
+  template <class F>
+  void for_each(F f) const {
+    for (const auto& run : runs_)
+      for (std::int64_t i = 0; i < run.count; ++i)
+        f(static_cast<std::size_t>(run.source + i * run.source_step),
+          static_cast<std::size_t>(run.target + i * run.target_step),
+          run.ones ? 1.0 : coefficients_[run.first + static_cast<std::size_t>(i)]);
+  }
 
  private:
   std::vector<Run> runs_;

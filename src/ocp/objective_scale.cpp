@@ -32,6 +32,11 @@ class Multiplied final : public nlp::Problem {
     return problem_.variable_name(index);
   }
   std::string row_name(std::size_t index) const override { return problem_.row_name(index); }
+  std::optional<nlp::Formulas> formulas() const override {
+    auto formulas = problem_.formulas();
+    if (formulas) formulas->objective = factor_ * formulas->objective;
+    return formulas;
+  }
 
   nlp::Start scaled(nlp::Start point, double factor) const {
     for (auto* duals : {&point.y, &point.zl, &point.zu})

@@ -74,6 +74,12 @@ class Links {
     evaluator_->evaluate({parts.values, parts.derivatives, parts.hessian});
   }
   const expr::Evaluator& results() const { return *evaluator_; }
+  std::vector<Expr> formulas(const std::vector<Expr>& variables) const {
+    std::vector<Expr> inputs;
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+      inputs.push_back(scales_[i] * variables[variables_[i]]);
+    return function_(inputs, {});
+  }
 
  private:
   /// The phase that has the symbol, and its variable there.
@@ -143,6 +149,18 @@ class PhasedTranscription::Impl {
     if (index >= first_link) return problem_.links().at(index - first_link).name;
     const std::size_t p = phase_of(index, &Offsets::rows);
     return problem_.phases()[p].name() + ": " + parts_[p]->row_name(index - offsets_[p].rows);
+  }
+
+  nlp::Formulas formulas() const {
+    nlp::Formulas all;
+    for (const auto& part : parts_) {
+      const auto formulas = part->formulas();
+      append(all.variables, formulas->variables);
+      append(all.rows, formulas->rows);
+      all.objective += formulas->objective;
+    }
+    append(all.rows, links_->formulas(all.variables));
+    return all;
   }
 
   const PhasedProblem problem_;
@@ -345,6 +363,9 @@ std::string PhasedTranscription::variable_name(std::size_t index) const {
 }
 std::string PhasedTranscription::row_name(std::size_t index) const {
   return impl_->row_name(index);
+}
+std::optional<nlp::Formulas> PhasedTranscription::formulas() const {
+  return impl_->formulas();
 }
 
 }  // namespace slalom::ocp

@@ -344,4 +344,8 @@ std::string Transcription::row_name(std::size_t index) const {
   return impl_->data.row_names.at(index).in(impl_->problem);
 }
 
+std::optional<nlp::Formulas> Transcription::formulas() const {
+  return ocp::formulas(impl_->data);
+}
+
 }  // namespace slalom::ocp

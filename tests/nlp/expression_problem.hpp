@@ -78,7 +78,11 @@ class Statement {
 /// value or derivative that is not finite is a fault naming its function (and variable).
 class ExpressionProblem final : public SmallProblem {
  public:
-  explicit ExpressionProblem(const Statement& statement) : row_names_(statement.row_names_) {
+  explicit ExpressionProblem(const Statement& statement)
+      : row_names_(statement.row_names_),
+        formulas_{statement.variables_,
+                  statement.outputs_[0],
+                  {statement.outputs_.begin() + 1, statement.outputs_.end()}} {
     const auto function = std::make_shared<const expr::Function>(
         statement.variables_, std::vector<expr::Expr>{}, statement.outputs_);
     bounds = statement.limits_;
@@ -128,6 +132,7 @@ class ExpressionProblem final : public SmallProblem {
     return {};
   }
   std::string row_name(std::size_t i) const override { return row_names_.at(i); }
+  std::optional<Formulas> formulas() const override { return formulas_; }
 
  private:
   static Vector values(const expr::Function& f, const Vector& x) {
@@ -159,6 +164,7 @@ class ExpressionProblem final : public SmallProblem {
   }
 
   std::vector<std::string> row_names_;
+  Formulas formulas_;
 };
 
 }  // namespace slalom::nlp

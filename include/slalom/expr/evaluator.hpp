@@ -26,6 +26,7 @@ class Evaluator {
 
   /// Where variable i stands from now on: `lanes` numbers in a row, or, if `same`, one for all.
   void set_variable(std::size_t i, const double* numbers, bool same);
+  std::span<const double> data() const;
   std::span<double> data();  ///< data x lanes; call data_changed after writing
   void data_changed();
   std::span<double> weights();  ///< outputs x lanes, for the Hessian

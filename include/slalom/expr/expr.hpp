@@ -132,6 +132,10 @@ class Node {
 std::vector<Expr> substitute(const std::vector<Expr>& outputs, const std::vector<Expr>& symbols,
                              const std::vector<Expr>& replacements);
 
+/// The same functions with equal subexpressions shared as one node and algebraic rules applied, as
+/// Function has them.
+std::vector<Expr> simplified(const std::vector<Expr>& outputs);
+
 /// The symbols on which `outputs` depend, in order of first appearance.
 std::vector<Expr> symbols_of(const std::vector<Expr>& outputs);
 

@@ -52,6 +52,11 @@ class Function {
   void operator()(std::span<const double> x, std::span<const double> p,
                   std::span<double> values) const;
 
+  /// The outputs as expressions of others: `variables` and `data` in place of the inputs. Throws
+  /// Error for other numbers of them.
+  std::vector<Expr> operator()(const std::vector<Expr>& variables,
+                               const std::vector<Expr>& data) const;
+
   /// Number of instructions an evaluation of `wanted` takes for each lane.
   std::size_t instructions(Wanted wanted) const;
 

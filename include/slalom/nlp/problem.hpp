@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "slalom/expr/expr.hpp"
 
 namespace slalom::nlp {
 
@@ -64,6 +67,13 @@ struct Fault {
   explicit operator bool() const { return !function.empty(); }
 };
 
+/// A problem's functions as expressions, for solvers that want formulas rather than numbers.
+struct Formulas {
+  std::vector<expr::Expr> variables;  ///< symbols, in the problem's order
+  expr::Expr objective;
+  std::vector<expr::Expr> rows;
+};
+
 /// The one seam between problems and solvers.
 class Problem {
  public:
@@ -75,6 +85,8 @@ class Problem {
                          Parts parts, Evaluation& out) = 0;
   virtual std::string variable_name(std::size_t index) const = 0;
   virtual std::string row_name(std::size_t index) const = 0;
+  /// None from a problem that knows numbers alone.
+  virtual std::optional<Formulas> formulas() const { return std::nullopt; }
 };
 
 }  // namespace slalom::nlp

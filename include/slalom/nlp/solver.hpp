@@ -54,8 +54,10 @@ struct Options {
   double time_limit = std::numeric_limits<double>::infinity();
   bool warm_start = false;                           ///< the start's multipliers are used
   BarrierRule barrier_rule = BarrierRule::adaptive;  ///< of interior_point, without a floor
-  int print_level = 0;            ///< of the back end's own log, on standard output
-  bool (*stop)(void*) = nullptr;  ///< polled each iteration; true ends the solve
+  int print_level = 0;              ///< of the back end's own log, on standard output
+  std::string nl_solver = "ipopt";  ///< of nl: the executable that reads the .nl file
+  std::string nl_options = "";      ///< of nl: words for its command line
+  bool (*stop)(void*) = nullptr;    ///< polled each iteration; true ends the solve
   void* stop_data = nullptr;
   void (*on_iteration)(const IterationInfo&, void*) = nullptr;  ///< called after each iteration
   void* on_iteration_data = nullptr;
@@ -111,7 +113,8 @@ class Solver {
 /// Throws InvalidValue unless `start` has the sizes of `structure`; duals only where `with_duals`.
 void check_sizes(const Start& start, const Structure& structure, bool with_duals);
 
-/// Names of the back ends this build has.
+/// Names of the back ends this build has. Beside them, nl runs any solver that reads AMPL's .nl
+/// files, if the machine has one: Options::nl_solver.
 std::vector<std::string> backends();
 /// The default, interior_point, where no name is given. Throws InvalidValue for a back end this
 /// build lacks, naming those it has.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -75,6 +76,7 @@ class PhasedTranscription final : public nlp::Problem {
                       nlp::Parts parts, nlp::Evaluation& out) override;
   std::string variable_name(std::size_t index) const override;
   std::string row_name(std::size_t index) const override;
+  std::optional<nlp::Formulas> formulas() const override;
 
  private:
   class Impl;

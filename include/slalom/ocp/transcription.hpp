@@ -104,6 +104,7 @@ class Transcription final : public nlp::Problem {
                       nlp::Parts parts, nlp::Evaluation& out) override;
   std::string variable_name(std::size_t index) const override;
   std::string row_name(std::size_t index) const override;
+  std::optional<nlp::Formulas> formulas() const override;
 
  private:
   class Impl;
