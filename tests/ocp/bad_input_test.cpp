@@ -244,23 +244,27 @@ TEST(Kinks, HaveTheDerivativesThatAreDocumented) {
   EXPECT_EQ(slope([](const Expr& x) { return select(x, sqrt(x), 0.0); }, 0), 0);
 }
 
-/// Least effort and least |x| on the way from -1/2 to 1/2, as smooth rows: a >= x, a >= -x.
+/// Least effort and least |x| on the way from -1/4 to 1/4, as smooth rows: a >= x, a >= -x.
 TEST(Kinks, OfAbsAreSmoothAsTwoRows) {
   Line line;
-  line.problem.fix(line.x, -0.5, 0.5);
+  line.problem.fix(line.x, -0.25, 0.25);
   const Expr a = line.problem.control("a");
   line.problem.path("above", a - line.x, Bounds::at_least(0));
   line.problem.path("below", a + line.x, Bounds::at_least(0));
   line.problem.lagrange("distance", a);
   const Solution rows = solve(line.problem);
   EXPECT_TRUE(rows.solved());
-  // The same rounded off by a tenth.
+  Line kinked;  // x = 0 at the middle node
+  kinked.problem.fix(kinked.x, -0.25, 0.25);
+  kinked.problem.lagrange("distance", abs(kinked.x));
+  EXPECT_FALSE(solve(kinked.problem, {.options = {.max_iterations = 50}}).solved());
+  // The same rounded off by 1e-3.
   Line round;
-  round.problem.fix(round.x, -0.5, 0.5);
-  round.problem.lagrange("distance", sqrt(square(round.x) + 0.01));
+  round.problem.fix(round.x, -0.25, 0.25);
+  round.problem.lagrange("distance", sqrt(square(round.x) + 1e-6));
   const Solution rounded = solve(round.problem);
   EXPECT_TRUE(rounded.solved()) << nlp::to_string(rounded.status);
-  EXPECT_NEAR(rounded.objective, rows.objective, 0.04);
+  EXPECT_NEAR(rounded.objective, rows.objective, 1e-3);
 }
 
 }  // namespace
