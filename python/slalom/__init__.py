@@ -18,6 +18,9 @@ from ._core import (  # noqa: E402
     Goal,
     InvalidValue,
     MeshRecord,
+    Mpc,
+    MpcCycle,
+    MpcResult,
     Obstacle,
     PhasedProblem,
     PhasedRefined,
@@ -68,7 +71,7 @@ from ._core import (  # noqa: E402
 
 __all__ = [
     "ConstraintId", "Cycle", "Drive", "Error", "ErrorEstimate", "Expr", "Goal", "InvalidValue",
-    "MeshRecord", "Obstacle", "PhasedProblem", "PhasedRefined", "PhasedSolution", "Plan", "Planner", "Plant",
+    "MeshRecord", "Mpc", "MpcCycle", "MpcResult", "Obstacle", "PhasedProblem", "PhasedRefined", "PhasedSolution", "Plan", "Planner", "Plant",
     "Problem", "Refined", "Region", "Scenario", "Simulation", "Solution", "UnknownName", "Violation",
     "__version__", "absolute", "arccos", "arcsin", "arctan", "arctan2", "backends", "control_names",
     "cos", "cosh", "cubic_spline", "exp", "load_scenario", "log", "maximum", "minimum",

@@ -59,6 +59,10 @@ void bind_judge(nb::module_& module) {
           },
           "samples"_a = 20, doc::ocp_largest_violation)
       .def(
+          "unresolved_controls",
+          [](const Solved& s) { return to_numpy(ocp::unresolved_controls(*s.problem, s.answer)); },
+          nb::rv_policy::move, doc::ocp_unresolved_controls)
+      .def(
           "hamiltonian",
           [](const Solved& s) { return to_numpy(ocp::hamiltonian(*s.problem, s.answer)); },
           nb::rv_policy::move, doc::ocp_hamiltonian);

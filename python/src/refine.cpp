@@ -27,16 +27,18 @@ struct RefinedAnswer {
 using OnePhase = RefinedAnswer<ocp::Refined, Solved>;
 using Phases = RefinedAnswer<ocp::PhasedRefined, PhasedSolved>;
 
-const std::vector<std::string> kRules = {"tolerance", "refinement", "max_meshes",
-                                         "max_size",  "min_points", "max_points"};
+const std::vector<std::string> kRules = {"tolerance",  "refinement", "max_meshes",      "max_size",
+                                         "min_points", "max_points", "resolve_controls"};
 
 RefineRules rules_of(double tolerance, const std::string& refinement, int max_meshes, int max_size,
-                     int min_points, int max_points) {
-  RefineRules rules{.tolerance = tolerance,
-                    .max_meshes = max_meshes,
-                    .max_size = max_size,
-                    .min_points = min_points,
-                    .max_points = max_points};
+                     int min_points, int max_points, bool resolve_controls) {
+  RefineRules rules;
+  rules.tolerance = tolerance;
+  rules.resolve_controls = resolve_controls;
+  rules.max_meshes = max_meshes;
+  rules.max_size = max_size;
+  rules.min_points = min_points;
+  rules.max_points = max_points;
   if (refinement == "h")
     rules.refinement = ocp::Refinement::h;
   else if (refinement == "hp")
@@ -47,13 +49,14 @@ RefineRules rules_of(double tolerance, const std::string& refinement, int max_me
 }
 
 OnePhase refine(const Problem& problem, double tolerance, const std::string& refinement,
-                int max_meshes, int max_size, int min_points, int max_points,
+                int max_meshes, int max_size, int min_points, int max_points, bool resolve_controls,
                 const MeshChoice& mesh, const SchemeChoice& scheme, const PointsChoice& points,
                 const std::string& backend, const nb::object& guess, const Solved* warm_start,
                 const nb::kwargs& options) {
   auto start =
       settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options, kRules);
-  const auto rules = rules_of(tolerance, refinement, max_meshes, max_size, min_points, max_points);
+  const auto rules = rules_of(tolerance, refinement, max_meshes, max_size, min_points, max_points,
+                              resolve_controls);
   OnePhase refined;
   refined.solution.problem = std::make_shared<const Problem>(problem);
   std::tie(refined.answer, refined.solution.elapsed_s) = run_released(
@@ -65,13 +68,14 @@ OnePhase refine(const Problem& problem, double tolerance, const std::string& ref
 
 Phases refine_phases(const PhasedProblem& problem, double tolerance, const std::string& refinement,
                      int max_meshes, int max_size, int min_points, int max_points,
-                     const MeshChoice& mesh, const SchemeChoice& scheme, const PointsChoice& points,
-                     const ByName<nb::any>& phases, const std::string& backend,
-                     const PhasedSolved* guess, const PhasedSolved* warm_start,
-                     const nb::kwargs& options) {
+                     bool resolve_controls, const MeshChoice& mesh, const SchemeChoice& scheme,
+                     const PointsChoice& points, const ByName<nb::any>& phases,
+                     const std::string& backend, const PhasedSolved* guess,
+                     const PhasedSolved* warm_start, const nb::kwargs& options) {
   auto start = start_of(problem, {mesh, scheme, points}, phases, backend, guess, warm_start,
                         options, kRules);
-  const auto rules = rules_of(tolerance, refinement, max_meshes, max_size, min_points, max_points);
+  const auto rules = rules_of(tolerance, refinement, max_meshes, max_size, min_points, max_points,
+                              resolve_controls);
   const PhasedProblem copy = problem;
   auto [answer, elapsed] = run_released(start.settings.options,
                                         [&] { return ocp::refine(copy, start.settings, rules); });
@@ -89,6 +93,7 @@ void bind_record(nb::module_& module) {
       .def_ro("wall_s", &MeshRecord::wall_s, doc::ocp_MeshRecord_wall_s)
       .def_ro("objective", &MeshRecord::objective)
       .def_ro("largest_error", &MeshRecord::largest_error, doc::ocp_MeshRecord_largest_error)
+      .def_ro("unresolved", &MeshRecord::unresolved, doc::ocp_MeshRecord_unresolved)
       .def_ro("worst_phase", &MeshRecord::worst_phase, doc::ocp_MeshRecord_worst_phase)
       .def_ro("worst_interval", &MeshRecord::worst_interval);
 }
@@ -125,15 +130,17 @@ void def_refine(nb::class_<Type>& type, const Function& function, const Keywords
   type.def("refine", function, nb::kw_only(), "tolerance"_a = defaults.tolerance,
            "refinement"_a = "h", "max_meshes"_a = defaults.max_meshes,
            "max_size"_a = defaults.max_size, "min_points"_a = defaults.min_points,
-           "max_points"_a = defaults.max_points, "mesh"_a = 40, "scheme"_a = "hermite_simpson",
-           "points"_a = 4, keywords..., "backend"_a = "", "guess"_a = nb::none(),
-           "warm_start"_a = nb::none(), "options"_a,
+           "max_points"_a = defaults.max_points, "resolve_controls"_a = defaults.resolve_controls,
+           "mesh"_a = 40, "scheme"_a = "hermite_simpson", "points"_a = 4, keywords...,
+           "backend"_a = "", "guess"_a = nb::none(), "warm_start"_a = nb::none(), "options"_a,
            "Solves on one mesh after another, each from the last one's polynomials and "
            "multipliers, until\nevery interval's error, found by re-integration, is within "
            "`tolerance`. `refinement` \"h\" cuts\nintervals, \"hp\" raises the degree of lgr, "
            "lgr_differential or lgl up to `max_points`, then cuts\ninto intervals of "
            "`min_points`; no more than `max_meshes` meshes, none of more than `max_size`\npoints. "
-           "The other keywords are those of solve, for the first mesh.");
+           "`resolve_controls` goes on until jumps of the controls are resolved, and the "
+           "objective too\nmoves by less than `tolerance`. The other keywords are those of solve, "
+           "for the first mesh.");
 }
 
 }  // namespace

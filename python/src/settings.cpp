@@ -23,13 +23,6 @@ void check_length(const std::variant<T, std::vector<T>>& choice, std::size_t int
                        std::to_string(intervals) + ", one an interval, or one for all");
 }
 
-OptionValue option_value(nb::handle value, const std::string& name) {
-  if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value);
-  if (nb::isinstance<nb::int_>(value)) return nb::cast<std::int64_t>(value);
-  if (nb::isinstance<nb::str>(value)) return nb::cast<std::string>(value);
-  return as<double>(value, "option " + name, "a number, a word or a truth value");
-}
-
 template <class List>
 std::string names_of(const List& list) {
   std::string names;
@@ -38,6 +31,13 @@ std::string names_of(const List& list) {
 }
 
 }  // namespace
+
+OptionValue option_value(nb::handle value, const std::string& name) {
+  if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value);
+  if (nb::isinstance<nb::int_>(value)) return nb::cast<std::int64_t>(value);
+  if (nb::isinstance<nb::str>(value)) return nb::cast<std::string>(value);
+  return as<double>(value, "option " + name, "a number, a word or a truth value");
+}
 
 void check_alike(const ocp::Problem& problem, const ocp::Problem& earlier) {
   const auto form = [](const ocp::Problem& p) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "binding.hpp"
+#include "slalom/base/options.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/phases.hpp"
 #include "slalom/ocp/trajectory.hpp"
@@ -28,6 +29,9 @@ struct GridChoice {
 
 /// Throws InvalidValue for lists that have not one entry an interval.
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where);
+
+/// An option's value as Python gave it; a TypeError that names it for another type.
+OptionValue option_value(nb::handle value, const std::string& name);
 
 /// Solver options from keyword arguments, by their table. Throws InvalidValue for another name;
 /// `others` are keywords that a misspelt one may have meant, besides those of every solve.

@@ -68,3 +68,12 @@ def simulated() -> str:
     s = p.simulate({"x": 1.0}, lambda t, x: [0.0], tf=1)
     r = slalom.PhasedProblem("p").refine(refinement="hp")
     return s.message + r.solution["typed"].status + str(p.solve(guess=s).objective)
+
+
+def receding(problem: Problem) -> str:
+    def update(now: Problem, cycle: slalom.MpcCycle) -> None:
+        now.set_scale("row", cycle.t + 1)
+
+    loop = slalom.Mpc(problem, tex=0.5, goal={"x": (1, 0.1)}, update=update)
+    result = loop.run([0, 0])
+    return result.status + result.cycles[0].solution.status + loop.step([0, 0], 1)
