@@ -67,6 +67,11 @@ obstacle-choice: ## what leaving out obstacles does, into docs/obstacle-choice.m
 	$(MAKE) --no-print-directory build
 	python3 tools/obstacle_choice.py --program build/slalom
 
+problems: ## every problem of the library by two schemes, beside its known value
+	tools/setup.sh run
+	$(MAKE) --no-print-directory build
+	build/slalom problems --all
+
 wheel: ## set up, and build the Python package into dist/
 	tools/setup.sh wheel
 	tools/python.sh wheel dist

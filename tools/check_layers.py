@@ -14,7 +14,8 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "expr", "kkt", "nlp", "ocp", "vehicle", "planner", "sim", "study", "io", "apps"]
+LAYERS = ["base", "expr", "kkt", "nlp", "ocp", "vehicle", "planner",
+          "problems", "sim", "study", "io", "apps"]
 SHARED_PRIVATE = "base"
 FORBIDDEN_IN_PUBLIC = {"CLI": "CLI11", "yaml-cpp": "yaml-cpp", "spdlog": "spdlog"}
 WARN_LINES = 400

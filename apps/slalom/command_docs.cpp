@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "slalom/problems/page.hpp"
 
 namespace slalom::app {
 
@@ -15,6 +16,12 @@ void add_docs(CLI::App& app, Command& run) {
           return kOk;
         };
       });
+  command->add_subcommand("problems", "The library of problems, as Markdown")->callback([&run] {
+    run = [] {
+      print(problems::page());
+      return kOk;
+    };
+  });
   command->add_subcommand("solver-options", "Every option of a solver, as Markdown")
       ->callback([&run] {
         run = [] {

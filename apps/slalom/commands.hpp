@@ -15,6 +15,7 @@ void add_replay(CLI::App& app, Command& run);
 void add_make_scenarios(CLI::App& app, Command& run);
 void add_check(CLI::App& app, Command& run);
 void add_list(CLI::App& app, Command& run);
+void add_problems(CLI::App& app, Command& run);
 void add_docs(CLI::App& app, Command& run);
 
 }  // namespace slalom::app

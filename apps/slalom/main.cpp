@@ -73,6 +73,7 @@ int run_app(int argc, char** argv) {
   app::add_make_scenarios(cli, run);
   app::add_check(cli, run);
   app::add_list(cli, run);
+  app::add_problems(cli, run);
   app::add_docs(cli, run);
   if (const auto code = parse(cli, argc, argv)) return *code;
   return run();
