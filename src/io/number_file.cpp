@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <sstream>
 
+#include "csv.hpp"
 #include "slalom/base/error.hpp"
 #include "text_file.hpp"
 
@@ -15,29 +14,6 @@ namespace slalom::io {
 namespace {
 
 constexpr std::size_t kMostBytes = 64U << 20U;  // a day's drive in cycles of 10 ms
-
-/// The cells of a row; a quoted one may hold commas.
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> all(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    if (c == ',' && !quoted) {
-      all.emplace_back();
-    } else if (c != '"' && c != '\r') {
-      all.back() += c;
-    }
-  }
-  return all;
-}
-
-std::optional<double> number(const std::string& text) {
-  double value = 0;
-  const auto* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 }  // namespace
 
@@ -52,8 +28,8 @@ std::vector<double> read_numbers(const OptionInfo& info, const Value& name) {
   int row = 0;
   for (std::string line; std::getline(lines, line);) {
     ++row;
-    const auto texts = cells(line);
-    if (row == 1 && !number(texts[0])) {
+    const auto texts = csv_cells(line);
+    if (row == 1 && !csv_number(texts[0])) {
       const auto found = std::find(texts.begin(), texts.end(), column);
       if (found == texts.end())
         throw InvalidValue(fmt::format("{}:1", file.string()), "no such column",
@@ -61,7 +37,7 @@ std::vector<double> read_numbers(const OptionInfo& info, const Value& name) {
       at = static_cast<std::size_t>(found - texts.begin());
       continue;
     }
-    const auto value = at < texts.size() ? number(texts[at]) : std::nullopt;
+    const auto value = at < texts.size() ? csv_number(texts[at]) : std::nullopt;
     if (!value)
       throw InvalidValue(fmt::format("{}:{}", file.string(), row),
                          at < texts.size() ? fmt::format("'{}'", texts[at]) : "too few cells",

@@ -61,7 +61,9 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes,
   if (!stream)
     throw InvalidValue(where, fmt::format("an unreadable file ({})", std::strerror(errno)),
                        content);
-  std::string text(max_bytes + 1, '\0');
+  // One byte more than it has: a file that is growing still ends at the limit.
+  const auto size = std::filesystem::file_size(file, error);
+  std::string text(error || size > max_bytes ? max_bytes + 1 : size + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) throw InvalidValue(where, "an unreadable file (read error)", content);
   text.resize(static_cast<std::size_t>(stream.gcount()));
