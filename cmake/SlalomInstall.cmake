@@ -23,4 +23,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/slalomConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/slalomConfig.cmake
               ${PROJECT_BINARY_DIR}/slalomConfigVersion.cmake
-              cmake/FindIpopt.cmake DESTINATION ${package_dir})
+              cmake/FindIpopt.cmake cmake/FindKnitro.cmake DESTINATION ${package_dir})

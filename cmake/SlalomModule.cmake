@@ -12,12 +12,15 @@ endif()
 # A folder without sources becomes an interface library.
 #
 # Files named *_avx2.cpp are compiled for AVX2 with FMA, all others for the baseline processor.
-# Files named ipopt*.cpp are left out when SLALOM_WITH_IPOPT is off.
+# Files named ipopt*.cpp are left out when SLALOM_WITH_IPOPT is off, knitro*.cpp likewise.
 function(slalom_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   if(NOT SLALOM_WITH_IPOPT)
     list(FILTER sources EXCLUDE REGEX "/ipopt[^/]*\\.cpp$")
+  endif()
+  if(NOT SLALOM_WITH_KNITRO)
+    list(FILTER sources EXCLUDE REGEX "/knitro[^/]*\\.cpp$")
   endif()
   if(sources)
     add_library(slalom_${name} STATIC ${sources})

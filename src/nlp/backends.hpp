@@ -13,6 +13,9 @@ namespace slalom::nlp {
 /// Ipopt (Waechter & Biegler, Math. Program. 106, 2006); only in builds with SLALOM_WITH_IPOPT.
 std::unique_ptr<Solver> make_ipopt();
 
+/// KNITRO (Byrd, Nocedal & Waltz 2006); only in builds with SLALOM_WITH_KNITRO.
+std::unique_ptr<Solver> make_knitro();
+
 /// Any solver that reads AMPL's .nl files, as a process of its own.
 std::unique_ptr<Solver> make_nl();
 
@@ -23,6 +26,8 @@ std::unique_ptr<Solver> make_interior_point();
 using NativeOptions = std::vector<std::pair<std::string, std::variant<int, double, const char*>>>;
 /// What makes Ipopt honour `options`, but for the time limit.
 NativeOptions ipopt_options(const Options& options);
+/// Likewise for KNITRO.
+NativeOptions knitro_options(const Options& options);
 
 /// Finds the row of `answer` that is violated most, from the problem's functions.
 void note_violation(Problem& problem, Answer& answer);

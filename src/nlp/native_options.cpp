@@ -1,4 +1,4 @@
-// Options in Ipopt's words, for the library and for its executable alike.
+// Options in the words of Ipopt and KNITRO, for their libraries and executables alike.
 
 #include <algorithm>
 
@@ -33,6 +33,16 @@ NativeOptions ipopt_options(const Options& options) {
           "warm_start_slack_bound_frac", "warm_start_mult_bound_push"})
       add(name, 1e-6);
   }
+  return list;
+}
+
+/// Knitro User's Manual, "User options".
+NativeOptions knitro_options(const Options& options) {
+  NativeOptions list{{"outlev", options.print_level},
+                     {"maxit", options.max_iterations},
+                     {"opttol", options.tol},
+                     {"feastol", options.constraint_tol}};
+  if (options.warm_start) list.emplace_back("strat_warm_start", 1);
   return list;
 }
 

@@ -69,6 +69,9 @@ std::vector<std::string> backends() {
   names.emplace_back("ipopt");
 #endif
   names.emplace_back("interior_point");
+#ifdef SLALOM_WITH_KNITRO
+  names.emplace_back("knitro");
+#endif
   return names;
 }
 
@@ -76,6 +79,9 @@ std::unique_ptr<Solver> make_solver(const std::string& backend) {
   if (backend.empty() || backend == "interior_point") return make_interior_point();
 #ifdef SLALOM_WITH_IPOPT
   if (backend == "ipopt") return make_ipopt();
+#endif
+#ifdef SLALOM_WITH_KNITRO
+  if (backend == "knitro") return make_knitro();
 #endif
   if (backend == "nl") return make_nl();
   std::string have;

@@ -27,16 +27,6 @@ std::vector<std::string> ripopt_words(const Options& options) {
                    {"constr_viol_tol", options.constraint_tol}});
 }
 
-/// Knitro User's Manual, "Knitro / AMPL reference".
-std::vector<std::string> knitro_words(const Options& options) {
-  NativeOptions list{{"outlev", options.print_level},
-                     {"maxit", options.max_iterations},
-                     {"opttol", options.tol},
-                     {"feastol", options.constraint_tol}};
-  if (options.warm_start) list.emplace_back("strat_warm_start", 1);
-  return words_of(list);
-}
-
 }  // namespace
 
 std::vector<std::string> command_words(const std::string& executable, const Options& options) {
@@ -47,7 +37,7 @@ std::vector<std::string> command_words(const std::string& executable, const Opti
   std::vector<std::string> words;
   if (is("ipopt")) words = words_of(ipopt_options(options));
   if (is("ripopt")) words = ripopt_words(options);
-  if (is("knitro")) words = knitro_words(options);
+  if (is("knitro")) words = words_of(knitro_options(options));
   std::istringstream more(options.nl_options);
   for (std::string word; more >> word;) words.push_back(word);
   return words;
