@@ -15,7 +15,7 @@ std::vector<std::string> words_of(const NativeOptions& options) {
   std::vector<std::string> words;
   for (const auto& [name, value] : options)
     words.push_back(
-        std::visit([&](const auto& v) { return fmt::format("{}={}", name, v); }, value));
+        std::visit([&name = name](const auto& v) { return fmt::format("{}={}", name, v); }, value));
   return words;
 }
 
