@@ -130,7 +130,7 @@ Entries aerospace() {
   return {
       {.name = "orbit-raising",
        .title = "The largest circular orbit in a given time of thrust",
-       .source = "Moyer & Pinkham 1964; Bryson & Ho 1975, section 2.5",
+       .source = "Moyer & Pinkham 1964; Bryson & Ho 1975, pages 66-69",
        .hard = "the thrust turns round quickly half-way",
        .maximised = true,
        .published = Published{"1.5252777", "Hall, YAPSS, orbit_raising"},
@@ -150,7 +150,7 @@ Entries aerospace() {
        .hard = "lift nearly singular, at a thermal's edge",
        .tags = {Tag::local_optima, Tag::free_final_time},
        .maximised = true,
-       .published = Published{"1255.05", "COPS 3.0, table 11.2, on a mesh of 100 intervals"},
+       .published = Published{"1255.05", "COPS 3.0, 100 intervals"},
        .converged = 1247.987,
        .remark = "the print is the trapezoidal rule's value on 100 intervals; refined to 1e-8, HS "
                  "and LGR "

@@ -161,7 +161,7 @@ Statement target_line() {
   return {p};
 }
 
-/// The linear tangent law (Bryson & Ho 1975, section 2.4): with
+/// The linear tangent law (Bryson & Ho 1975): with
 /// tan(theta) = tan(b)(1 - 2 t/tf), vx(tf) = a tf asinh(tan b)/tan b and
 /// y(tf) = a tf^2/(4 tan b) (1/cos b - asinh(tan b)/tan b).
 double steering_time(double a, double y, double vx) {
@@ -177,7 +177,7 @@ double steering_time(double a, double y, double vx) {
   return time(low);
 }
 
-/// Bryson & Ho 1975, section 2.7, example 1: y and x as functions of the heading angle and of the
+/// Bryson & Ho 1975: y and x as functions of the heading angle and of the
 /// final one; time is the difference of their tangents.
 double zermelo_time(double x, double y) {
   const auto sec = [](double a) { return 1 / std::cos(a); };
@@ -211,7 +211,7 @@ Entries classics() {
   return {
       {.name = "brachistochrone",
        .title = "Fastest slide from (0, 0) to (2, 2), g = 9.8",
-       .source = "Bernoulli 1696; Bryson & Ho 1975, section 2.7",
+       .source = "Bernoulli 1696; Bryson & Ho 1975",
        .hard = "free final time; the speed is 0 at the start",
        .tags = {Tag::free_final_time},
        .published = Published{"0.824759143157", "PSOPT Application Examples 2026, table 1"},
@@ -237,31 +237,30 @@ Entries classics() {
        .state = unicycle},
       {.name = "linear-tangent-steering",
        .title = "Injection at given height and speed in least time",
-       .source = "Bryson & Ho 1975, section 2.4; COPS 3.0, problem 9",
+       .source = "Bryson & Ho 1975; COPS 3.0, problem 9",
        .hard = "free final time",
        .tags = {Tag::free_final_time},
-       .published = Published{"0.554577", "COPS 3.0, table 9.2, on a mesh of 200 intervals"},
+       .published = Published{"0.554577", "COPS 3.0, 200 intervals"},
        .closed_form = ClosedForm{steering_time(100, 5, 45), "the linear tangent law"},
        .remark = "the print is the trapezoidal rule's value on 200 intervals",
        .state = linear_tangent_steering},
       {.name = "zermelo",
        .title = "A ship crosses a current that grows across the way",
-       .source = "Zermelo 1931; Bryson & Ho 1975, section 2.7, example 1",
+       .source = "Zermelo 1931; Bryson & Ho 1975",
        .hard = "free final time; headings differ by full turns",
        .tags = {Tag::free_final_time, Tag::local_optima},
-       .published = Published{"5.46", "Bryson & Ho 1975, figure 2.7.3"},
        .closed_form = ClosedForm{zermelo_time(3.66, -1.86), "tan(theta_f) - tan(theta_0)"},
        .state = zermelo},
       {.name = "soap-film",
        .title = "The least surface between two rings",
-       .source = "Bryson & Ho 1975, section 2.4, problem 5",
+       .source = "Bryson & Ho 1975, page 64",
        .hard = "near the distance at which the film breaks",
        .tags = {Tag::local_optima},
        .closed_form = ClosedForm{soap_film_area(0.45), "2 pi (tanh s + s / cosh^2 s), a catenary"},
        .state = soap_film},
       {.name = "isoperimetric",
        .title = "The largest area that a curve of length 1 encloses",
-       .source = "Bryson & Ho 1975, section 3.1",
+       .source = "Bryson & Ho 1975; Hall, YAPSS, isoperimetric",
        .hard = "the curve may be turned: no unique answer, a singular Hessian",
        .tags = {Tag::local_optima},
        .maximised = true,
@@ -302,7 +301,7 @@ Entries classics() {
        .state = neuenhofen_kerrigan},
       {.name = "target-line",
        .title = "A double integrator to a line by least energy",
-       .source = "Kirk 1970, example 5.1-1",
+       .source = "Locatelli 2017; PSOPT's example mineng_target_set",
        .hard = "an equation between final states",
        .closed_form = ClosedForm{3.0 / 14, "3/14"},
        .state = target_line},

@@ -167,7 +167,7 @@ Entries parameter_estimation() {
        .source = "Maria 1989; COPS 3.0, problem 13",
        .hard = "two of five rates are 0 at the best fit",
        .tags = tags,
-       .published = Published{"9.02229e-3", "COPS 3.0, table 13.2"},
+       .published = Published{"9.02229e-3", "COPS 3.0"},
        .converged = 9.02251e-3,
        .remark = "the print is of a mesh that the measurements do not stand on; here HS by 1e-9 "
                  "and LGR end "
@@ -179,7 +179,7 @@ Entries parameter_estimation() {
        .source = "Box et al. 1973; COPS 3.0, problem 5",
        .hard = "constants of size 1e-5 and times of 1e4",
        .tags = tags,
-       .published = Published{"19.8721", "COPS 3.0, table 5.2"},
+       .published = Published{"19.8721", "COPS 3.0"},
        .intervals = 6,
        .state = alpha_pinene},
       {.name = "marine-population",
@@ -187,7 +187,7 @@ Entries parameter_estimation() {
        .source = "Rothschild et al. 1997; COPS 3.0, problem 6",
        .hard = "15 constants and 8 unknown initial states",
        .tags = tags,
-       .published = Published{"1.97462e7", "COPS 3.0, table 6.2, on a mesh of 100 intervals"},
+       .published = Published{"1.97462e7", "COPS 3.0, 100 intervals"},
        .converged = 1.974661e7,
        .remark =
            "the print is of the midpoint rule; refined, HS and LGR end at 19746604 and 19746607",

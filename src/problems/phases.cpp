@@ -88,7 +88,7 @@ Statement two_phase_robot() {
 }
 
 /// Goddard's rocket over a flat earth: full thrust, singular arc, none. The thrust of the arc is
-/// the feedback that keeps it (Betts 2010, section 4.14). Feet, slugs, seconds.
+/// the feedback that keeps it (Betts 2010, example 10.47). Feet, slugs, seconds.
 Statement goddard_in_phases() {
   PhasedProblem all("goddard in three phases");
   const double Tm = 193.044, g = 32.174, sigma = 5.4915348492338101e-5, c = 1580.9425279876559,
@@ -197,7 +197,7 @@ Entries phases() {
        .state = two_phase_robot},
       {.name = "goddard-in-phases",
        .title = "Goddard's rocket: boost, singular arc, coast",
-       .source = "Betts 2010, section 4.14; Rao et al., GPOPS 2010",
+       .source = "Betts 2010, example 10.47; Hall, YAPSS",
        .hard = "the arc begins where its condition holds, and ends with the fuel",
        .tags = {Tag::phases, Tag::singular_arc, Tag::free_final_time},
        .maximised = true,
