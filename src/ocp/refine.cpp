@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "slalom/base/error.hpp"
+#include "slalom/ocp/interpolant.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -111,6 +112,12 @@ std::size_t points(const PhasedTranscription::Grid& grid) {
   return count;
 }
 
+Trajectory resampled(const Problem& problem, const Solution& solution,
+                     const PhasedTranscription::Grid& grid) {
+  const Interpolant polynomials(problem, solution.trajectory, solution.mesh, solution.scheme);
+  return polynomials.resampled(grid.mesh, grid.schemes);
+}
+
 /// One phase's solves.
 class Single {
  public:
@@ -130,6 +137,13 @@ class Single {
     settings_.mesh = std::move(grids[0].mesh);
     settings_.scheme = std::move(grids[0].schemes);
     settings_.previous = &previous;
+  }
+  /// Without the last mesh's multipliers.
+  Solution solve_anew() const {
+    SolveSettings settings = settings_;
+    settings.guess = resampled(problem_, *settings.previous, {settings.mesh, settings.scheme});
+    settings.previous = nullptr;
+    return ocp::solve(problem_, settings);
   }
 
  private:
@@ -159,6 +173,15 @@ class Several {
   void next(std::vector<PhasedTranscription::Grid> grids, const PhasedSolution& previous) {
     settings_.grids = std::move(grids);
     settings_.previous = &previous;
+  }
+  PhasedSolution solve_anew() const {
+    PhasedSettings settings = settings_;
+    settings.guesses.clear();
+    for (std::size_t p = 0; p < settings.grids.size(); ++p)
+      settings.guesses.push_back(
+          resampled(problem(p), settings.previous->phases[p], settings.grids[p]));
+    settings.previous = nullptr;
+    return ocp::solve(problem_, settings);
   }
 
  private:
@@ -227,6 +250,7 @@ RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answe
   check(solves.name(), rules, solves.grids());
   for (int mesh = 1;; ++mesh) {
     auto now = solves.solve();
+    if (mesh > 1 && !now.solved()) now = solves.solve_anew();
     MeshRecord& record = meshes.emplace_back(record_of<Solves>(now));
     const bool solved = now.solved();
     if (solved || mesh == 1) answer = std::move(now);
