@@ -66,6 +66,7 @@ NB_MODULE(_core, module) {
   bind_expressions(module);
   bind_solution(module);
   bind_problem(module);
+  bind_saved(module);
   bind_solve(module);
   bind_simulation(module);
   bind_judge(module);

@@ -43,6 +43,23 @@ def test_an_answer_is_of_the_problem_as_it_was():
     assert s(0.5)["x"] == pytest.approx(np.exp(-0.5), rel=1e-5)
 
 
+def test_answers_are_saved_whole_and_go_on(tmp_path):
+    p = bryson_denham()
+    s = p.solve()
+    s.save(tmp_path / "answer.json")
+    again = p.load_solution(tmp_path / "answer.json")
+    assert again.objective == s.objective and again.status == s.status
+    np.testing.assert_array_equal(again.state("x"), s.state("x"))
+    np.testing.assert_array_equal(again.costate("v"), s.costate("v"))
+    assert again(0.3) == s(0.3)
+    assert p.solve(warm_start=again).iterations == p.solve(warm_start=s).iterations
+    assert s.to_csv().splitlines()[0].startswith("t,")
+    with pytest.raises(slalom.InvalidValue, match="another problem"):
+        decay().load_solution(tmp_path / "answer.json")
+    with pytest.raises((slalom.InvalidValue, OSError)):
+        p.load_solution(tmp_path / "nothing.json")
+
+
 def test_grids():
     breaks = [0, 0.1, 0.4, 1]
     s = decay().solve(mesh=breaks, scheme=["lgr", "lgl", "trapezoidal"], points=[3, 8, 2])
