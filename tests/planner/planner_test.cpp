@@ -52,6 +52,31 @@ TEST(Planner, FirstPlansAreSolvedByEveryBackEnd) {
     }
 }
 
+TEST(Planner, SoftObstaclesCostWhatTheyAreEnteredBy) {
+  for (const auto scheme : {SchemeChoice::trapezoidal, SchemeChoice::backward_euler}) {
+    auto scene = E_B();
+    scene.settings.scheme = scheme;
+    scene.settings.N = 40;
+    scene.settings.floor = 0;
+    scene.obstacles = {scene.obstacles[0]};  // stands in the way
+    scene.obstacles[0].x = 200.5;
+    scene.obstacles[0].y = 40;
+    scene.obstacles[0].vx = scene.obstacles[0].vy = 0;
+    const Plan hard = scene.planner().plan(scene.first);
+    scene.settings.obstacle_constraint = ObstacleConstraint::soft;
+    scene.settings.w_obstacle = 1e5;
+    const Plan dear = scene.planner().plan(scene.first);
+    scene.settings.w_obstacle = 0.01;
+    const Plan cheap = scene.planner().plan(scene.first);
+    ASSERT_TRUE(hard.report.solved && dear.report.solved && cheap.report.solved);
+    EXPECT_NEAR(dear.report.cost, hard.report.cost, 1e-3) << "an exact penalty";
+    EXPECT_GT(least_obstacle_row(scene, hard), -1e-6);
+    EXPECT_GT(least_obstacle_row(scene, dear), -1e-4);
+    EXPECT_LT(least_obstacle_row(scene, cheap), -0.1);
+    EXPECT_LT(cheap.report.cost, hard.report.cost - 0.01);
+  }
+}
+
 TEST(Planner, ALowFloorIsReachedFromAColdStart) {
   // Restoration ends at a point higher than those before it; what the filter knows of these must
   // not hold the search up. (54 iterations at most; held up, most of these take hundreds.)

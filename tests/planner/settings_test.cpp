@@ -59,9 +59,11 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "obstacle_choice",
                            "obstacle_count",
                            "obstacle_group_gap",
+                           "obstacle_constraint",
+                           "w_obstacle",
                            "tyre_force_limit"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 37u);
+  EXPECT_EQ(names.size(), 39u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {
