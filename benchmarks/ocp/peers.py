@@ -124,7 +124,10 @@ def table(results, problems, titles):
     for problem in problems:
         cells = []
         for c in CONTESTANTS:
-            f = best(results[problem].get(c))
+            if c not in results[problem]:
+                cells.append("not run")
+                continue
+            f = best(results[problem][c])
             if f is None:
                 cells.append("–")
                 continue
