@@ -114,16 +114,10 @@ class Ocp:
     Variables: x0s (8), then state and control node by node, then xfs (in range only), then tf.
     Parameters: X0p (8), absolute time of node 0, then x, y, a, b(, vx, vy) of each obstacle.
     `form` is "sx" (one scalar graph) or "map" (one function a node, mapped over the nodes).
-    `environment` is a name or what _environment makes. `scheme` may be "backward_euler". With
-    `soft`, a weight, obstacles cost as much of each row's excess, integrated over time; the
-    excesses are variables after tf, node by node.
     """
 
-    def __init__(self, environment, planner, in_range=False, form="sx", scheme="trapezoidal",
-                 soft=None):
-        self.env = env = ENVIRONMENTS.get(environment) if isinstance(environment, str) \
-            else environment
-        self.euler, self.soft = scheme == "backward_euler", soft
+    def __init__(self, environment, planner, in_range=False, form="sx"):
+        self.env = env = ENVIRONMENTS[environment]
         self.w_t, self.w_ce, self.moving = PLANNERS[planner]
         self.in_range, self.N = in_range, env["N"]
         self.numbers = 6 if self.moving else 4
@@ -131,9 +125,7 @@ class Ocp:
         self.nxu = NZ * (self.N + 1)
         self.n = 8 + self.nxu + (2 if in_range else 0) + 1
         sym = ca.SX.sym if form == "sx" else ca.MX.sym
-        self.excesses = self.obstacles * self.N if soft else 0
-        x = sym("x", self.n + self.excesses)
-        p = sym("p", 9 + self.numbers * self.obstacles)
+        x, p = sym("x", self.n), sym("p", 9 + self.numbers * self.obstacles)
         self.nlp = {"x": x, "p": p, **self._functions(x, p, form)}
         self._bounds()
 
@@ -187,19 +179,7 @@ class Ocp:
         xg, yg = env["goal"]
         square = lambda a: a[0] ** 2 + a[1] ** 2
         goal = ca.vertcat(xg, yg)
-        if self.soft:
-            excess = ca.reshape(x[self.n :], self.obstacles, N)
-            loads = 6  # rows before the obstacles'
-            for k in range(1, N + 1):
-                more = ca.vertcat(ca.DM.zeros(loads, 1), excess[:, k - 1], 0)
-                rows[k] = rows[k] + more
-        if self.euler:
-            f = sum(cost[k + 1] for k in range(N))
-        else:
-            f = sum(0.5 * (cost[k] + cost[k + 1]) for k in range(N))
-        if self.soft:
-            f += sum((1 if k < N - 1 else 0.5) * self.soft * tf / N * ca.sum1(excess[:, k])
-                     for k in range(N))
+        f = sum(0.5 * (cost[k] + cost[k + 1]) for k in range(N))
         f += W_IC * ca.dot(ca.DM(W_S0), x0s)
         if self.w_t:
             f += self.w_t * tf
@@ -218,8 +198,7 @@ class Ocp:
         for k in range(N + 1):  # rows in the order of the nodes
             blocks.append(rows[k])
             if k < N:
-                step = rate[k + 1] if self.euler else 0.5 * (rate[k] + rate[k + 1])
-                blocks.append(z[:NX, k + 1] - z[:NX, k] - step)
+                blocks.append(z[:NX, k + 1] - z[:NX, k] - 0.5 * (rate[k] + rate[k + 1]))
                 equations += NX
         blocks += ends
         g = ca.vertcat(*blocks)
@@ -245,8 +224,7 @@ class Ocp:
         if self.in_range:
             lbx += [-INF] * 2
             ubx += [XF_TOL] * 2
-        self.lbx = np.array(lbx + [TF_MIN] + [0] * self.excesses)
-        self.ubx = np.array(ubx + [TF_MAX] + [INF] * self.excesses)
+        self.lbx, self.ubx = np.array(lbx + [TF_MIN]), np.array(ubx + [TF_MAX])
         self.lbg = np.zeros(len(self.is_equation))
         self.ubg = np.where(self.is_equation, 0, INF)
 
@@ -283,7 +261,7 @@ class Ocp:
                 gap = abs(z[-1, i] - self.env["goal"][i])
                 near = gap < XF_TOL
                 ends.append(gap + inside(XF_TOL - gap, W_XF) if near else 0.99 * XF_TOL)
-        return np.concatenate([slacks, z.ravel(), ends, [tf], np.zeros(self.excesses)])
+        return np.concatenate([slacks, z.ravel(), ends, [tf]])
 
     def variable_names(self):
         """In the words of the library, for the mapping of starts and answers."""
