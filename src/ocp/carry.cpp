@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <unordered_map>
 #include <utility>
 
+#include "between_points.hpp"
 #include "duals.hpp"
 
 namespace slalom::ocp {
@@ -43,26 +43,6 @@ std::vector<double> defect_multipliers(const Scheme& scheme, const std::vector<d
   return solve_definite(std::move(normal), std::move(right));
 }
 
-/// Linear between given points, constant beyond them; where two stand at `at`, the limit from the
-/// left or from the right.
-double interpolate(const std::vector<double>& tau, const std::function<double(std::size_t)>& value,
-                   double at, bool from_left = false) {
-  const auto above = from_left ? std::lower_bound(tau.begin(), tau.end(), at)
-                               : std::upper_bound(tau.begin(), tau.end(), at);
-  if (above == tau.begin()) return value(0);
-  if (above == tau.end()) return value(tau.size() - 1);
-  const auto k = static_cast<std::size_t>(above - tau.begin());
-  const double share = (at - tau[k - 1]) / (tau[k] - tau[k - 1]);
-  return value(k - 1) + share * (value(k) - value(k - 1));
-}
-
-/// Half of the way to each neighbour: the part of the horizon that stands for a point.
-double share_of(const std::vector<double>& tau, std::size_t point) {
-  const double before = point > 0 ? tau[point] - tau[point - 1] : 0;
-  const double after = point + 1 < tau.size() ? tau[point + 1] - tau[point] : 0;
-  return (before + after) / 2;
-}
-
 /// A solution's multipliers by name, as densities over time.
 class Densities {
  public:
@@ -92,7 +72,7 @@ class Densities {
     const auto density = [&](std::size_t k) {
       return found->values[from + k] / share_of(duals_.tau, found->points[from + k]);
     };
-    return interpolate(tau, density, layout_.tau[point]) * share_of(layout_.tau, point);
+    return between_points(tau, density, layout_.tau[point]) * share_of(layout_.tau, point);
   }
 
  private:
@@ -114,7 +94,7 @@ void carry_defects(const Transcribed& data, const Schemes& schemes,
     for (std::size_t i = 0; i < layout.nx; ++i) {
       std::vector<double> at_points;
       for (std::size_t j = 0; j < scheme.points.size(); ++j)
-        at_points.push_back(interpolate(
+        at_points.push_back(between_points(
             costates.tau, [&](std::size_t p) { return costates.values[p][i]; },
             layout.tau[layout.node_point[k] + j], j + 1 == scheme.points.size()));
       const auto y = defect_multipliers(scheme, at_points);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "between_points.hpp"
 #include "draft.hpp"
 
 namespace slalom::ocp {
@@ -101,14 +102,6 @@ void add_ends(Draft& draft) {
   }
 }
 
-/// Share of the horizon that stands for a point: half of the way to each of its neighbours. A
-/// scheme's own weight may be 0.
-double share_of(const Layout& layout, std::size_t point) {
-  const double before = point > 0 ? layout.tau[point] - layout.tau[point - 1] : 0;
-  const double after = point + 1 < layout.points() ? layout.tau[point + 1] - layout.tau[point] : 0;
-  return (before + after) / 2;
-}
-
 /// What the excesses of a soft constraint cost.
 void add_soft_cost(Draft& draft, std::size_t constraint) {
   const auto& row = draft.problem.constraints()[constraint];
@@ -135,7 +128,7 @@ void add_soft_cost(Draft& draft, std::size_t constraint) {
   const std::size_t batch = draft.add_batch({{name, cost}}, lanes), term = draft.term_index(name);
   for (std::size_t lane = 0; lane < lanes.points.size(); ++lane)
     draft.use(batch, 0, lane, kNone, term,
-              over_time ? share_of(draft.out.layout, lanes.points[lane]) : 1);
+              over_time ? share_of(draft.out.layout.tau, lanes.points[lane]) : 1);
 }
 
 }  // namespace

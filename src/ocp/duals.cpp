@@ -89,10 +89,6 @@ Rows costates(const Transcribed& data, std::span<const double> y, const nlp::Eva
 
 namespace {
 
-bool bounded(Bounds bounds) {
-  return bounds.lower > -kInfinity || bounds.upper < kInfinity;
-}
-
 /// Multipliers of the bounds of variables.
 class BoundMultipliers {
  public:
@@ -100,7 +96,7 @@ class BoundMultipliers {
       : data_(data), point_(point), list_(list) {}
 
   void add(const Problem::Variable& variable, std::size_t index) {
-    if (bounded(variable.bounds)) list_.push_back({variable.name, {}, {value(index)}});
+    if (variable.bounds.bounded()) list_.push_back({variable.name, {}, {value(index)}});
   }
   template <class Place>
   void add(const std::string& name, const std::vector<std::size_t>& points, Place place) {
@@ -166,12 +162,12 @@ std::vector<Multipliers> multipliers(const Problem& problem, const Transcribed& 
   for (std::size_t p = 0; p < layout.points(); ++p) points.push_back(p);
   for (std::size_t i = 0; i < layout.nx; ++i) {
     const auto& state = problem.states()[i];
-    if (bounded(state.bounds) || bounded(state.initial) || bounded(state.final))
+    if (state.bounds.bounded() || state.initial.bounded() || state.final.bounded())
       bounds.add(state.name, layout.state_points,
                  [&](std::size_t p) { return layout.state(p, i); });
   }
   for (std::size_t i = 0; i < layout.nu; ++i)
-    if (bounded(problem.controls()[i].bounds))
+    if (problem.controls()[i].bounds.bounded())
       bounds.add(problem.controls()[i].name, points,
                  [&](std::size_t p) { return layout.control(p, i); });
   for (std::size_t i = 0; i < layout.slack.size(); ++i)

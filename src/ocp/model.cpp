@@ -34,10 +34,6 @@ Given given(const Problem& problem, const Trajectory& at) {
   return list;
 }
 
-bool bounded(Bounds bounds) {
-  return bounds.lower > -kInfinity || bounds.upper < kInfinity;
-}
-
 }  // namespace
 
 Model::Model(const Problem& problem, const Trajectory& at) : t0_(at.t0), tf_(at.tf) {
@@ -55,7 +51,7 @@ Model::Model(const Problem& problem, const Trajectory& at) : t0_(at.t0), tf_(at.
     if (cost.enabled && cost.lagrange) integrand += cost.value;
   const auto add_row = [&](const std::string& name, const Expr& value, Bounds bounds,
                            Points points) {
-    if (!bounded(bounds)) return;
+    if (!bounds.bounded()) return;
     rows_.push_back({name, bounds, points});
     values.push_back(value);
   };

@@ -13,12 +13,10 @@ constexpr double kLeastSlope = 1e-2;
 /// A problem with `factor` times its objective.
 class Multiplied final : public nlp::Problem {
  public:
-  Multiplied(nlp::Problem& problem, double factor) : problem_(problem), factor_(factor) {
-    structure_ = problem.structure();
-    structure_.id = nlp::Structure::next_id();
-  }
+  Multiplied(nlp::Problem& problem, double factor) : problem_(problem), factor_(factor) {}
 
-  const nlp::Structure& structure() const override { return structure_; }
+  /// The problem's own, so that a solver keeps its workspace from solve to solve.
+  const nlp::Structure& structure() const override { return problem_.structure(); }
   const nlp::Limits& limits() const override { return problem_.limits(); }
   nlp::Fault evaluate(std::span<const double> x, double sigma, std::span<const double> y,
                       nlp::Parts parts, nlp::Evaluation& out) override {
@@ -38,18 +36,17 @@ class Multiplied final : public nlp::Problem {
     return formulas;
   }
 
-  nlp::Start scaled(nlp::Start point, double factor) const {
-    for (auto* duals : {&point.y, &point.zl, &point.zu})
-      for (double& dual : *duals) dual *= factor;
-    return point;
-  }
-  double factor() const { return factor_; }
-
  private:
   nlp::Problem& problem_;
   double factor_;
-  nlp::Structure structure_;
 };
+
+/// A point of a problem as one of that with `factor` times its objective.
+nlp::Start scaled(nlp::Start point, double factor) {
+  for (auto* duals : {&point.y, &point.zl, &point.zu})
+    for (double& dual : *duals) dual *= factor;
+  return point;
+}
 
 /// Largest slope at x by one of the variables that `measured` counts; 0 where there is none or a
 /// function is not finite.
@@ -76,9 +73,9 @@ nlp::Answer solve_times(nlp::Problem& problem, double factor, nlp::Solver& solve
                         const nlp::Start& start, const nlp::Options& options) {
   if (factor == 1) return solver.solve(problem, start, options);
   Multiplied multiplied(problem, factor);
-  nlp::Answer answer = solver.solve(multiplied, multiplied.scaled(start, factor), options);
+  nlp::Answer answer = solver.solve(multiplied, scaled(start, factor), options);
   answer.objective /= factor;
-  answer.point = multiplied.scaled(std::move(answer.point), 1 / factor);
+  answer.point = scaled(std::move(answer.point), 1 / factor);
   return answer;
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "slalom/base/error.hpp"
-#include "slalom/ocp/interpolant.hpp"
+#include "solved.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -110,12 +110,6 @@ std::size_t points(const PhasedTranscription::Grid& grid) {
   for (std::size_t k = 0; k < grid.mesh.intervals(); ++k)
     count += grid.schemes.of(k).points.size() - 1;
   return count;
-}
-
-Trajectory resampled(const Problem& problem, const Solution& solution,
-                     const PhasedTranscription::Grid& grid) {
-  const Interpolant polynomials(problem, solution.trajectory, solution.mesh, solution.scheme);
-  return polynomials.resampled(grid.mesh, grid.schemes);
 }
 
 /// One phase's solves.

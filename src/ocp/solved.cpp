@@ -38,13 +38,17 @@ nlp::Start from_user(nlp::Start point, const nlp::Structure& shape) {
   return point;
 }
 
+Trajectory resampled(const Problem& problem, const Solution& solution,
+                     const PhasedTranscription::Grid& grid) {
+  const Interpolant polynomials(problem, solution.trajectory, solution.mesh, solution.scheme);
+  return polynomials.resampled(grid.mesh, grid.schemes);
+}
+
 Beginning begin(const Problem& problem, const PhasedTranscription::Grid& grid,
                 const Trajectory& guess, const Solution* previous) {
-  if (previous != nullptr) {
-    const Interpolant polynomials(problem, previous->trajectory, previous->mesh, previous->scheme);
-    return {polynomials.resampled(grid.mesh, grid.schemes),
+  if (previous != nullptr)
+    return {resampled(problem, *previous, grid),
             Duals{previous->trajectory.tau, previous->collocated_costates, previous->multipliers}};
-  }
   if (guess.tau.empty()) return {straight_guess(problem), {}};
   check_guess(guess, problem);
   return {guess, {}};

@@ -51,6 +51,9 @@ struct Beginning {
   std::optional<Duals> duals;
 };
 
+/// A solution's trajectory on another grid, by its own polynomials.
+Trajectory resampled(const Problem& problem, const Solution& solution,
+                     const PhasedTranscription::Grid& grid);
 /// From `previous` if there is one, else from the guess, checked, or straight lines.
 Beginning begin(const Problem& problem, const PhasedTranscription::Grid& grid,
                 const Trajectory& guess, const Solution* previous);

@@ -1,7 +1,5 @@
 #include "symbols.hpp"
 
-#include <cmath>
-
 #include "slalom/base/error.hpp"
 
 namespace slalom::ocp {
@@ -97,8 +95,7 @@ Lifts Symbols::find_lifts() const {
 }
 
 bool absent(const Problem::Constraint& row, Problem::Kind kind) {
-  return !row.enabled || row.kind != kind ||
-         (std::isinf(row.bounds.lower) && std::isinf(row.bounds.upper)) ||
+  return !row.enabled || row.kind != kind || !row.bounds.bounded() ||
          (kind == Problem::Kind::family && row.member_values.empty());
 }
 

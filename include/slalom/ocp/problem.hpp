@@ -21,6 +21,9 @@ struct Bounds {
   double lower = -kInfinity;
   double upper = kInfinity;
 
+  /// Whether there is a side.
+  bool bounded() const { return lower > -kInfinity || upper < kInfinity; }
+
   static Bounds equal(double value) { return {value, value}; }
   static Bounds at_least(double value) { return {value, kInfinity}; }
   static Bounds at_most(double value) { return {-kInfinity, value}; }
