@@ -17,6 +17,18 @@ def bryson_denham(limit=1 / 9):
     return p
 
 
+def swing():
+    """A pendulum from hanging to standing in four seconds."""
+    p = slalom.Problem("swing")
+    a, w = p.state("a", initial=0, final=np.pi), p.state("w", initial=0, final=0)
+    u = p.control("u")
+    p.dynamics(a, w)
+    p.dynamics(w, u - np.sin(a))
+    p.lagrange("effort", u**2)
+    p.final_time(equal=4)
+    return p
+
+
 def decay():
     """x' = -x + u at least x² + u²: closed form with rate sqrt(2)."""
     p = slalom.Problem("decay")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from problems import bryson_denham, decay, decay_at
+from problems import bryson_denham, decay, decay_at, swing
 
 import slalom
 
@@ -124,16 +124,6 @@ def test_refinement_says_what_it_did_not_reach():
 
 
 def test_warm_start_takes_fewer_iterations():
-    def swing():
-        p = slalom.Problem("swing")
-        a, w = p.state("a", initial=0, final=np.pi), p.state("w", initial=0, final=0)
-        u = p.control("u")
-        p.dynamics(a, w)
-        p.dynamics(w, u - np.sin(a))
-        p.lagrange("effort", u**2)
-        p.final_time(equal=4)
-        return p
-
     cold = swing().solve()
     guessed = swing().solve(guess=cold)
     warm = swing().solve(warm_start=cold)
@@ -269,16 +259,6 @@ def test_scales_do_not_change_the_answer():
 
 
 def test_warm_starts_from_another_mesh():
-    def swing():
-        p = slalom.Problem("swing")
-        a, w = p.state("a", initial=0, final=np.pi), p.state("w", initial=0, final=0)
-        u = p.control("u")
-        p.dynamics(a, w)
-        p.dynamics(w, u - np.sin(a))
-        p.lagrange("effort", u**2)
-        p.final_time(equal=4)
-        return p
-
     first = swing().solve(mesh=30)
     finer = swing().solve(mesh=45, scheme="lgr", points=3, warm_start=first)
     assert finer.solved and finer.iterations < swing().solve(mesh=45, scheme="lgr", points=3).iterations
