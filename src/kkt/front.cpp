@@ -12,7 +12,6 @@ namespace {
 
 /// Least ratios of a pivot to the largest entry beside it, tried in turn before a row is passed on.
 constexpr double kThresholds[] = {0.1, 1e-3, kFoundRatio};
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
 
@@ -28,17 +27,13 @@ void Front::reset(const FrontStorage& storage, std::size_t size, std::size_t can
 }
 
 double Front::largest(std::size_t j, std::size_t skip) const {
-  const BlockKernels& kernels = block_kernels();
-  const double* a = column(j);
-  const std::size_t gaps[] = {std::min(j, skip), std::max(j, skip), size_};
-  double most = 0;
-  std::size_t from = eliminated_;
-  for (const std::size_t gap : gaps) {
-    const std::size_t to = std::min(gap, size_);
-    if (to > from) most = std::max(most, kernels.largest(to - from, a + from));
-    from = to + 1;
-  }
-  return most;
+  const auto [first, second] = std::minmax(j, skip);
+  return std::max({largest_within(j, eliminated_, first), largest_within(j, first + 1, second),
+                   largest_within(j, second + 1, size_)});
+}
+
+double Front::largest_within(std::size_t j, std::size_t from, std::size_t to) const {
+  return to > from ? block_kernels().largest(to - from, column(j) + from) : 0;
 }
 
 /// Symmetric exchange of rows and columns i and j behind the eliminated ones.
@@ -49,30 +44,33 @@ void Front::swap(std::size_t i, std::size_t j) {
   std::swap(ids_[i], ids_[j]);
 }
 
-bool Front::pick_one(std::size_t j, double threshold, Inertia& inertia) {
+bool Front::pick(std::size_t j, double threshold, Inertia& inertia) {
+  const double candidates =
+      std::max(largest_within(j, eliminated_, j), largest_within(j, j + 1, candidates_));
+  const double others = largest_within(j, candidates_, size_);
   const double pivot = std::fabs(column(j)[j]);
-  if (!(pivot > kTinyPivot && pivot >= threshold * largest(j, kNone))) return false;
-  swap(eliminated_, j);
-  ++(column(eliminated_)[eliminated_] > 0 ? inertia.positive : inertia.negative);
-  eliminate_one();
-  return true;
+  if (pivot > kTinyPivot && pivot >= threshold * std::max(candidates, others)) {
+    swap(eliminated_, j);
+    ++(column(eliminated_)[eliminated_] > 0 ? inertia.positive : inertia.negative);
+    eliminate_one();
+    return true;
+  }
+  return candidates > 0 && pick_two(j, candidates, others, threshold, inertia);
 }
 
-bool Front::pick_two(std::size_t j, double threshold, Inertia& inertia) {
-  std::size_t partner = kNone;
-  double best = 0;
-  for (std::size_t i = eliminated_; i < candidates_; ++i)
-    if (i != j && std::fabs(column(j)[i]) > best) {
-      best = std::fabs(column(j)[i]);
-      partner = i;
-    }
-  if (partner == kNone) return false;
-  const double a = column(j)[j], b = column(j)[partner], c = column(partner)[partner];
+/// `beside`: the largest |entry| of column j among candidates, whose row is the partner; `others`:
+/// among the rest.
+bool Front::pick_two(std::size_t j, double beside, double others, double threshold,
+                     Inertia& inertia) {
+  const double* a_j = column(j);
+  std::size_t partner = eliminated_;
+  while (partner == j || std::fabs(a_j[partner]) != beside) ++partner;
+  const double a = a_j[j], b = a_j[partner], c = column(partner)[partner];
   const double det = a * c - b * b;
-  const double row_j = largest(j, partner), row_p = largest(partner, j);
   const double bound = std::fabs(det) / threshold;
-  if (!(std::fabs(det) > kTinyPivot * kTinyPivot &&
-        std::fabs(c) * row_j + std::fabs(b) * row_p <= bound &&
+  if (!(std::fabs(det) > kTinyPivot * kTinyPivot && std::fabs(b) * others <= bound)) return false;
+  const double row_j = largest(j, partner), row_p = largest(partner, j);
+  if (!(std::fabs(c) * row_j + std::fabs(b) * row_p <= bound &&
         std::fabs(b) * row_j + std::fabs(a) * row_p <= bound))
     return false;
   swap(eliminated_, j);
@@ -91,7 +89,7 @@ bool Front::pick_two(std::size_t j, double threshold, Inertia& inertia) {
 bool Front::pick_any(double threshold, Inertia& inertia) {
   for (std::size_t tried = eliminated_; tried < candidates_; ++tried, ++next_) {
     if (next_ < eliminated_ || next_ >= candidates_) next_ = eliminated_;
-    if (pick_one(next_, threshold, inertia) || pick_two(next_, threshold, inertia)) return true;
+    if (pick(next_, threshold, inertia)) return true;
   }
   return false;
 }

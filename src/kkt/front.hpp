@@ -43,8 +43,9 @@ class Front {
 
  private:
   bool pick_any(double threshold, Inertia& inertia);
-  bool pick_one(std::size_t j, double threshold, Inertia& inertia);
-  bool pick_two(std::size_t j, double threshold, Inertia& inertia);
+  /// Row j as a pivot, alone or with the candidate that its column is largest at.
+  bool pick(std::size_t j, double threshold, Inertia& inertia);
+  bool pick_two(std::size_t j, double beside, double others, double threshold, Inertia& inertia);
   void force_one(Inertia& inertia);
   void eliminate_one();
   void eliminate_two();
@@ -53,6 +54,7 @@ class Front {
   const double* column(std::size_t j) const { return a_ + j * ld_; }
   /// Largest |entry| of column j among rows not eliminated, without rows `j` and `skip`.
   double largest(std::size_t j, std::size_t skip) const;
+  double largest_within(std::size_t j, std::size_t from, std::size_t to) const;
 
   double* a_ = nullptr;
   std::uint32_t* ids_ = nullptr;

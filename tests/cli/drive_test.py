@@ -51,6 +51,15 @@ class Simulate(ProgramTest):
         for figure in (out / "figures").glob("*.svg"):
             xml.etree.ElementTree.parse(figure)
 
+    def test_that_there_is_no_plan_is_soon_known(self):
+        # O2 comes at 27 m/s and is taken as standing: at last it is too near for any plan.
+        out = self.folder / "out"
+        self.assertEqual(run("simulate", "E_C", "--planner", "P_C", "--tex", "0.06210526315789474", "--set",
+                             "obstacles.O2.vy=-27.36842105263158", "--out", out, "--quiet").code, 0)
+        last = read_table(out / "cycles.csv")[-1]
+        self.assertEqual(last["status"], "infeasible")
+        self.assertLess(int(last["iterations"]), 150)
+
     def test_the_resolved_file_gives_the_same_drive_to_the_bit(self):
         first, second = self.folder / "first", self.folder / "second"
         set_ = ["--set", "obstacles.O2.vy=-9.87654321", "--set", "start.x=6.1",

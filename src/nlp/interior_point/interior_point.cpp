@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -23,7 +24,9 @@ using namespace ipm;
 constexpr double kMostVariable = 1e20;  ///< beyond, iterates diverge
 constexpr int kMostTinySteps = 2;
 constexpr double kRoom = 1e-9;
-constexpr int kSoon = 10;  ///< iterations from one restoration to the next
+/// Violation at most that restoration hands back: a part of the search's (section 3.3), and of what
+/// it handed back before, for where the search has got stuck with that, it takes a better point.
+constexpr double kSufficient = 0.9, kStricter = 0.01;
 constexpr std::size_t kLongestReason = 64;
 
 /// The workspace of one problem structure, and a solve on it.
@@ -118,13 +121,15 @@ class Run final : public Restoration::Watch, public Deadline {
       return descent_.last.faulted ? Status::invalid_number : Status::numerical_failure;
     descent_.search.filter().add(descent_.search.merit(point, descent_.barrier.mu()));
     restoration_.refresh();
-    const auto outcome =
-        restoration_.run(*this, restored_at_ > 0 && iterations_ - restored_at_ < kSoon);
-    restored_at_ = iterations_;
+    const double most =
+        std::max(std::min(kSufficient * point.local.violation, kStricter * handed_back_),
+                 options_->constraint_tol);
+    const auto outcome = restoration_.run(*this, most);
     watchdog_.restart();
     switch (outcome) {
       case Restoration::Outcome::restored:
         if (!descent_.complete()) return Status::invalid_number;
+        handed_back_ = point.local.violation;
         descent_.centre_multipliers(descent_.barrier.mu());
         descent_.estimate_multipliers();
         point.have.hessian = false;  // it has the old multipliers
@@ -184,7 +189,8 @@ class Run final : public Restoration::Watch, public Deadline {
   void begin(Problem& problem, const Options& options) {
     options_ = &options;
     timer_ = Timer();
-    iterations_ = tiny_steps_ = restored_at_ = 0;
+    iterations_ = tiny_steps_ = 0;
+    handed_back_ = std::numeric_limits<double>::infinity();
     callback_s_ = longest_step_ = last_iteration_ = 0;
     end_.reset();
     descent_.model.refresh(problem);
@@ -250,7 +256,7 @@ class Run final : public Restoration::Watch, public Deadline {
   BestIterate best_;
   std::optional<Status> end_;
   int iterations_ = 0, tiny_steps_ = 0;
-  int restored_at_ = 0;  ///< iteration at which the last restoration ended
+  double handed_back_ = 0;  ///< violation that the last restoration ended with
   double callback_s_ = 0, longest_step_ = 0, last_iteration_ = 0;
 };
 

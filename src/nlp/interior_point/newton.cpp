@@ -11,6 +11,8 @@ namespace {
 constexpr double kFirstDelta = 1e-4, kLeastDelta = 1e-20, kMostDelta = 1e40;
 constexpr double kFirstGrowth = 100, kGrowth = 8, kShrink = 1.0 / 3;
 constexpr double kRowDelta = 1e-8, kRowPower = 0.25;
+/// Attempts with no stable pivot although rows may give: beyond, it is rounding, not the rank.
+constexpr int kMostSingular = 3;
 
 constexpr int kRefinements = 5;
 /// Residuals relative to the right-hand side: good enough to stop refining, bad enough to ask for
@@ -94,13 +96,15 @@ bool Newton::find_regularisation(const Evaluation& e, const Local& local, double
   if (inertia == wanted_) return true;
   if (inertia.zero > 0) delta_c_ = row_regularisation(mu);
   delta_w_ = last_delta_w_ == 0 ? kFirstDelta : std::max(kLeastDelta, last_delta_w_ * kShrink);
-  while (delta_w_ < kMostDelta) {
+  for (int singular = 0; delta_w_ < kMostDelta && singular < kMostSingular;) {
+    const bool relaxed = delta_c_ > 0;
     inertia = attempt();
     if (gave_up_) return false;
     if (inertia == wanted_) {
       last_delta_w_ = delta_w_;
       return true;
     }
+    singular += relaxed && inertia.zero > 0;
     if (inertia.zero > 0) delta_c_ = row_regularisation(mu);
     delta_w_ *= last_delta_w_ == 0 ? kFirstGrowth : kGrowth;
   }

@@ -7,9 +7,6 @@
 namespace slalom::nlp::ipm {
 namespace {
 
-constexpr double kSufficient = 0.9;  ///< of the violation, at most, to go on with (section 3.3)
-/// Called again soon, it has gone on with too little: each time this part of it, to the least.
-constexpr double kStricter = 0.1, kLeastSufficient = 1e-4;
 /// Of its own errors, in units of rho; and its least barrier parameter, for slacks of mu / rho are
 /// to stay well above rounding.
 constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
@@ -94,8 +91,7 @@ bool Restoration::accepted_by_main() {
   if (!main_.model.evaluate(trial_.at, trial_.have, trial_.e)) return false;
   measure(main_.model, trial_);
   const Merit merit = main_.search.merit(trial_, main_.barrier.mu());
-  return trial_.local.violation <= sufficient_ * main_.point.local.violation &&
-         main_.search.filter().accepts(merit);
+  return trial_.local.violation <= most_violation_ && main_.search.filter().accepts(merit);
 }
 
 /// The primal point back to the main method, with multipliers of bounds mu / slack where the old
@@ -106,8 +102,19 @@ void Restoration::hand_back() {
   main_.point.measured = false;
 }
 
-Restoration::Outcome Restoration::run(Watch& watch, bool again) {
-  sufficient_ = again ? std::max(kStricter * sufficient_, kLeastSufficient) : kSufficient;
+/// The weight of nearness falls with the barrier parameter (eq. 30): in the end violation alone
+/// counts. False where the problem cannot be evaluated.
+bool Restoration::update_barrier() {
+  const double before = inner_.barrier.mu();
+  inner_.update_barrier();
+  if (inner_.barrier.mu() == before) return true;
+  elastic_.zeta = std::sqrt(inner_.barrier.mu());
+  inner_.point.have.values = inner_.point.have.derivatives = false;
+  return inner_.complete();
+}
+
+Restoration::Outcome Restoration::run(Watch& watch, double most_violation) {
+  most_violation_ = most_violation;
   begin();
   if (!inner_.complete()) return Outcome::failed;
   inner_.search.reset(inner_.point.local.violation);
@@ -119,7 +126,7 @@ Restoration::Outcome Restoration::run(Watch& watch, bool again) {
       hand_back();
       return Outcome::infeasible;
     }
-    inner_.update_barrier();
+    if (!update_barrier()) return Outcome::failed;
     if (!inner_.find_step()) return inner_.newton.gave_up() ? Outcome::stopped : Outcome::failed;
     if (!inner_.take_step() && !meet_rows()) return Outcome::failed;
     watch.iterated(inner_);

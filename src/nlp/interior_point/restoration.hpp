@@ -21,9 +21,9 @@ class Restoration {
     virtual void iterated(const Descent& restoration) = 0;
   };
   /// On `restored` and `infeasible`, the primal point of `main` is the one reached (on `restored`
-  /// complete, with multipliers for going on); otherwise it is as it was. `again`: the search has
-  /// got stuck soon after the last time; then violation must fall further.
-  Outcome run(Watch& watch, bool again);
+  /// complete, with multipliers for going on); otherwise it is as it was. `most_violation`: with
+  /// which the main method may go on.
+  Outcome run(Watch& watch, double most_violation);
   void give_up_at(Deadline* deadline) { inner_.newton.give_up_at(deadline); }
   /// Takes over scales and limits of the main model; for a new solve.
   void refresh();
@@ -32,11 +32,12 @@ class Restoration {
   void begin();
   void set_elastic_parts(double mu);
   bool meet_rows();
+  bool update_barrier();
   bool accepted_by_main();
   void hand_back();
 
   Descent& main_;
-  double sufficient_ = 0;  ///< part of the violation to go on with
+  double most_violation_ = 0;  ///< to go on with
   Elastic elastic_;
   std::vector<double> misfits_;  ///< of the rows, elastic parts left out
   Descent inner_;
