@@ -66,11 +66,8 @@ Json event_json(const io::SweepEvent& event) {
       break;
   }
   const auto& r = *event.record;
-  Json json = {{"event", "recorded"},
-               {"trial", event.trial},
-               {"planner", r.planner},
-               {"values", r.values},
-               {"outcome", r.outcome}};
+  Json json = {{"event", "recorded"},  {"trial", event.trial}, {"scenario", r.scenario},
+               {"planner", r.planner}, {"values", r.values},   {"outcome", r.outcome}};
   json["time_s"] = std::isfinite(r.time) ? Json(r.time) : Json(nullptr);
   if (r.outcome == "failed" || r.outcome == "invalid") json["reason"] = r.message;
   return json;

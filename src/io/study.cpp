@@ -13,6 +13,7 @@
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/io/version.hpp"
 #include "study_axes.hpp"
+#include "study_bases.hpp"
 #include "study_tables.hpp"
 
 namespace slalom::io {
@@ -38,73 +39,20 @@ class StudyLoader {
     if (const Value* name = root_.find("name")) study_.name = to_text(*name, "a name");
     if (const Value* title = root_.find("title")) study_.title = to_text(*title, "a title");
     Section("").add(study_options(), study_.settings).read(root_, places_, other_keys());
-    read_scenarios();
+    bases_ = read_bases(root_, file_, overrides_, places_);
     if (const Value* axes = root_.find("axes")) read_axes(*axes);
     check_size();
     study_.kernels = kernel_name(study_.settings.kernels);
+    study_.scenarios = std::move(bases_.scenarios);
+    study_.bases = std::move(bases_.all);
     return std::move(study_);
   }
 
  private:
   static const std::vector<std::string>& other_keys() {
-    static const std::vector<std::string> keys = {"name",     "title", "scenario",
+    static const std::vector<std::string> keys = {"name",     "title", "scenario", "scenarios",
                                                   "planners", "set",   "axes"};
     return keys;
-  }
-
-  /// The scenario or planner file a value names, which must be there.
-  fs::path referenced(const std::string& what, const Value& value) const {
-    const auto& name = to_text(value, fmt::format("the name of a {}, or a file", what));
-    const auto file = find_config(what, name, file_.parent_path(), value.place.to_string());
-    std::error_code error;
-    if (!fs::is_regular_file(file, error))
-      throw InvalidValue(value.place.to_string(), fmt::format("{} '{}'", what, name),
-                         fmt::format("an existing file ({} is none)", file.string()));
-    return file;
-  }
-
-  void read_scenarios() {
-    const Value* scenario = root_.find("scenario");
-    if (scenario == nullptr)
-      throw InvalidValue(root_.place.to_string(), "a study without 'scenario'",
-                         "the key 'scenario'");
-    ScenarioRequest request;
-    request.name_or_file = fs::absolute(referenced("scenario", *scenario)).string();
-    const Value* planners = root_.find("planners");
-    if (planners == nullptr) {
-      add_scenario(request);
-    } else {
-      if (planners->kind != Value::Kind::sequence || planners->items.empty())
-        throw InvalidValue(planners->place.to_string(),
-                           planners->items.empty() ? "no planner" : planners->describe(),
-                           "a list of planners");
-      for (const auto& planner : planners->items) {
-        request.planner = fs::absolute(referenced("planner", planner)).string();
-        add_scenario(request);
-        check_name(planner);
-      }
-    }
-    study_.scenario = study_.planners.front().name;
-  }
-
-  /// Rows of the table name their planner, so that two must not share a name.
-  void check_name(const Value& planner) const {
-    const auto& name = study_.planners.back().planner.name;
-    for (std::size_t i = 0; i + 1 < study_.planners.size(); ++i)
-      if (study_.planners[i].planner.name == name)
-        throw InvalidValue(planner.place.to_string(),
-                           fmt::format("a second planner named '{}'", name), "a name of its own");
-  }
-
-  void add_scenario(const ScenarioRequest& request) {
-    auto scenario = load_scenario(request);
-    if (const Value* set = root_.find("set")) {
-      require_map(*set, "a map from key paths to values");
-      for (const auto& member : set->members)
-        apply_setting(member.key, member.place, member.value, scenario, places_);
-    }
-    for (const auto& assignment : overrides_) apply_override(assignment, scenario, places_);
-    study_.planners.push_back(std::move(scenario));
   }
 
   void read_axes(const Value& list) {
@@ -124,17 +72,23 @@ class StudyLoader {
   }
 
   /// Sets every value once, on its own: whether values get along shows when a trial is resolved.
-  void try_values(const PlacedAxis& placed) {
-    for (const auto& base : study_.planners) {
+  /// What a key takes is the same in every scenario; that they all have it is not.
+  void try_values(const PlacedAxis& placed) const {
+    for (const auto& base : bases_.all) {
       auto scenario = base;
-      for (const auto& point : placed.values)
-        for (std::size_t i = 0; i < point.size(); ++i)
-          apply_setting(placed.axis.keys[i], placed.keys[i], point[i], scenario, places_);
+      Places places;
+      const std::size_t points = &base == &bases_.all.front() ? placed.values.size() : 1;
+      for (std::size_t k = 0; k < points; ++k)
+        for (std::size_t i = 0; i < placed.values[k].size(); ++i)
+          apply_to(bases_, base, [&] {
+            apply_setting(placed.axis.keys[i], placed.keys[i], placed.values[k][i], scenario,
+                          places);
+          });
     }
   }
 
   void check_size() const {
-    double size = static_cast<double>(study_.planners.size()) * study_.settings.repeats;
+    double size = static_cast<double>(bases_.all.size()) * study_.settings.repeats;
     for (const auto& axis : study_.axes) size *= static_cast<double>(axis.points.size());
     if (size > static_cast<double>(kMaxTrials))
       throw InvalidValue(file_.string(), fmt::format("{:.3g} trials", size),
@@ -145,6 +99,7 @@ class StudyLoader {
   const std::vector<std::string>& overrides_;
   Value root_;
   Study study_;
+  StudyBases bases_;
   Places places_;
 };
 
@@ -172,9 +127,17 @@ const OptionTable<StudySettings>& study_options() {
 }
 
 std::int64_t Study::size() const {
-  auto size = static_cast<std::int64_t>(planners.size()) * settings.repeats;
+  auto size = static_cast<std::int64_t>(bases.size()) * settings.repeats;
   for (const auto& axis : axes) size *= static_cast<std::int64_t>(axis.points.size());
   return size;
+}
+
+std::vector<std::string> Study::planners() const {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const auto& base : bases)
+    if (seen.insert(base.planner.name).second) names.push_back(base.planner.name);
+  return names;
 }
 
 std::vector<std::string> Study::columns() const {
@@ -198,12 +161,12 @@ Trial Study::trial(std::int64_t number) const {
   }
   for (const auto* point : points)
     trial.values.insert(trial.values.end(), point->begin(), point->end());
-  trial.planner = static_cast<std::size_t>(rest);
+  trial.base = static_cast<std::size_t>(rest);
   return trial;
 }
 
 sim::Scenario Study::resolve(const Trial& trial) const {
-  auto resolved = planners.at(trial.planner);
+  auto resolved = bases.at(trial.base);
   const auto where = fmt::format("trial {}", trial.number);
   const auto keys = columns();
   Places places;
@@ -217,7 +180,7 @@ std::string Study::identity() const {
   Digest digest;
   digest.add("slalom study 1").add(kVersion).add(kernels);
   digest.add(std::to_string(settings.repeats)).add(settings.keep == Keep::drives ? "d" : "f");
-  for (const auto& one : planners) digest.add(to_yaml(one));
+  for (const auto& one : bases) digest.add(to_yaml(one));
   for (const auto& axis : axes) {
     digest.add("axis");
     for (const auto& key : axis.keys) digest.add(key);

@@ -17,10 +17,10 @@ study::SweepTable table_of(const Study& study) {
   study::SweepTable table;
   table.name = study.name;
   table.title = study.title;
-  table.scenario = study.scenario;
   table.identity = study.identity();
   table.kernels = study.kernels;
-  for (const auto& scenario : study.planners) table.planners.push_back(scenario.planner.name);
+  table.scenarios = study.scenarios;
+  table.planners = study.planners();
   table.columns = study.columns();
   table.repeats = study.settings.repeats;
   table.size = study.size();
@@ -118,7 +118,9 @@ class Sweep {
   void keep(std::int64_t number, study::TrialRecord record) {
     const auto trial = study_.trial(number);
     record.trial = number;
-    record.planner = study_.planners[trial.planner].planner.name;
+    const auto& base = study_.bases[trial.base];
+    record.scenario = base.name;
+    record.planner = base.planner.name;
     record.values = trial.values;
     record.repeat = trial.repeat;
     if (record.outcome != "invalid")

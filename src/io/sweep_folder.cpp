@@ -48,25 +48,30 @@ std::string foreign_entry(const fs::path& folder) {
   return "";
 }
 
-}  // namespace
-
-void prepare_sweep_folder(const fs::path& folder, const study::SweepTable& study, bool resume,
-                          bool force) {
+/// Throws Error unless the folder holds nothing, or results of the same study.
+void check_sweep_folder(const fs::path& folder, const study::SweepTable& study, bool resume) {
   const auto found = study_in(folder);
   const bool same = found.identity == study.identity;
   if (resume && !same)
     throw Error(fmt::format("{}: holds {}, so that there is nothing to resume", folder.string(),
                             found.identity.empty() ? "no sweep" : "another study"));
-  if (!force && !same && !found.identity.empty())
+  if (!same && !found.identity.empty())
     throw Error(fmt::format(
         "{}: holds results of {}; take another folder, or --force to replace them", folder.string(),
         found.name == study.name ? fmt::format("study '{}' as it was before it changed", found.name)
                                  : fmt::format("another study, '{}'", found.name)));
-  if (!force && found.identity.empty())
-    if (const auto name = foreign_entry(folder); !name.empty())
-      throw Error(
-          fmt::format("{}: holds something else already ('{}'), expected an empty or new folder",
-                      folder.string(), name));
+  if (!found.identity.empty()) return;
+  if (const auto name = foreign_entry(folder); !name.empty())
+    throw Error(
+        fmt::format("{}: holds something else already ('{}'), expected an empty or new folder",
+                    folder.string(), name));
+}
+
+}  // namespace
+
+void prepare_sweep_folder(const fs::path& folder, const study::SweepTable& study, bool resume,
+                          bool force) {
+  if (!force) check_sweep_folder(folder, study, resume);
   prepare_folder(folder, true);
 }
 

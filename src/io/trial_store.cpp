@@ -14,14 +14,15 @@ namespace {
 using study::SweepTable;
 using study::TrialRecord;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 constexpr const char* kSchema =
-    "CREATE TABLE IF NOT EXISTS study (format INTEGER, name TEXT, title TEXT, scenario TEXT,"
+    "CREATE TABLE IF NOT EXISTS study (format INTEGER, name TEXT, title TEXT, scenarios TEXT,"
     " identity TEXT, kernels TEXT, planners TEXT, columns TEXT, repeats INTEGER, size INTEGER);"
-    "CREATE TABLE IF NOT EXISTS trials (trial INTEGER PRIMARY KEY, identity TEXT, planner TEXT,"
-    " axes TEXT, repeat INTEGER, outcome TEXT, hit TEXT, message TEXT, nearest TEXT, time_s REAL,"
-    " goal_time_s REAL, least_clearance_m REAL, least_wheel_load_N REAL, cycles INTEGER,"
+    "CREATE TABLE IF NOT EXISTS trials (trial INTEGER PRIMARY KEY, identity TEXT, scenario TEXT,"
+    " planner TEXT, axes TEXT, repeat INTEGER, outcome TEXT, hit TEXT, message TEXT, nearest TEXT,"
+    " time_s REAL, goal_time_s REAL, least_clearance_m REAL, least_wheel_load_N REAL, cycles "
+    "INTEGER,"
     " failed_cycles INTEGER, iterations INTEGER, max_solve_time_s REAL, median_solve_time_s REAL,"
     " max_cpu_time_s REAL, median_cpu_time_s REAL)";
 
@@ -47,7 +48,7 @@ void insert_study(Database& database, const SweepTable& study) {
         .bind(1, std::int64_t{kFormat})
         .bind(2, study.name)
         .bind(3, study.title)
-        .bind(4, study.scenario)
+        .bind(4, as_json(study.scenarios))
         .bind(5, study.identity)
         .bind(6, study.kernels)
         .bind(7, as_json(study.planners))
@@ -62,47 +63,50 @@ TrialRecord read_trial(const Statement& row) {
   TrialRecord r;
   r.trial = row.integer(0);
   r.identity = row.text(1);
-  r.planner = row.text(2);
-  r.values = from_json(row.text(3));
-  r.repeat = static_cast<int>(row.integer(4));
-  r.outcome = row.text(5);
-  r.hit = row.text(6);
-  r.message = row.text(7);
-  r.least_clearance_obstacle = row.text(8);
-  r.time = row.real(9);
-  r.goal_time = row.real(10);
-  r.least_clearance = row.real(11);
-  r.least_wheel_load = row.real(12);
-  r.cycles = static_cast<int>(row.integer(13));
-  r.failed_cycles = static_cast<int>(row.integer(14));
-  r.iterations = static_cast<int>(row.integer(15));
-  r.max_solve_time = row.real(16);
-  r.median_solve_time = row.real(17);
-  r.max_cpu_time = row.real(18);
-  r.median_cpu_time = row.real(19);
+  r.scenario = row.text(2);
+  r.planner = row.text(3);
+  r.values = from_json(row.text(4));
+  r.repeat = static_cast<int>(row.integer(5));
+  r.outcome = row.text(6);
+  r.hit = row.text(7);
+  r.message = row.text(8);
+  r.least_clearance_obstacle = row.text(9);
+  r.time = row.real(10);
+  r.goal_time = row.real(11);
+  r.least_clearance = row.real(12);
+  r.least_wheel_load = row.real(13);
+  r.cycles = static_cast<int>(row.integer(14));
+  r.failed_cycles = static_cast<int>(row.integer(15));
+  r.iterations = static_cast<int>(row.integer(16));
+  r.max_solve_time = row.real(17);
+  r.median_solve_time = row.real(18);
+  r.max_cpu_time = row.real(19);
+  r.median_cpu_time = row.real(20);
   return r;
 }
 
 SweepTable read_study(const Database& database, const fs::path& file) {
   // A process killed while it made the file leaves one that states nothing yet.
   if (!Statement(database, "SELECT 1 FROM sqlite_master WHERE name = 'study'").step()) return {};
+  Statement format(database, "SELECT format FROM study");
+  if (!format.step()) throw Error(fmt::format("{}: states no study", file.string()));
+  if (format.integer(0) != kFormat)
+    throw Error(fmt::format("{}: written by another version of Slalom (format {}, expected {})",
+                            file.string(), format.integer(0), kFormat));
   Statement row(database,
-                "SELECT format, name, title, scenario, identity, kernels, planners, columns,"
-                " repeats, size FROM study");
-  if (!row.step()) throw Error(fmt::format("{}: states no study", file.string()));
-  if (row.integer(0) != kFormat)
-    throw Error(
-        fmt::format("{}: found format {}, expected {}", file.string(), row.integer(0), kFormat));
+                "SELECT name, title, scenarios, identity, kernels, planners, columns, repeats, size"
+                " FROM study");
+  (void)row.step();
   SweepTable study;
-  study.name = row.text(1);
-  study.title = row.text(2);
-  study.scenario = row.text(3);
-  study.identity = row.text(4);
-  study.kernels = row.text(5);
-  study.planners = from_json(row.text(6));
-  study.columns = from_json(row.text(7));
-  study.repeats = static_cast<int>(row.integer(8));
-  study.size = row.integer(9);
+  study.name = row.text(0);
+  study.title = row.text(1);
+  study.scenarios = from_json(row.text(2));
+  study.identity = row.text(3);
+  study.kernels = row.text(4);
+  study.planners = from_json(row.text(5));
+  study.columns = from_json(row.text(6));
+  study.repeats = static_cast<int>(row.integer(7));
+  study.size = row.integer(8);
   return study;
 }
 
@@ -128,30 +132,31 @@ TrialStore::TrialStore(const fs::path& file, const SweepTable& study)
   insert_ = std::make_unique<Statement>(
       database_,
       "INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-      "?, ?)");
+      "?, ?, ?)");
 }
 
 void TrialStore::add(const TrialRecord& r) {
   insert_->bind(1, r.trial)
       .bind(2, r.identity)
-      .bind(3, r.planner)
-      .bind(4, as_json(r.values))
-      .bind(5, std::int64_t{r.repeat})
-      .bind(6, r.outcome)
-      .bind(7, r.hit)
-      .bind(8, r.message)
-      .bind(9, r.least_clearance_obstacle)
-      .bind(10, r.time)
-      .bind(11, r.goal_time)
-      .bind(12, r.least_clearance)
-      .bind(13, r.least_wheel_load)
-      .bind(14, std::int64_t{r.cycles})
-      .bind(15, std::int64_t{r.failed_cycles})
-      .bind(16, std::int64_t{r.iterations})
-      .bind(17, r.max_solve_time)
-      .bind(18, r.median_solve_time)
-      .bind(19, r.max_cpu_time)
-      .bind(20, r.median_cpu_time)
+      .bind(3, r.scenario)
+      .bind(4, r.planner)
+      .bind(5, as_json(r.values))
+      .bind(6, std::int64_t{r.repeat})
+      .bind(7, r.outcome)
+      .bind(8, r.hit)
+      .bind(9, r.message)
+      .bind(10, r.least_clearance_obstacle)
+      .bind(11, r.time)
+      .bind(12, r.goal_time)
+      .bind(13, r.least_clearance)
+      .bind(14, r.least_wheel_load)
+      .bind(15, std::int64_t{r.cycles})
+      .bind(16, std::int64_t{r.failed_cycles})
+      .bind(17, std::int64_t{r.iterations})
+      .bind(18, r.max_solve_time)
+      .bind(19, r.median_solve_time)
+      .bind(20, r.max_cpu_time)
+      .bind(21, r.median_cpu_time)
       .run();
 }
 

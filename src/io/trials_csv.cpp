@@ -14,7 +14,7 @@ std::string number_cell(double value) {
 }
 
 std::string row(const study::SweepTable& table, const study::TrialRecord& r) {
-  auto text = fmt::format("{},{},{}", r.trial, csv_cell(table.scenario), csv_cell(r.planner));
+  auto text = fmt::format("{},{},{}", r.trial, csv_cell(r.scenario), csv_cell(r.planner));
   for (const auto& value : r.values) text += "," + csv_cell(value);
   if (table.repeats > 1) text += fmt::format(",{}", r.repeat);
   text += fmt::format(",{},{},{}", r.outcome, number_cell(r.time), number_cell(r.max_solve_time));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "slalom/study/sweep_report.hpp"
 #include "sweep_axes.hpp"
@@ -23,7 +24,8 @@ double number_at(const TrialRecord& record, std::size_t column) {
 }
 
 bool PaperSweep::comparable(const SweepTable& table) {
-  return table.scenario == "E_C" && table.columns == std::vector<std::string>{kTexKey, kSpeedKey};
+  return table.scenarios == std::vector<std::string>{"E_C"} &&
+         table.columns == std::vector<std::string>{kTexKey, kSpeedKey};
 }
 
 std::vector<PassCount> pass_counts(const SweepTable& table) {
@@ -40,10 +42,32 @@ std::vector<PassCount> pass_counts(const SweepTable& table) {
   return counts;
 }
 
+std::vector<ScenarioCount> scenario_counts(const SweepTable& table) {
+  std::map<std::string, std::map<std::string, PassCount>> found;
+  for (const auto& record : table.trials) {
+    auto& count = found[record.scenario][record.planner];
+    ++count.trials;
+    count.passed += record.passed();
+  }
+  std::vector<ScenarioCount> counts;
+  for (const auto& scenario : table.scenarios) {
+    const auto by_planner = found.find(scenario);
+    if (by_planner == found.end()) continue;
+    ScenarioCount row{scenario, {}};
+    for (const auto& planner : table.planners) {
+      auto count = by_planner->second[planner];
+      count.planner = planner;
+      row.planners.push_back(count);
+    }
+    counts.push_back(std::move(row));
+  }
+  return counts;
+}
+
 PairCount pair_count(const SweepTable& table, const std::string& planner1,
                      const std::string& planner2) {
-  const auto key = [](const TrialRecord& r) { return std::pair(r.values, r.repeat); };
-  std::map<std::pair<std::vector<std::string>, int>, bool> first;
+  const auto key = [](const TrialRecord& r) { return std::tuple(r.scenario, r.values, r.repeat); };
+  std::map<std::tuple<std::string, std::vector<std::string>, int>, bool> first;
   for (const auto& record : table.trials)
     if (record.planner == planner1) first[key(record)] = record.passed();
   PairCount pairs;

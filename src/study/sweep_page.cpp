@@ -114,6 +114,28 @@ std::string comparison_table(const SweepTable& sweep, const PaperSweep& paper, b
                rows);
 }
 
+/// Names of the planners as the heads of columns, after the first.
+std::string planner_heads(const SweepTable& sweep, const char* first) {
+  auto names = sweep.planners;
+  for (auto& name : names) name = escape(name);
+  names.insert(names.begin(), first);
+  return head_cells(names);
+}
+
+/// Who arrives where, folded up; empty for one scenario.
+std::string scenario_table(const SweepTable& sweep) {
+  if (sweep.scenarios.size() <= 1) return "";
+  std::string rows;
+  for (const auto& row : scenario_counts(sweep)) {
+    rows += row_head(row.scenario);
+    for (const auto& count : row.planners)
+      rows += cell(count.trials == 0 ? "–" : fmt::format("{} of {}", count.passed, count.trials));
+    rows += "</tr>\n";
+  }
+  return fmt::format("<details><summary>At the goal, by scenario</summary>\n{}</details>\n",
+                     table(planner_heads(sweep, "scenario"), rows));
+}
+
 /// Causes with their counts, a column a planner.
 std::string outcome_table(const SweepTable& sweep) {
   std::map<std::string, std::map<std::string, int>> counts;
@@ -132,10 +154,7 @@ std::string outcome_table(const SweepTable& sweep) {
     }
     rows += "</tr>\n";
   }
-  auto names = sweep.planners;
-  for (auto& name : names) name = escape(name);
-  names.insert(names.begin(), "outcome");
-  return table(head_cells(names), rows);
+  return table(planner_heads(sweep, "outcome"), rows);
 }
 
 const PaperSweep::Point* printed_point(const PaperSweep& paper, const std::string& planner,
@@ -187,10 +206,13 @@ std::string horizons_html(const SweepTable& sweep, const PaperSweep& paper, bool
 
 /// Every pass with how near it came.
 std::string pass_table(const SweepTable& sweep) {
+  const bool several = sweep.scenarios.size() > 1;
   std::string rows;
   for (const auto& r : sweep.trials) {
     if (!r.passed()) continue;
-    rows += row_head(fmt::format("{}", r.trial)) + cell(escape(r.planner), "");
+    rows += row_head(fmt::format("{}", r.trial));
+    if (several) rows += cell(escape(r.scenario), "");
+    rows += cell(escape(r.planner), "");
     for (std::size_t i = 0; i < r.values.size(); ++i) {
       const double value = number_at(r, i);
       rows += cell(std::isnan(value) ? escape(r.values[i]) : significant(value, 4));
@@ -198,10 +220,23 @@ std::string pass_table(const SweepTable& sweep) {
     rows += cell(number(r.time, 2)) + cell(number(r.least_clearance, 3)) +
             cell(escape(r.least_clearance_obstacle), "") + "</tr>\n";
   }
-  std::vector<std::string> names = {"trial", "planner"};
+  std::vector<std::string> names = {"trial"};
+  if (several) names.push_back("scenario");
+  names.push_back("planner");
   for (const auto& column : sweep.columns) names.push_back(escape(column));
   names.insert(names.end(), {"time [s]", "least clearance [m]", "to"});
   return table(head_cells(names), rows);
+}
+
+/// Under which the page stands: few scenarios by name.
+std::string settings_line(const SweepTable& sweep) {
+  constexpr std::size_t kNamed = 8;
+  const auto n = sweep.scenarios.size();
+  const auto scenarios = n == 1 ? "Scenario " + sweep.scenarios.front()
+                         : n <= kNamed
+                             ? fmt::format("Scenarios {}", fmt::join(sweep.scenarios, ", "))
+                             : fmt::format("{} scenarios", n);
+  return fmt::format("{}, instruction set {}, study {}.", scenarios, sweep.kernels, sweep.identity);
 }
 
 std::string summary(const SweepTable& sweep) {
@@ -221,19 +256,19 @@ std::string sweep_page(const SweepTable& sweep, const PaperSweep& paper) {
   const auto notes = [&](const char* topic) { return beside ? notes_html(paper, topic) : ""; };
   std::string figures;
   for (const auto& figure : sweep_figures(sweep)) figures += figure_html(figure);
-  return fill(viewer::sweep_html,
-              {{"css", fmt::format("{}\n{}", viewer::base_css, viewer::reproduction_css)},
-               {"name", escape(sweep.name)},
-               {"title", escape(sweep.title)},
-               {"settings", escape(fmt::format("Scenario {}, instruction set {}, study {}.",
-                                               sweep.scenario, sweep.kernels, sweep.identity))},
-               {"summary", summary(sweep)},
-               {"figures", figures},
-               {"counts", count_table(sweep, paper, beside) +
-                              comparison_table(sweep, paper, beside) + notes("counts")},
-               {"outcomes", outcome_table(sweep)},
-               {"horizons", horizons_html(sweep, paper, beside) + notes("real_time")},
-               {"passes", pass_table(sweep)}});
+  return fill(
+      viewer::sweep_html,
+      {{"css", fmt::format("{}\n{}", viewer::base_css, viewer::reproduction_css)},
+       {"name", escape(sweep.name)},
+       {"title", escape(sweep.title)},
+       {"settings", escape(settings_line(sweep))},
+       {"summary", summary(sweep)},
+       {"figures", figures},
+       {"counts", count_table(sweep, paper, beside) + comparison_table(sweep, paper, beside) +
+                      notes("counts") + scenario_table(sweep)},
+       {"outcomes", outcome_table(sweep)},
+       {"horizons", horizons_html(sweep, paper, beside) + notes("real_time")},
+       {"passes", pass_table(sweep)}});
 }
 
 }  // namespace slalom::study

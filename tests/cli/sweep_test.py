@@ -121,6 +121,25 @@ class Sweep(SweepTest):
         self.assertEqual({row["outcome"] for row in (rows[0], rows[4], rows[5])}, {"timeout"})
 
 
+    def test_scenarios_are_crossed_with_planners_and_axes(self):
+        self.assertEqual(run("make-scenarios", "gates", "--count", "2", "--out", self.folder / "set",
+                             "--quiet").code, 0)
+        text = SMALL.replace("scenario: E_B", "scenarios: [E_B, 'set/*.yaml']").replace("1.5}", "0.5}")
+        rows = self.sweep("all", study=self.write("all.yaml", text))
+        self.assertEqual([row["scenario"] for row in rows],
+                         ["E_B"] * 12 + ["gates-0001"] * 12 + ["gates-0002"] * 12)
+        self.assertEqual([row["planner"] for row in rows], (["P_C"] * 6 + ["P_D"] * 6) * 3)
+        # One of them is what a study of it alone is, but for its numbers.
+        alone = self.sweep("alone", study=self.write("alone.yaml", SMALL.replace("1.5}", "0.5}").replace(
+            "scenario: E_B", "scenarios: [set/gates-0002.yaml]")))
+        self.assertEqual([dict(row, trial=None) for row in rows[24:]],
+                         [dict(row, trial=None) for row in alone])
+        self.assertEqual(run("study-report", self.folder / "all").code, 0)
+        page = (self.folder / "all/index.html").read_text()
+        self.assertIn("Scenarios E_B, gates-0001, gates-0002", page)
+        self.assertIn("At the goal, by scenario", page)
+
+
 class Report(SweepTest):
     def test_the_page_and_its_figures_stand_beside_the_table(self):
         self.sweep("out")
@@ -265,6 +284,15 @@ class Refused(SweepTest):
         head = "scenario: E_B\n"
         for text, parts in (
                 ("planners: [P_C]\n", ["s.yaml:1:1", "a study without 'scenario'"]),
+                (head + "scenarios: [E_A]\n", ["s.yaml:2:12", "'scenarios' beside 'scenario'"]),
+                ("scenarios: []\n", ["s.yaml:1:12", "an empty list"]),
+                ("scenarios: [E_B, E_X]\n", ["s.yaml:1:18", "scenario 'E_X'"]),
+                ("scenarios: [E_B, 'none/*.yaml']\n", ["s.yaml:1:18", "pattern 'none/*.yaml'"]),
+                ("scenarios: [E_B, E_A, E_B]\n", ["s.yaml:1:23", "a second scenario named 'E_B'"]),
+                ("scenarios: [E_A, E_C]\naxes:\n  - {key: obstacles.O3.x, values: [1, 2]}\n",
+                 ["s.yaml:3:11", "'O3'", "for scenario 'E_C'"]),
+                ("scenarios: [E_A, E_C]\nset: {obstacles.O3.x: 1}\n",
+                 ["s.yaml:2:7", "'O3'", "for scenario 'E_C'"]),
                 (head + "axis: []\n", ["s.yaml:2:1", "unknown key 'axis'", "'axes'"]),
                 (head + "planners: [P_C, P_X]\n", ["s.yaml:2:17", "planner 'P_X'"]),
                 (head + "planners: [P_C, P_C]\n", ["s.yaml:2:17", "a second planner named 'P_C'"]),
@@ -346,6 +374,20 @@ class Refused(SweepTest):
         self.assert_refused(run("merge", out, notes, "--out", self.folder / "m"), 3,
                             "another study")
         self.assert_refused(run("merge", self.folder, "--out", self.folder / "m"), 3, "no results")
+
+    def test_a_store_of_another_version_is_replaced_by_force_alone(self):
+        self.sweep("out", "--limit", "1")
+        store = self.folder / "out/trials.sqlite"
+        with sqlite3.connect(store) as database:
+            database.execute("UPDATE study SET format = 1")
+        database.close()
+        self.assert_refused(run("sweep", self.study, "--out", self.folder / "out"), 3,
+                            "another version of Slalom")
+        self.assertEqual(len(self.sweep("out", "--limit", "2", "--force")), 2)
+        store.write_bytes(b"dear diary, " * 100)
+        self.assert_refused(run("sweep", self.study, "--out", self.folder / "out"), 3,
+                            "trials.sqlite: ", "not a database")
+        self.assertEqual(len(self.sweep("out", "--limit", "1", "--force")), 1)
 
     def test_two_sweeps_do_not_share_a_store(self):
         process = start("sweep", self.study, "--out", self.folder / "out", "--json", "--jobs", "1")

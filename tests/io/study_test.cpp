@@ -48,7 +48,7 @@ TEST(Study, PlannersVarySlowestAndRepeatsFastest) {
   for (std::int64_t n = 1; n <= study.size(); ++n) {
     const auto trial = study.trial(n);
     EXPECT_EQ(trial.number, n);
-    EXPECT_EQ(trial.planner, n <= 12 ? 0U : 1U);
+    EXPECT_EQ(trial.base, n <= 12 ? 0U : 1U);
     EXPECT_EQ(trial.repeat, (n - 1) % 2 + 1);
     seen.insert(trial.values);
   }
@@ -61,6 +61,61 @@ TEST(Study, PlannersVarySlowestAndRepeatsFastest) {
   EXPECT_EQ(scenario.loop.tex, 1);
   EXPECT_EQ(scenario.start[vehicle::X], 200);
   EXPECT_EQ(scenario.start[vehicle::UX], 17);
+}
+
+std::string scenario_text(const std::string& name) {
+  return "name: " + name +
+         "\nvehicle: hmmwv\nplanner: P_A\nstart: {x: 0, y: 0}\ngoal: {x: 0, y: 100}\n";
+}
+
+TEST(Study, ScenariosVarySlowestOfAll) {
+  const TemporaryFolder folder;
+  test::write(folder / "s.yaml",
+              "scenarios: [E_B, 'scenes/*.yaml', E_A]\nplanners: [P_D, P_C]\naxes:\n"
+              "  - {key: loop.tex, values: [0.5, 0.25]}\n");
+  std::filesystem::create_directory(folder / "scenes");
+  for (const char* name : {"b10", "b9", "a", "B"})
+    test::write(folder / (std::string("scenes/") + name + ".yaml"), scenario_text(name));
+  test::write(folder / "scenes/note.txt", "no scenario");
+  const auto study = load_study((folder / "s.yaml").string());
+  // By the bytes of their names, whatever the locale has.
+  EXPECT_EQ(study.scenarios, (std::vector<std::string>{"E_B", "B", "a", "b10", "b9", "E_A"}));
+  EXPECT_EQ(study.planners(), (std::vector<std::string>{"P_D", "P_C"}));
+  ASSERT_EQ(study.size(), 6 * 2 * 2);
+  for (std::int64_t n = 1; n <= study.size(); ++n) {
+    const auto trial = study.trial(n);
+    const auto k = static_cast<std::size_t>(n - 1);
+    EXPECT_EQ(study.bases[trial.base].name, study.scenarios[k / 4]);
+    EXPECT_EQ(study.bases[trial.base].planner.name, k / 2 % 2 == 0 ? "P_D" : "P_C");
+    EXPECT_EQ(study.resolve(trial).loop.tex, k % 2 == 0 ? 0.5 : 0.25);
+  }
+}
+
+TEST(Study, ScenariosMayBringTheirOwnPlanners) {
+  const auto study = study_of("scenarios: [E_B, E_A]\nset: {loop.tex: 0.25}\n");
+  EXPECT_EQ(study.size(), 2);
+  EXPECT_EQ(study.planners(), (std::vector<std::string>{"P_D", "P_C"}));
+  EXPECT_EQ(study.bases[1].loop.tex, 0.25);
+}
+
+TEST(Study, APatternIsOneOfFilesNotOfTheFolderItStandsIn) {
+  const TemporaryFolder folder;
+  const auto odd = folder / "[ab]*";
+  std::filesystem::create_directory(odd);
+  test::write(odd / "s.yaml", "scenarios: ['x?.yaml', 'y[1].yaml']\n");
+  test::write(odd / "x1.yaml", scenario_text("x1"));
+  test::write(odd / "y[1].yaml", scenario_text("literal"));
+  test::write(odd / "y1.yaml", scenario_text("y1"));
+  EXPECT_EQ(load_study((odd / "s.yaml").string()).scenarios,
+            (std::vector<std::string>{"x1", "literal"}));
+}
+
+TEST(Study, OneScenarioIsTheSameStudyHoweverItIsNamed) {
+  const std::string rest = "planners: [P_C]\naxes:\n  - {key: loop.tex, values: [0.5]}\n";
+  EXPECT_EQ(study_of("scenario: E_B\n" + rest).identity(),
+            study_of("scenarios: [E_B]\n" + rest).identity());
+  EXPECT_NE(study_of("scenarios: [E_B, E_A]\n" + rest).identity(),
+            study_of("scenarios: [E_A, E_B]\n" + rest).identity());
 }
 
 TEST(Study, AnAxisMayHoldChoicesListsAndDegrees) {

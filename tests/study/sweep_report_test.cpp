@@ -13,6 +13,7 @@ TrialRecord trial(std::int64_t number, const char* planner, const char* tex, con
                   const char* outcome, double solve = 0.1) {
   TrialRecord r;
   r.trial = number;
+  r.scenario = "E_C";
   r.planner = planner;
   r.values = {tex, vy};
   r.outcome = outcome;
@@ -29,7 +30,7 @@ SweepTable small_sweep() {
   SweepTable t;
   t.name = "a & b";
   t.title = "small <study>";
-  t.scenario = "E_C";
+  t.scenarios = {"E_C"};
   t.planners = {"P_C", "P_D"};
   t.columns = {"loop.tex", "obstacles.O2.vy"};
   t.size = 12;
@@ -61,6 +62,42 @@ TEST(SweepCounts, PairsAreTrialsThatDifferInThePlannerAlone) {
   EXPECT_EQ(pairs.only1, 0);
   EXPECT_EQ(pairs.only2, 2);    // (0.5, -10) and (1, 0)
   EXPECT_EQ(pairs.neither, 2);  // (0.5, -20) and (1, -10); (1, -20) has no partner
+}
+
+/// The small sweep in a second scenario too, where P_C always arrives and P_D always crashes.
+SweepTable two_scenarios() {
+  auto t = small_sweep();
+  t.scenarios = {"E_C", "a<b"};
+  const auto first = t.trials;
+  for (auto record : first) {
+    record.scenario = "a<b";
+    record.trial += 12;
+    record.outcome = record.planner == "P_C" ? "goal" : "crash";
+    t.trials.push_back(record);
+  }
+  t.size = 24;
+  return t;
+}
+
+TEST(SweepCounts, PairsStandInOneScenario) {
+  const auto pairs = pair_count(two_scenarios(), "P_C", "P_D");
+  EXPECT_EQ(pairs.both, 1);
+  EXPECT_EQ(pairs.only1, 5);
+  EXPECT_EQ(pairs.only2, 2);
+  EXPECT_EQ(pairs.neither, 2);
+}
+
+TEST(SweepCounts, EachScenarioHasItsCounts) {
+  auto sweep = two_scenarios();
+  sweep.scenarios.emplace_back("not begun");
+  const auto counts = scenario_counts(sweep);
+  ASSERT_EQ(counts.size(), 2U);
+  EXPECT_EQ(counts[0].planners[1].passed, 3);
+  EXPECT_EQ(counts[1].scenario, "a<b");
+  EXPECT_EQ(counts[1].planners[0].passed, 5);
+  EXPECT_EQ(counts[1].planners[1].planner, "P_D");
+  EXPECT_EQ(counts[1].planners[1].passed, 0);
+  EXPECT_EQ(counts[1].planners[1].trials, 6);
 }
 
 TEST(SweepCounts, RealTimeFactorIsTheMeanOverSpeedsOfTheLongestSolve) {
@@ -109,8 +146,18 @@ TEST(SweepPage, ShowsCountsTestsAndThePapersBesideThem) {
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));
   // Elsewhere the paper has nothing to say.
-  sweep.scenario = "E_B";
+  sweep.scenarios = {"E_B"};
   EXPECT_EQ(sweep_page(sweep, paper).find("22 of 400"), std::string::npos);
+}
+
+TEST(SweepPage, SeveralScenariosStandSideBySide) {
+  const auto page = sweep_page(two_scenarios(), {});
+  for (const char* part : {"Scenarios E_C, a&lt;b,", "At the goal, by scenario", "0 of 6"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(sweep_page(small_sweep(), {}).find("by scenario"), std::string::npos);
+  auto many = small_sweep();
+  for (int i = 0; i < 999; ++i) many.scenarios.push_back("s" + std::to_string(i));
+  EXPECT_NE(sweep_page(many, {}).find("1000 scenarios, "), std::string::npos);
 }
 
 TEST(SweepPage, ASweepWithoutTrialsHasAPage) {

@@ -35,22 +35,26 @@ struct Axis {
 /// What tells one trial from the others.
 struct Trial {
   std::int64_t number = 0;          ///< 1, 2, ... in the study's order
-  std::size_t planner = 0;          ///< index into Study::planners
+  std::size_t base = 0;             ///< index into Study::bases
   std::vector<std::string> values;  ///< one a column of Study::columns()
   int repeat = 1;                   ///< 1, ..., repeats
 };
 
-/// A study with its references read: a scenario, planners, and the axes whose product its trials
-/// are. The order of trials is fixed: planners vary slowest, then the axes as written, repeats
-/// fastest.
+/// A study with its references read: scenarios, planners, and the axes whose product its trials
+/// are. The order of trials is fixed: scenarios vary slowest, then planners, then the axes as
+/// written, repeats fastest.
 struct Study {
-  std::string name, title, scenario;
-  std::vector<sim::Scenario> planners;  ///< the scenario with each planner and all of `set` applied
+  std::string name, title;
+  std::vector<std::string> scenarios;  ///< by name, in the study's order
+  /// Each scenario with each planner and all of `set` applied; planners vary fastest.
+  std::vector<sim::Scenario> bases;
   std::vector<Axis> axes;
   StudySettings settings;
   std::string kernels;  ///< the instruction set by name: baseline or avx2
 
   std::int64_t size() const;
+  /// The names of all planners, each once, in the study's order.
+  std::vector<std::string> planners() const;
   /// The key paths of all axes, in order.
   std::vector<std::string> columns() const;
   /// 1 <= number <= size().

@@ -43,6 +43,14 @@ struct PassCount {
 /// One a planner that has trials, in the study's order.
 std::vector<PassCount> pass_counts(const SweepTable& table);
 
+/// Passes in one scenario, of every planner of the study; one without trials there has zeros.
+struct ScenarioCount {
+  std::string scenario;
+  std::vector<PassCount> planners;
+};
+/// One a scenario that has trials, in the study's order.
+std::vector<ScenarioCount> scenario_counts(const SweepTable& table);
+
 /// Trials of two planners that differ in nothing else.
 struct PairCount {
   std::int64_t both = 0, only1 = 0, only2 = 0, neither = 0;

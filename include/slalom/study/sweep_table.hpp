@@ -11,7 +11,7 @@ namespace slalom::study {
 struct TrialRecord {
   std::int64_t trial = 0;  ///< 1, 2, ... in the study's order
   std::string identity;    ///< hash of the resolved configuration
-  std::string planner;
+  std::string scenario, planner;
   std::vector<std::string> values;  ///< one a column of the table
   int repeat = 1;
   /// As sim::to_string(Outcome) has it; "failed" where no attempt came to an end, "invalid" where
@@ -33,11 +33,11 @@ struct TrialRecord {
 
 /// A sweep's results: those trials that have run, in trial order.
 struct SweepTable {
-  std::string name, title, scenario;
-  std::string identity;               ///< of the study
-  std::string kernels;                ///< instruction set
-  std::vector<std::string> planners;  ///< in the study's order
-  std::vector<std::string> columns;   ///< key paths of the axes
+  std::string name, title;
+  std::string identity;                          ///< of the study
+  std::string kernels;                           ///< instruction set
+  std::vector<std::string> scenarios, planners;  ///< by name, in the study's order
+  std::vector<std::string> columns;              ///< key paths of the axes
   int repeats = 1;
   std::int64_t size = 0;  ///< trials of the whole study
   std::vector<TrialRecord> trials;
