@@ -22,13 +22,21 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 DRIVES = (("E_A", "P_A"), ("E_A", "P_B"), ("E_A", "P_C"), ("E_A-figure", "P_A"),
           ("E_A-figure", "P_B"), ("E_A-figure", "P_C"), ("E_B", "P_C"), ("E_B", "P_D"),
           ("E_C", "P_C"), ("E_C", "P_D"))
-# Pictures kept: the drive, its figure, what it shows.
+VARIANTS = (("E_C-range-50", "P_C"), ("E_C-range-50", "P_D"), ("E_C-no-cones", "P_C"),
+            ("E_C-no-cones", "P_D"))
+# Pictures kept: the file in the reproduction's folder, its name in docs/figures, what it shows.
 FIGURES = (
-    ("E_A-figure", "P_C", "path.svg", "E_A-figure with P_C"),
-    ("E_B", "P_C", "path.svg", "E_B with P_C: left, and into O1"),
-    ("E_B", "P_D", "path.svg", "E_B with P_D: right, behind O1"),
-    ("E_C", "P_C", "path.svg", "E_C with P_C: into O2, taken as standing still"),
-    ("E_C", "P_D", "path.svg", "E_C with P_D"),
+    ("figures/E_A-figure_path.svg", "E_A-figure_path.svg", "E_A-figure: P_A, P_B, P_C; rings are the paper's vehicles"),
+    ("figures/E_A-figure_traces.svg", "E_A-figure_traces.svg", "E_A-figure: solve time, steering angle, speed, acceleration"),
+    ("figures/E_B_path.svg", "E_B_path.svg", "E_B: P_C to the left and into O1, P_D to the right and behind it"),
+    ("figures/E_B_traces.svg", "E_B_traces.svg", "E_B: solve time, steering angle, speed, acceleration"),
+    ("figures/E_C_path.svg", "E_C_path.svg", "E_C: P_C into O2, P_D out of its way"),
+    ("figures/E_C_crash.svg", "E_C_crash.svg", "E_C at 19.5 s: P_C's plan takes O2 to stand where it was (dashed)"),
+    ("figures/E_C_traces.svg", "E_C_traces.svg", "E_C: solve time, steering angle, speed, acceleration"),
+    ("figures/E_C_dynamics.svg", "E_C_dynamics.svg", "E_C: lateral speed, yaw rate, controls, least wheel load"),
+    ("figures/E_C-range-50_crash.svg", "E_C-range-50_crash.svg", "E_C seen 50 m ahead: both crash into O2"),
+    ("figures/E_C-no-cones_path.svg", "E_C-no-cones_path.svg", "E_C without cones: the lane is changed at once"),
+    ("E_C/P_D/figures/path.svg", "E_C-P_D.svg", "E_C with P_D"),
 )
 TERMS = (("steering angle", "sa", "steering_angle", 0.1), ("steering rate", "sr", "steering_rate", 1),
          ("longitudinal jerk", "jx", "jerk", 0.01))
@@ -92,6 +100,26 @@ def drives_table(drives, paper):
     return lines
 
 
+def lane_change(drive):
+    """y at which the vehicle comes into E_C's other lane, beyond x = 12 [m]."""
+    return next((row["y"] for row in drive.rows if row["x"] >= 12), math.nan)
+
+
+def variants_lines(drives):
+    """What the paper's text says of E_C seen 50 m ahead and without its cones."""
+    def ended(key):
+        s = drives[key].summary
+        return f"{key[1]} {s['outcome']}{' ' + s['hit'] if s['hit'] else ''} at {s['time_s']:.2f} s"
+
+    seen = ", ".join(ended(("E_C-range-50", p)) for p in ("P_C", "P_D"))
+    bare = ", ".join(f"{ended(('E_C-no-cones', p))}, other lane from y = "
+                     f"{lane_change(drives['E_C-no-cones', p]):.0f} m (with cones "
+                     f"{lane_change(drives['E_C', p]):.0f} m)" for p in ("P_C", "P_D"))
+    return ["Of E_C the paper says that with an L_range of 50 m the vehicle crashes into O2 over a large range of",
+            f"speeds of O2; ours, by L_range 50 m, N 10, kappa 5 m: {seen}. And that without the cones it",
+            f"changes lanes earlier; ours: {bare}."]
+
+
 def snapshot_table(drives, paper):
     lines = ["| drive | t [s] | ours (x, y) [m] | paper's (x, y) [m] | apart [m] | compared |",
              "|---|---|---|---|---|---|"]
@@ -153,6 +181,7 @@ def page(drives):
         "tex 0.5 s, interior point). Written by `make results` (`tools/results.py`); the numbers are",
         "those of that run, and `slalom reproduce` makes them again.", "", "## Drives", "",
         *drives_table(drives, paper), "",
+        *variants_lines(drives), "",
         "The paper reports ends of execution horizons, so its times carry up to 0.5 s; a drive of ours",
         "ends at the check after an execution horizon too, and the moment at which it entered the",
         "goal's square stands beside. A crash is timed where the front axle's centre touches the",
@@ -175,11 +204,11 @@ def page(drives):
         "by about .4 s. The weight of the control effort is small beside that of time: at 100 a second,",
         "the whole effort of a drive costs less than a thousandth of a second does.", "",
         "## Pictures", ""]
-    for environment, planner, _, caption in FIGURES:
-        lines += [f"![{caption}](figures/{environment}-{planner}.svg)", "", f"*{caption}*", ""]
+    for _, name, caption in FIGURES:
+        lines += [f"![{caption}](figures/{name})", "", f"*{caption}*", ""]
     lines += ["## Solve times", "",
-              "Solve times depend on the machine, so none are kept here; `cycles.csv` and the report of each",
-              "drive have them beside tex.", ""]
+              "Solve times depend on the machine, so no table of them is kept here; `cycles.csv` and the report of each",
+              "drive have them beside tex, [realtime.md](realtime.md) a measurement.", ""]
     return "\n".join(lines)
 
 
@@ -193,12 +222,11 @@ def main():
         folder = pathlib.Path(args.drives or pathlib.Path(scratch) / "paper")
         if not args.drives:
             subprocess.run([args.program, "reproduce", "--out", folder, "--quiet"], check=True)
-        drives = {key: Drive(folder / key[0] / key[1]) for key in DRIVES}
+        drives = {key: Drive(folder / key[0] / key[1]) for key in DRIVES + VARIANTS}
         out = pathlib.Path(args.out)
         (out / "figures").mkdir(exist_ok=True)
-        for environment, planner, figure, _ in FIGURES:
-            shutil.copyfile(folder / environment / planner / "figures" / figure,
-                            out / "figures" / f"{environment}-{planner}.svg")
+        for source, name, _ in FIGURES:
+            shutil.copyfile(folder / source, out / "figures" / name)
         (out / "results.md").write_text(page(drives))
 
 

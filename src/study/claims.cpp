@@ -103,6 +103,37 @@ void add_moving(std::vector<Claim>& list, const Drives& drives) {
     list.push_back({"E_C: P_D arrives", end_of(*slalom_D), arrived(*slalom_D)});
 }
 
+/// Where the vehicle comes into the other lane of E_C, whose boundary the cones mark at x = 12 [m
+/// along y]; NaN if it never does.
+double lane_change(const ReproducedDrive& one) {
+  constexpr double boundary = 12;
+  for (const auto& s : one.drive.plant)
+    if (s.state[vehicle::X] >= boundary) return s.state[vehicle::Y];
+  return NAN;
+}
+
+/// What the paper's text says of E_C seen 50 m ahead, and without its cones.
+void add_variants(std::vector<Claim>& list, const Drives& drives) {
+  for (const char* planner : {"P_C", "P_D"}) {
+    const auto* seen = find(drives, "E_C-range-50", planner);
+    if (seen == nullptr) continue;
+    list.push_back(
+        {fmt::format("E_C with L_range 50 m: the vehicle of {} crashes into O2", planner),
+         end_of(*seen), hit(*seen, "O2")});
+  }
+  for (const char* planner : {"P_C", "P_D"}) {
+    const auto* with = find(drives, "E_C", planner);
+    const auto* without = find(drives, "E_C-no-cones", planner);
+    if (with == nullptr || without == nullptr) continue;
+    const double y = lane_change(*without), y_cones = lane_change(*with);
+    list.push_back(
+        {fmt::format("E_C without cones: the vehicle of {} changes lanes earlier", planner),
+         fmt::format("at y = {} m, with cones at y = {} m; then {}", number(y, 0),
+                     number(y_cones, 0), end_of(*without)),
+         y < y_cones});
+  }
+}
+
 /// All solve times stay below the execution horizon, but for P_A's. By the wall clock, since that
 /// is when a plan is there; a machine that does other work shows in it, and not in CPU time.
 void add_solve_times(std::vector<Claim>& list, const Drives& drives) {
@@ -138,6 +169,7 @@ std::vector<Claim> claims(const std::vector<ReproducedDrive>& drives) {
   add_static(list, drives, "E_A");
   add_static(list, drives, "E_A-figure");
   add_moving(list, drives);
+  add_variants(list, drives);
   add_solve_times(list, drives);
   return list;
 }

@@ -69,6 +69,16 @@ Figure steering_figure(const sim::Scenario& scenario, const sim::Drive& drive) {
           stacked_svg("steering", file_title(scenario, "steering"), {angle, rate}, 105)};
 }
 
+Figure lateral_figure(const sim::Scenario& scenario, const sim::Drive& drive) {
+  Plot speed{.x_label = "t [s]", .y_label = "v [m/s]"};
+  speed.series = {state_series("", drive, vehicle::V, 1, solid(colours::blue))};
+  speed.x_tick_labels = false;
+  Plot rate{.x_label = "t [s]", .y_label = "r [°/s]"};
+  rate.series = {state_series("", drive, vehicle::R, kDeg, solid(colours::blue))};
+  return {"lateral.svg", "Lateral speed of the centre of gravity and yaw rate, left positive",
+          stacked_svg("lateral", file_title(scenario, "lateral motion"), {speed, rate}, 105)};
+}
+
 Figure wheel_load_figure(const sim::Scenario& scenario, const sim::Drive& drive) {
   Plot plot{.x_label = "t [s]", .y_label = "wheel load [kN]"};
   const Stroke strokes[] = {{colours::blue, 1, "", 1},
@@ -87,11 +97,12 @@ Figure wheel_load_figure(const sim::Scenario& scenario, const sim::Drive& drive)
 }
 
 Figure solve_time_figure(const sim::Scenario& scenario, const sim::Drive& drive) {
-  Plot plot{.x_label = "planning cycle", .y_label = "solve time [s]"};
+  Plot plot{.x_label = "planning cycle", .y_label = "solve time [ms]"};
   plot.series = {solve_time_series("wall clock", drive, false, solid(colours::blue)),
                  solve_time_series("CPU", drive, true, {colours::orange, 1, "2 1.5", 1})};
   plot.series.front().markers = true;
-  plot.levels = {{scenario.loop.tex, "execution horizon", {colours::vermilion, 0.8, "3 2", 1}}};
+  plot.levels = {
+      {1e3 * scenario.loop.tex, "execution horizon", {colours::vermilion, 0.8, "3 2", 1}}};
   plot.log_y = true;
   return {"solve_time.svg", "Solve time of each planning cycle beside the execution horizon",
           plot_svg("solve_time", file_title(scenario, "solve time"), plot)};
@@ -102,7 +113,8 @@ Figure solve_time_figure(const sim::Scenario& scenario, const sim::Drive& drive)
 std::vector<Figure> drive_figures(const sim::Scenario& scenario, const sim::Drive& drive) {
   return {path_figure(scenario, drive),         speed_figure(scenario, drive),
           acceleration_figure(scenario, drive), steering_figure(scenario, drive),
-          wheel_load_figure(scenario, drive),   solve_time_figure(scenario, drive)};
+          lateral_figure(scenario, drive),      wheel_load_figure(scenario, drive),
+          solve_time_figure(scenario, drive)};
 }
 
 }  // namespace slalom::study

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "html.hpp"
+#include "map_view.hpp"
 #include "slalom/study/plot.hpp"
 #include "words.hpp"
 
@@ -14,80 +14,9 @@ namespace slalom::study {
 namespace {
 
 constexpr double kLeft = 28, kRight = 6, kBelow = 20;
+constexpr double kLabelRow = 8;
+constexpr double kSmall = 6;      ///< letters inside obstacles
 constexpr double kTallest = 330;  ///< of an upright map's frame [1/72 inch]
-
-/// A rectangle of the plane [m].
-struct Box {
-  double x0 = std::numeric_limits<double>::infinity();
-  double x1 = -std::numeric_limits<double>::infinity();
-  double y0 = std::numeric_limits<double>::infinity();
-  double y1 = -std::numeric_limits<double>::infinity();
-  void add(double x, double y, double rx, double ry) {
-    x0 = std::min(x0, x - rx);
-    x1 = std::max(x1, x + rx);
-    y0 = std::min(y0, y - ry);
-    y1 = std::max(y1, y + ry);
-  }
-};
-
-/// A rectangle of the plane on paper. Lying: y runs to the right and x downwards, which is the
-/// upright map turned by a right angle.
-struct View {
-  Box box;
-  Point corner;
-  double scale = 1;  ///< [1/72 inch per m]
-  bool lying = false;
-
-  double width() const { return scale * (lying ? box.y1 - box.y0 : box.x1 - box.x0); }
-  double height() const { return scale * (lying ? box.x1 - box.x0 : box.y1 - box.y0); }
-  Point at(double x, double y) const {
-    if (lying) return {corner.x + scale * (y - box.y0), corner.y + scale * (x - box.x0)};
-    return {corner.x + scale * (x - box.x0), corner.y + scale * (box.y1 - y)};
-  }
-  bool shows(double x, double y) const {
-    return x >= box.x0 && x <= box.x1 && y >= box.y0 && y <= box.y1;
-  }
-};
-
-/// Puts words on a map where there is still room for them.
-class Labels {
- public:
-  Labels(Svg& svg, const View& view) : svg_(svg), view_(view) {}
-
-  /// Room that words must leave free.
-  void keep_clear(Point centre, double rx, double ry) {
-    taken_.push_back({centre.x - rx, centre.x + rx, centre.y - ry, centre.y + ry});
-  }
-  /// Writes at the first free one of these places, each the left, middle or right of the base
-  /// line as its anchor says; nowhere if none is free.
-  void place(const std::string& text, const std::string& colour,
-             const std::vector<std::pair<Point, std::string_view>>& places) {
-    const double width = 0.55 * kSize * static_cast<double>(text.size());
-    for (const auto& [at, anchor] : places) {
-      const double left = anchor == "start" ? 0 : anchor == "end" ? width : width / 2;
-      const Box box = {at.x - left, at.x - left + width, at.y - 0.85 * kSize, at.y + 0.35 * kSize};
-      if (!free(box)) continue;
-      taken_.push_back(box);
-      svg_.text(at, text, {kSize, anchor, colour});
-      return;
-    }
-  }
-
- private:
-  static constexpr double kSize = 5.5;
-  bool free(const Box& box) const {
-    const auto& c = view_.corner;
-    if (box.x0 < c.x || box.x1 > c.x + view_.width()) return false;
-    if (box.y0 < c.y || box.y1 > c.y + view_.height()) return false;
-    return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) {
-      return box.x0 < other.x1 && other.x0 < box.x1 && box.y0 < other.y1 && other.y0 < box.y1;
-    });
-  }
-
-  Svg& svg_;
-  const View& view_;
-  std::vector<Box> taken_;
-};
 
 Box course(const Map& map) {
   const auto& scenario = *map.scenario;
@@ -148,8 +77,8 @@ void draw_obstacles(Svg& svg, const Map& map, const View& view) {
   }
 }
 
-/// Names of the larger obstacles; with the instant for those that move.
-void name_obstacles(Labels& labels, const Map& map, const View& view) {
+/// Names of the larger obstacles, inside where there is room; with the instant for those that move.
+void name_obstacles(Svg& svg, Labels& labels, const Map& map, const View& view) {
   const auto count = map.obstacle_instants.size();
   for (const auto& o : map.scenario->obstacles) {
     const bool moves = o.vx != 0 || o.vy != 0;
@@ -159,9 +88,13 @@ void name_obstacles(Labels& labels, const Map& map, const View& view) {
       if (!view.shows(o.x_at(t), o.y_at(t))) continue;
       const auto name = moves ? fmt::format("{}, {} s", o.name, number(t, 1)) : o.name;
       const auto at = view.at(o.x_at(t), o.y_at(t));
+      if (count == 1 && view.scale * std::min(o.a, o.b) > 0.4 * kSmall * double(name.size())) {
+        svg.text({at.x, at.y + 2}, name, {kSmall, "middle", "#ffffff", true});
+        continue;
+      }
       const double across = view.scale * ((view.lying ? o.b : o.a) + map.scenario->loop.sm_crash);
       const double up = view.scale * ((view.lying ? o.a : o.b) + map.scenario->loop.sm_crash);
-      const std::pair<Point, std::string_view> left{{at.x - across - 2, at.y + 2}, "end"},
+      const Place left{{at.x - across - 2, at.y + 2}, "end"},
           right{{at.x + across + 2, at.y + 2}, "start"}, above{{at.x, at.y - up - 2}, "middle"},
           below{{at.x, at.y + up + 6}, "middle"};
       if (view.lying)
@@ -194,6 +127,24 @@ void draw_vehicle(Svg& svg, const vehicle::Parameters& p, const vehicle::State& 
   svg.polygon(corners, {colour, 1}, {"#ffffff", 0.4, "", 1});
 }
 
+/// Where the vehicle's plan wants its front axle, node by node, and where it takes the moving
+/// obstacles to be, if it holds them.
+void draw_plan(Svg& svg, const Map& map, const MapVehicle& v, const View& view) {
+  if (v.plan == nullptr) return;
+  std::vector<Point> points;
+  for (const auto& state : v.plan->states)
+    points.push_back(view.at(state[vehicle::X], state[vehicle::Y]));
+  svg.polyline(points, {v.stroke.colour, 0.7, "1 1.2", 1});
+  for (const auto& p : points) svg.ellipse(p, 1.3, 1.3, {v.stroke.colour, 1});
+  if (v.plan->obstacle_time_held < 0) return;
+  const double t = v.plan->obstacle_time_held, sm = map.scenario->loop.sm_crash;
+  for (const auto& o : map.scenario->obstacles)
+    if (o.vx != 0 || o.vy != 0)
+      svg.ellipse(view.at(o.x_at(t), o.y_at(t)), view.scale * ((view.lying ? o.b : o.a) + sm),
+                  view.scale * ((view.lying ? o.a : o.b) + sm), {},
+                  {v.stroke.colour, 0.7, "2 1.5", 1});
+}
+
 void draw_paper_positions(Svg& svg, const Map& map, const View& view) {
   for (const auto& v : map.vehicles)
     for (const auto& s : v.paper)
@@ -207,33 +158,57 @@ double label_offset(const Map& map, const View& view) {
   return std::max(7.0, map.scenario->vehicle.width * view.scale + 3);
 }
 
-std::vector<std::pair<Point, std::string_view>> beside(Point at, double off) {
-  std::vector<std::pair<Point, std::string_view>> places;
-  for (const double up : {2.0, -4.0, 8.0}) {
+std::vector<Place> beside(Point at, double off) {
+  std::vector<Place> places;
+  for (const double up : {2.0, -4.0, 8.0, -10.0, 14.0}) {
     places.push_back({{at.x + off, at.y + up}, "start"});
     places.push_back({{at.x - off, at.y + up}, "end"});
   }
   return places;
 }
 
-void draw_vehicles(Svg& svg, Labels& labels, const Map& map, const View& view) {
+/// A vehicle on the map at one instant.
+struct Standing {
+  const MapVehicle* vehicle;
+  double t;
+  vehicle::State state;
+  double row;  ///< of its label where the map lies
+};
+
+std::vector<Standing> standing(const Map& map, const View& view) {
+  std::vector<Standing> found;
   double row = 0;
   for (const auto& v : map.vehicles) {
     for (const double t : v.instants) {
       if (v.drive->plant.empty() || t > v.drive->time + 0.05) continue;
       const auto state = state_at(*v.drive, t);
-      if (!view.shows(state[vehicle::X], state[vehicle::Y])) continue;
-      draw_vehicle(svg, map.scenario->vehicle, state, v.stroke.colour, view);
-      const auto at = view.at(state[vehicle::X], state[vehicle::Y]);
-      const auto label = number(std::min(t, v.drive->time), 1) + " s";
-      const double top = view.corner.y + 7 + 6.5 * row;
-      if (view.lying)
-        labels.place(label, v.stroke.colour,
-                     {{{at.x, top}, "middle"}, {{at.x, top}, "start"}, {{at.x, top}, "end"}});
-      else
-        labels.place(label, v.stroke.colour, beside(at, label_offset(map, view)));
+      if (view.shows(state[vehicle::X], state[vehicle::Y]))
+        found.push_back({&v, std::min(t, v.drive->time), state, row});
     }
     ++row;
+  }
+  return found;
+}
+
+/// Who and when: beside the vehicle, or above the road with a line down to it. At the start all
+/// stand at one place, which needs no words.
+void name_vehicles(Svg& svg, Labels& labels, const Map& map, const View& view,
+                   const std::vector<Standing>& vehicles) {
+  for (const auto& one : vehicles) {
+    if (one.t == 0 && map.vehicles.size() > 1) continue;
+    const auto at = view.at(one.state[vehicle::X], one.state[vehicle::Y]);
+    const auto time = number(one.t, 1) + " s";
+    const auto& name = one.vehicle->label;
+    const auto label = map.vehicles.size() > 1 && !name.empty() ? name + ", " + time : time;
+    const auto& colour = one.vehicle->stroke.colour;
+    if (!view.lying) {
+      labels.place(label, colour, beside(at, label_offset(map, view)));
+      continue;
+    }
+    const double top = view.corner.y + 7 + kLabelRow * one.row;
+    if (labels.place(label, colour,
+                     {{{at.x, top}, "middle"}, {{at.x, top}, "start"}, {{at.x, top}, "end"}}))
+      svg.line({at.x, top + 1.5}, {at.x, at.y - 3}, {colour, 0.4, "1 1", 1});
   }
 }
 
@@ -284,11 +259,19 @@ void draw_view(Svg& svg, const Map& map, const View& view, bool x_label) {
   svg.begin_clip(view.corner, view.width(), view.height());
   draw_obstacles(svg, map, view);
   for (const auto& v : map.vehicles) draw_path(svg, v, view);
+  const auto vehicles = standing(map, view);
+  for (const auto& one : vehicles)
+    draw_vehicle(svg, map.scenario->vehicle, one.state, one.vehicle->stroke.colour, view);
+  for (const auto& v : map.vehicles) draw_plan(svg, map, v, view);
+  draw_paper_positions(svg, map, view);
   Labels labels(svg, view);
   keep_clear(labels, map, view);
-  draw_vehicles(svg, labels, map, view);
-  draw_paper_positions(svg, map, view);
-  name_obstacles(labels, map, view);
+  for (const auto& one : vehicles) {
+    const double half = std::max(3.5, 0.6 * map.scenario->vehicle.length * view.scale);
+    labels.keep_clear(view.at(one.state[vehicle::X], one.state[vehicle::Y]), half / 2, half);
+  }
+  name_vehicles(svg, labels, map, view, vehicles);
+  name_obstacles(svg, labels, map, view);
   svg.end_clip();
   svg.rect(view.corner, view.width(), view.height(), {}, {colours::muted, 0.6, "", 1});
 }
@@ -300,6 +283,10 @@ std::vector<Series> legend(const Map& map) {
     entries.push_back({v.label, {}, {}, v.stroke, false, false});
     paper |= !v.paper.empty();
   }
+  const auto planned = std::find_if(map.vehicles.begin(), map.vehicles.end(),
+                                    [](const auto& v) { return v.plan != nullptr; });
+  if (planned != map.vehicles.end())
+    entries.push_back({"plan", {}, {}, {planned->stroke.colour, 0.7, "1 1.2", 1}, true, false});
   if (paper) entries.push_back({"paper’s positions", {}, {}, {colours::ink, 0, "", 1}, true, true});
   return entries;
 }
@@ -333,7 +320,7 @@ std::string map_svg(const std::string& name, const std::string& title, const Map
   const double wide = box.x1 - box.x0, tall = box.y1 - box.y0;
   if (tall > 6 * wide) {
     // Room above and below the road for the instants and names.
-    box.x0 -= 8 + 8 * static_cast<double>(map.vehicles.size());
+    box.x0 -= 10 + 11 * static_cast<double>(map.vehicles.size());
     box.x1 += 8;
     std::vector<View> strips;
     for (int i = 0; i < 3; ++i) {

@@ -17,6 +17,7 @@ struct MapVehicle {
   Stroke stroke;
   std::vector<double> instants;             ///< [s]; those after the drive's end are left out
   std::vector<PaperDrive::Snapshot> paper;  ///< positions to mark beside it
+  const planner::Plan* plan = nullptr;      ///< drawn with what it takes obstacles for, if any
 };
 
 /// A top view of a scenario for print, to scale.

@@ -79,6 +79,24 @@ Range y_range(const Plot& plot) {
   return range;
 }
 
+Ticks ticks_of(double lo, double hi, int count) {
+  Ticks ticks;
+  const double raw = (hi - lo) / std::max(count, 1);
+  if (!(raw > 0) || !std::isfinite(raw)) {
+    ticks.at = {lo};
+    return ticks;
+  }
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double m : {1.0, 2.0, 5.0, 10.0}) {
+    ticks.step = m * power;
+    if (ticks.step >= raw * 0.999) break;
+  }
+  const double first = std::ceil(lo / ticks.step - 1e-9);
+  for (double i = first; i * ticks.step <= hi + 1e-9 * ticks.step; ++i)
+    ticks.at.push_back(i * ticks.step);
+  return ticks;
+}
+
 std::vector<double> log_ticks(const Range& range) {
   std::vector<double> at;
   const bool many = range.hi / range.lo < 60;
@@ -107,8 +125,11 @@ void draw_x_axis(Svg& svg, const Plot& plot, const Frame& frame) {
   const double bottom = frame.corner.y + frame.height;
   for (const double v : ticks.at) {
     svg.line({frame.px(v), frame.corner.y}, {frame.px(v), bottom}, {colours::grid, 0.5, "", 1});
-    if (plot.x_tick_labels)
-      svg.text({frame.px(v), bottom + 8.5}, number(v, ticks.digits()), {kTickFont, "middle"});
+    if (!plot.x_tick_labels) continue;
+    const auto label = number(v, ticks.digits());
+    const double half = 0.32 * kTickFont * static_cast<double>(label.size());
+    const double most = frame.corner.x + frame.width + kRight - half;
+    svg.text({std::min(frame.px(v), most), bottom + 8.5}, label, {kTickFont, "middle"});
   }
   if (plot.x_tick_labels)
     svg.text({frame.corner.x + frame.width / 2, bottom + kTickRow + 7.5}, plot.x_label,
@@ -159,20 +180,10 @@ int Ticks::digits() const {
 }
 
 Ticks nice_ticks(double lo, double hi, int count) {
-  Ticks ticks;
-  const double raw = (hi - lo) / std::max(count, 1);
-  if (!(raw > 0) || !std::isfinite(raw)) {
-    ticks.at = {lo};
-    return ticks;
-  }
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (const double m : {1.0, 2.0, 5.0, 10.0}) {
-    ticks.step = m * power;
-    if (ticks.step >= raw * 0.999) break;
-  }
-  const double first = std::ceil(lo / ticks.step - 1e-9);
-  for (double i = first; i * ticks.step <= hi + 1e-9 * ticks.step; ++i)
-    ticks.at.push_back(i * ticks.step);
+  auto ticks = ticks_of(lo, hi, count);
+  // One tick is no scale.
+  for (int more = count + 1; count > 1 && ticks.at.size() < 2 && more <= 3 * count; ++more)
+    ticks = ticks_of(lo, hi, more);
   return ticks;
 }
 

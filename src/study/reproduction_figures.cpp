@@ -15,30 +15,91 @@
 namespace slalom::study {
 namespace {
 
+using Group = std::vector<const ReproducedDrive*>;
+
+constexpr double kDeg = 180 / std::numbers::pi;
+const Stroke kLimit = {colours::muted, 0.7, "3 2", 1};
+
+bool brakes_hard(const ReproducedDrive& one) {
+  return std::any_of(one.drive.plant.begin(), one.drive.plant.end(), [&](const auto& s) {
+    return s.state[vehicle::AX] < one.scenario.vehicle.ax_min_at(s.state[vehicle::UX]) / 2;
+  });
+}
+
+/// ax of each drive with its limits at the speeds driven: the upper one of each, the lower one
+/// where a vehicle comes near it.
+Plot acceleration_plot(const Group& group) {
+  Plot plot{.x_label = "t [s]", .y_label = "ax [m/s²]"};
+  for (const auto* one : group) {
+    const auto stroke = planner_stroke(one->scenario.planner.name);
+    Stroke limit = stroke;
+    limit.width = 0.5;
+    limit.dash = "1 1.5";
+    plot.series.push_back(state_series("", one->drive, vehicle::AX, 1, stroke));
+    plot.series.push_back(limit_series("", one->drive, one->scenario.vehicle, true, limit));
+    if (brakes_hard(*one))
+      plot.series.push_back(limit_series("", one->drive, one->scenario.vehicle, false, limit));
+  }
+  return plot;
+}
+
 /// The paper's column of traces: solve time, sa, ux, ax.
-Figure traces_figure(const std::vector<const ReproducedDrive*>& group) {
+Figure traces_figure(const Group& group) {
   const auto& scenario = group.front()->scenario;
-  Plot solve{.x_label = "planning cycle", .y_label = "solve time [s]"};
-  solve.levels = {{scenario.loop.tex, "execution horizon", {colours::purple, 0.9, "3 2", 1}}};
+  Plot solve{.x_label = "planning cycle", .y_label = "solve time [ms]"};
+  solve.levels = {{1e3 * scenario.loop.tex, "execution horizon", {colours::purple, 0.9, "3 2", 1}}};
   solve.log_y = true;
   Plot sa{.x_label = "t [s]", .y_label = "sa [rad]", .x_tick_labels = false};
   Plot ux{.x_label = "t [s]", .y_label = "ux [m/s]", .x_tick_labels = false};
-  Plot ax{.x_label = "t [s]", .y_label = "ax [m/s²]"};
   for (const auto* one : group) {
     const auto& name = one->scenario.planner.name;
     const auto stroke = planner_stroke(name);
     solve.series.push_back(solve_time_series(name, one->drive, false, stroke));
     sa.series.push_back(state_series(name, one->drive, vehicle::SA, 1, stroke));
     ux.series.push_back(state_series(name, one->drive, vehicle::UX, 1, stroke));
-    ax.series.push_back(state_series(name, one->drive, vehicle::AX, 1, stroke));
   }
   const auto name = plain_name(scenario.name) + "_traces";
-  return {name + ".svg",
-          scenario.name + ": solve time of each cycle, steering angle, speed, acceleration",
-          stacked_svg(name, scenario.name + ": traces", {solve, sa, ux, ax}, 98)};
+  return {
+      name + ".svg",
+      scenario.name +
+          ": solve time of each cycle, steering angle, speed, acceleration with its limits at "
+          "the speed driven (dotted)",
+      stacked_svg(name, scenario.name + ": traces", {solve, sa, ux, acceleration_plot(group)}, 98)};
 }
 
-Map group_map(const std::vector<const ReproducedDrive*>& group, const PaperData& paper) {
+/// What the paper's column leaves out: lateral speed, yaw rate, the controls with their bounds, the
+/// least wheel load with its limits.
+Figure dynamics_figure(const Group& group) {
+  const auto& scenario = group.front()->scenario;
+  const auto& limits = scenario.vehicle;
+  Plot v{.x_label = "t [s]", .y_label = "v [m/s]", .x_tick_labels = false};
+  Plot r{.x_label = "t [s]", .y_label = "r [°/s]", .x_tick_labels = false};
+  Plot sr{.x_label = "t [s]", .y_label = "sr [°/s]", .x_tick_labels = false};
+  Plot jx{.x_label = "t [s]", .y_label = "jx [m/s³]", .x_tick_labels = false};
+  Plot load{.x_label = "t [s]", .y_label = "least Fz [kN]"};
+  for (const auto* one : group) {
+    const auto& name = one->scenario.planner.name;
+    const auto stroke = planner_stroke(name);
+    v.series.push_back(state_series(name, one->drive, vehicle::V, 1, stroke));
+    r.series.push_back(state_series(name, one->drive, vehicle::R, kDeg, stroke));
+    sr.series.push_back(control_series(name, one->drive, vehicle::SR, kDeg, stroke));
+    jx.series.push_back(control_series(name, one->drive, vehicle::JX, 1, stroke));
+    load.series.push_back(least_wheel_series(name, one->drive, 1e-3, stroke));
+  }
+  sr.levels = {{limits.sr_max_deg, "bound", kLimit}, {-limits.sr_max_deg, "", kLimit}};
+  jx.levels = {{limits.jx_max, "bound", kLimit}, {-limits.jx_max, "", kLimit}};
+  load.levels = {
+      {limits.Fz_min / 1000, "least in a plan", kLimit},
+      {scenario.loop.Fz_failure / 1000, "failure", {colours::purple, 0.7, "3 2", 1}, true}};
+  load.y_min = 0;
+  const auto name = plain_name(scenario.name) + "_dynamics";
+  return {name + ".svg",
+          scenario.name +
+              ": lateral speed, yaw rate, steering rate, longitudinal jerk, least wheel load",
+          stacked_svg(name, scenario.name + ": dynamics", {v, r, sr, jx, load}, 84)};
+}
+
+Map group_map(const Group& group, const PaperData& paper) {
   Map map;
   map.scenario = &group.front()->scenario;
   double longest = -1;
@@ -61,7 +122,7 @@ Map group_map(const std::vector<const ReproducedDrive*>& group, const PaperData&
   return map;
 }
 
-Figure path_figure(const std::vector<const ReproducedDrive*>& group, const PaperData& paper) {
+Figure path_figure(const Group& group, const PaperData& paper) {
   const auto map = group_map(group, paper);
   const auto name = plain_name(map.scenario->name) + "_path";
   return {
@@ -72,24 +133,34 @@ Figure path_figure(const std::vector<const ReproducedDrive*>& group, const Paper
       map_svg(name, map.scenario->name + ": paths", map)};
 }
 
+/// The plan that drives at time t; nullptr before the first takes over.
+const planner::Plan* plan_at(const sim::Drive& drive, double t) {
+  const planner::Plan* plan = nullptr;
+  for (const auto& cycle : drive.cycles)
+    if (cycle.used && cycle.t_swap <= t) plan = &cycle.plan;
+  return plan;
+}
+
 /// The moment of a crash, with the others where they are just then.
-Figure crash_figure(const std::vector<const ReproducedDrive*>& group, const ReproducedDrive& crash,
-                    const PaperData& paper) {
+Figure crash_figure(const Group& group, const ReproducedDrive& crash, const PaperData& paper,
+                    const std::string& suffix) {
   auto map = group_map(group, paper);
   const double t = crash.drive.time;
   map.obstacle_instants = {t};
   for (auto& vehicle : map.vehicles) {
     vehicle.instants = {t};
     std::erase_if(vehicle.paper, [&](const auto& s) { return std::abs(s.t - t) > 0.1; });
+    if (vehicle.drive == &crash.drive) vehicle.plan = plan_at(crash.drive, t);
   }
   const auto& state = crash.drive.plant.back().state;
-  const auto name = plain_name(map.scenario->name) + "_crash";
-  return {
-      name + ".svg",
-      fmt::format("{}: {} s, the vehicle of {} touches the grown edge of {}", map.scenario->name,
-                  fmt::format("{:.2f}", t), crash.scenario.planner.name, crash.drive.hit),
-      zoom_svg(name, map.scenario->name + ": crash", map, state[vehicle::X], state[vehicle::Y],
-               12)};
+  const auto name = plain_name(map.scenario->name + "_crash" + suffix);
+  return {name + ".svg",
+          fmt::format(
+              "{}: {:.2f} s, the vehicle of {} touches the grown edge of {}; its plan then, node "
+              "by node, and where that plan takes a moving obstacle to stand (dashed)",
+              map.scenario->name, t, crash.scenario.planner.name, crash.drive.hit),
+          zoom_svg(name, map.scenario->name + ": crash", map, state[vehicle::X], state[vehicle::Y],
+                   12)};
 }
 
 }  // namespace
@@ -99,12 +170,15 @@ std::vector<Figure> reproduction_figures(const std::vector<ReproducedDrive>& dri
   std::vector<Figure> figures;
   for (const auto& group : by_environment(drives)) {
     figures.push_back(traces_figure(group));
+    figures.push_back(dynamics_figure(group));
     figures.push_back(path_figure(group, paper));
-    for (const auto* one : group)
-      if (one->drive.outcome == sim::Outcome::crash && !one->drive.plant.empty()) {
-        figures.push_back(crash_figure(group, *one, paper));
-        break;
-      }
+    bool first = true;
+    for (const auto* one : group) {
+      if (one->drive.outcome != sim::Outcome::crash || one->drive.plant.empty()) continue;
+      figures.push_back(
+          crash_figure(group, *one, paper, first ? "" : "_" + one->scenario.planner.name));
+      first = false;
+    }
   }
   return figures;
 }

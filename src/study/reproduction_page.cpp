@@ -13,6 +13,11 @@
 namespace slalom::study {
 namespace {
 
+std::string note_html(const PaperData& paper, const char* topic) {
+  const auto text = note(paper, topic);
+  return text.empty() ? "" : fmt::format("<p class=\"remark\">{}</p>\n", escape(text));
+}
+
 /// One row of figures an environment, as the paper sets them: traces, paths, a closer look.
 std::string figures_html(const std::vector<ReproducedDrive>& drives, const PaperData& paper) {
   std::string html;
@@ -23,7 +28,7 @@ std::string figures_html(const std::vector<ReproducedDrive>& drives, const Paper
                         plain_name(scenario.name), escape(scenario.name), escape(scenario.title));
     for (const auto& figure : figures)
       if (figure.file.rfind(plain_name(scenario.name) + "_", 0) == 0) html += figure_html(figure);
-    html += "</div>\n";
+    html += "</div>\n" + note_html(paper, scenario.name.c_str());
   }
   return html;
 }
@@ -62,11 +67,6 @@ std::string settings_line(const std::vector<ReproducedDrive>& drives) {
   return fmt::format(
       "{} drives by the same settings: barrier floor {:g}, execution horizon {:g} s.",
       drives.size(), s.planner.floor, s.loop.tex);
-}
-
-std::string note_html(const PaperData& paper, const char* topic) {
-  const auto text = note(paper, topic);
-  return text.empty() ? "" : fmt::format("<p class=\"remark\">{}</p>\n", escape(text));
 }
 
 }  // namespace

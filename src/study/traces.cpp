@@ -1,5 +1,6 @@
 #include "traces.hpp"
 
+#include <algorithm>
 #include <functional>
 
 #include "words.hpp"
@@ -39,6 +40,13 @@ Series wheel_series(const std::string& label, const sim::Drive& drive, std::size
                       [=](const sim::PlantSample& s) { return factor * s.wheel_loads[wheel]; });
 }
 
+Series least_wheel_series(const std::string& label, const sim::Drive& drive, double factor,
+                          const Stroke& stroke) {
+  return plant_series(label, drive, stroke, [=](const sim::PlantSample& s) {
+    return factor * *std::min_element(s.wheel_loads.begin(), s.wheel_loads.end());
+  });
+}
+
 Series limit_series(const std::string& label, const sim::Drive& drive,
                     const vehicle::Parameters& vehicle, bool upper, const Stroke& stroke) {
   return plant_series(label, drive, stroke, [&](const sim::PlantSample& s) {
@@ -53,7 +61,10 @@ Series solve_time_series(const std::string& label, const sim::Drive& drive, bool
   series.label = label;
   series.stroke = stroke;
   series.y = solve_times(drive, cpu);
-  for (std::size_t i = 0; i < series.y.size(); ++i) series.x.push_back(static_cast<double>(i + 1));
+  for (std::size_t i = 0; i < series.y.size(); ++i) {
+    series.x.push_back(static_cast<double>(i + 1));
+    series.y[i] *= 1e3;
+  }
   return series;
 }
 

@@ -62,8 +62,8 @@ class Reproduction(unittest.TestCase):
         self.assertAlmostEqual(drive.end["clearance"], 0, delta=1e-6)
         return drive
 
-    def test_there_are_ten_and_a_page(self):
-        self.assertEqual(len(DRIVES), 10 + 1)
+    def test_there_are_ten_four_variants_and_a_page(self):
+        self.assertEqual(len(DRIVES), 10 + 4 + 1)
         self.assertTrue(DRIVES["page"].is_file())
 
     def test_a_arrives_late_and_slows(self):
@@ -100,6 +100,16 @@ class Reproduction(unittest.TestCase):
         self.assertGreaterEqual(c.end["ux"], 25.5)
         self.assertLessEqual(c.end["ux"], 27.5)
         self.arrives("E_C", "P_D", 27, 29)
+
+    def test_seen_50_m_ahead_both_crash_into_o2(self):
+        self.crashes("E_C-range-50", "P_C", "O2", 19.5, 21.5)
+        self.crashes("E_C-range-50", "P_D", "O2", 19.5, 21.5)
+
+    def test_without_cones_the_lane_is_changed_earlier(self):
+        for planner in ("P_C", "P_D"):
+            y, y_cones = (next(row["y"] for row in DRIVES[environment, planner].plant
+                               if row["x"] >= 12) for environment in ("E_C-no-cones", "E_C"))
+            self.assertLess(y, y_cones / 2)
 
     def test_snapshots(self):
         compared = 0

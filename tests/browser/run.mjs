@@ -12,6 +12,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { lookAt, openBrowser } from './browser.mjs';
+import { legibility } from './legibility.mjs';
 
 const out = process.env.SLALOM_TEST_DIR || join(tmpdir(), 'slalom-browser-test');
 mkdirSync(out, { recursive: true });
@@ -298,7 +299,8 @@ describe('the page of a sweep', () => {
 });
 
 describe('figures for print', () => {
-  const folders = [driveDir, reproduceDir, sweepDir].map((folder) => join(folder, 'figures'));
+  const folders = [driveDir, reproduceDir, sweepDir, join(reproduceDir, 'E_A', 'P_A'),
+    join(reproduceDir, 'E_C', 'P_C')].map((folder) => join(folder, 'figures'));
   const files = folders.flatMap((f) => readdirSync(f).filter((n) => n.endsWith('.svg')).map((n) => join(f, n)));
 
   test('are pictures without scripts', async () => {
@@ -312,8 +314,30 @@ describe('figures for print', () => {
         const shapes = await page.evaluate(() => document.querySelectorAll('polyline, ellipse, line').length);
         assert.ok(shapes > 5, `${file}: ${shapes} shapes`);
         assert.deepEqual(complaints, [], file);
+        const { font, line, overlaps, outside } = await legibility(page);
+        assert.ok(font >= 6 - 1e-9, `${file}: letters of ${font} pt at 8 cm`);
+        assert.ok(line >= 0.3, `${file}: a line of ${line} pt at 8 cm`);
+        assert.deepEqual({ overlaps, outside }, { overlaps: [], outside: [] }, file);
         await page.close();
       }
+    } finally {
+      await browser.close();
+    }
+  });
+
+  test('are judged by what can be read of them', async () => {
+    const words = (size, x) => `<text x="${x}" y="50" font-size="${size}">solve time</text>`;
+    const file = join(out, 'illegible.svg');
+    writeFileSync(file, `<svg xmlns="http://www.w3.org/2000/svg" width="453.54pt" height="100pt"
+      viewBox="0 0 453.54 100">${words(10, 5)}${words(20, 30)}${words(20, 440)}
+      <line x1="0" y1="0" x2="9" y2="9" stroke="#000" stroke-width="0.5"/></svg>`);
+    const browser = await openBrowser();
+    try {
+      const { page } = await browser.open(file);
+      const { font, line, overlaps, outside } = await legibility(page);
+      assert.ok(Math.abs(font - 5) < 1e-3 && Math.abs(line - 0.25) < 1e-3, `${font}, ${line}`);
+      assert.equal(overlaps.length, 1);
+      assert.deepEqual(outside, ['solve time']);
     } finally {
       await browser.close();
     }

@@ -130,12 +130,12 @@ class Plan(ProgramTest):
 
 
 class Reproduce(ProgramTest):
-    def test_all_ten_drives_end_as_the_papers(self):
+    def test_the_drives_end_as_the_papers(self):
         out = self.folder / "out"
         result = run("reproduce", "--out", out, "--json", "--expect", "paper")
         self.assertEqual((result.code, result.err), (0, ""))
         drives = json.loads(result.out)
-        self.assertEqual(len(drives), 10)
+        self.assertEqual(len(drives), 14)
         for drive in drives:
             folder = out / drive["scenario"] / drive["planner"]
             self.assertEqual(json.loads((folder / "summary.json").read_text()), drive)
@@ -143,6 +143,20 @@ class Reproduce(ProgramTest):
         self.assertTrue((out / "index.html").exists())
         self.assertTrue(list((out / "figures").glob("*.svg")))
         self.assert_refused(run("reproduce", "--out", out), 3, "holds results already", "--force")
+
+
+class Variants(ProgramTest):
+    def test_they_are_e_c_but_for_what_they_are_named_for(self):
+        def resolved(name):
+            return re.sub(r"\n(name|title): .*", "", "\n" + run("check", name).out)
+
+        whole = resolved("E_C")
+        cones = re.compile(r'\n  - \{name: "cone\d+".*')
+        self.assertEqual(len(cones.findall(whole)), 36)
+        self.assertEqual(resolved("E_C-no-cones"), cones.sub("", whole))
+        seen = run("check", "E_C", "--set", "planner.L_range=50", "--set", "planner.N=10",
+                   "--set", "planner.kappa=5").out
+        self.assertEqual(resolved("E_C-range-50"), re.sub(r"\n(name|title): .*", "", "\n" + seen))
 
 
 class Others(ProgramTest):
@@ -159,7 +173,8 @@ class Others(ProgramTest):
     def test_list(self):
         listed = json.loads(run("list", "--json").out)
         names = {kind: [entry["name"] for entry in entries] for kind, entries in listed.items()}
-        self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C"],
+        self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C",
+                                               "E_C-no-cones", "E_C-range-50"],
                                  "planners": ["P_A", "P_B", "P_C", "P_D"],
                                  "vehicles": ["hmmwv"],
                                  "studies": ["latency", "paper", "paper-printed"]})

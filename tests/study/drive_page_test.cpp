@@ -65,7 +65,7 @@ TEST(DriveFigures, AreWellFormed) {
   list.push_back({"a whole drive", synthetic_scenario(), synthetic_drive()});
   for (const auto& odd : list) {
     const auto figures = drive_figures(odd.scenario, odd.drive);
-    ASSERT_EQ(figures.size(), 6u);
+    ASSERT_EQ(figures.size(), 7u);
     for (const auto& figure : figures) {
       SCOPED_TRACE(odd.name + ": " + figure.file);
       EXPECT_NO_THROW(parse_xml(figure.svg));
@@ -79,8 +79,9 @@ TEST(DriveFigures, HaveTheNamesThatAreDocumented) {
   std::vector<std::string> names;
   for (const auto& figure : drive_figures(synthetic_scenario(), synthetic_drive()))
     names.push_back(figure.file);
-  EXPECT_EQ(names, (std::vector<std::string>{"path.svg", "speed.svg", "acceleration.svg",
-                                             "steering.svg", "wheel_loads.svg", "solve_time.svg"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"path.svg", "speed.svg", "acceleration.svg", "steering.svg",
+                                      "lateral.svg", "wheel_loads.svg", "solve_time.svg"}));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <sstream>
 
 #include "study/markup.hpp"
 
@@ -41,9 +42,39 @@ TEST(Ticks, HaveEnoughDigitsToBeToldApart) {
   EXPECT_EQ(nice_ticks(0, 500, 5).digits(), 0);
 }
 
+TEST(Ticks, AreAtLeastTwo) {
+  // Three ticks wanted of a step of 1 would leave 0 alone.
+  EXPECT_EQ(nice_ticks(-.9, .95, 3).at, (std::vector<double>{-.5, 0, .5}));
+  EXPECT_GE(nice_ticks(17.1, 18.9, 2).at.size(), 2u);
+}
+
 TEST(Ticks, OfAnEmptyRangeAreOne) {
   EXPECT_EQ(nice_ticks(3, 3, 5).at, std::vector<double>{3});
   EXPECT_EQ(nice_ticks(-1, 1, 0).at, std::vector<double>{0});
+}
+
+TEST(Svg, LinesKeepTheirShapeWithFewPoints) {
+  Svg svg("name", 100, 100, "title");
+  std::vector<Point> points;
+  for (int i = 0; i <= 1000; ++i) {
+    const double x = 0.1 * i;
+    points.push_back({x, x < 50 ? 20 : 20 + 30 * std::sin((x - 50) / 10)});
+  }
+  svg.polyline(points, {colours::blue});
+  const auto list = testing::parse_xml(svg.str()).get<std::string>("svg.polyline.<xmlattr>.points");
+  std::stringstream text(list);
+  std::vector<Point> kept;
+  char comma = 0;
+  for (Point p; text >> p.x >> comma >> p.y;) kept.push_back(p);
+  ASSERT_GT(kept.size(), 20u);
+  EXPECT_LT(kept.size(), 100u);
+  for (const auto& p : points) {
+    std::size_t k = 1;
+    while (k + 1 < kept.size() && kept[k].x < p.x) ++k;
+    const auto& a = kept[k - 1];
+    const auto& b = kept[k];
+    EXPECT_NEAR(a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x), p.y, 0.2) << p.x;
+  }
 }
 
 TEST(PlotSvg, IsWellFormedAndEightCentimetresWide) {

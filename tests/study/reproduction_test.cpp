@@ -102,16 +102,63 @@ TEST(ReproductionFigures, AreOneGroupAnEnvironment) {
     names.push_back(figure.file);
     EXPECT_NO_THROW(parse_xml(figure.svg)) << figure.file;
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"E_A_traces.svg", "E_A_path.svg",
-                                             "E_A-figure_traces.svg", "E_A-figure_path.svg",
-                                             "E_B_traces.svg", "E_B_path.svg", "E_B_crash.svg",
-                                             "E_C_traces.svg", "E_C_path.svg", "E_C_crash.svg"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "E_A_traces.svg", "E_A_dynamics.svg", "E_A_path.svg",
+                       "E_A-figure_traces.svg", "E_A-figure_dynamics.svg", "E_A-figure_path.svg",
+                       "E_B_traces.svg", "E_B_dynamics.svg", "E_B_path.svg", "E_B_crash.svg",
+                       "E_C_traces.svg", "E_C_dynamics.svg", "E_C_path.svg", "E_C_crash.svg"}));
 }
 
 TEST(ReproductionFigures, MarkThePapersPositions) {
   for (const auto& figure : reproduction_figures(all_drives(), paper_data()))
     EXPECT_EQ(count(figure.svg, ">paper’s positions</text>"), figure.file == "E_C_path.svg")
         << figure.file;
+}
+
+TEST(ReproductionFigures, ShowEachCrashWithItsPlan) {
+  auto crash = synthetic_drive();
+  crash.outcome = sim::Outcome::crash;
+  crash.hit = "O2";
+  const auto figures = reproduction_figures(
+      {reproduced("E_C", "P_C", crash), reproduced("E_C", "P_D", crash)}, paper_data());
+  ASSERT_EQ(figures.size(), 5u);
+  EXPECT_EQ(figures[3].file, "E_C_crash.svg");
+  EXPECT_EQ(figures[4].file, "E_C_crash_P_D.svg");
+  EXPECT_EQ(count(figures[3].svg, ">plan</text>"), 1);
+  // The plan that drives at 4 s is the sixth, of 3 s: it holds O2, whose edge is drawn once more.
+  EXPECT_EQ(count(figures[3].svg, "stroke-dasharray=\"2 1.5\""), 1);
+  EXPECT_EQ(count(figures[2].svg, ">plan</text>"), 0);
+}
+
+TEST(ReproductionFigures, ShowTheLimitsOfAccelerationThatAreNear) {
+  auto braking = synthetic_drive();
+  for (auto& sample : braking.plant) sample.state[vehicle::AX] = -4;
+  const auto limits = [](const sim::Drive& drive) {
+    const auto figures = reproduction_figures({reproduced("E_B", "P_D", drive)}, {});
+    return count(figures.front().svg, "stroke-dasharray=\"1 1.5\"");
+  };
+  EXPECT_EQ(limits(synthetic_drive()), 1);
+  EXPECT_EQ(limits(braking), 2);
+}
+
+ReproducedDrive with_x(const std::string& environment, const std::string& planner, double slope) {
+  auto drive = synthetic_drive();
+  for (auto& s : drive.plant) s.state[vehicle::X] = slope * s.t;
+  return reproduced(environment, planner, drive);
+}
+
+TEST(ReproductionPage, SaysWhereTheLaneIsChangedWithoutCones) {
+  const auto verdict = [](double slope, double slope_with_cones) {
+    const auto page = reproduction_page(
+        {with_x("E_C", "P_D", slope_with_cones), with_x("E_C-no-cones", "P_D", slope)}, {});
+    std::smatch found;
+    const std::regex row("(yes|no)</span></td><td>E_C without cones[^<]*</td><td>([^<;]*)");
+    return std::regex_search(page, found, row) ? found[1].str() + ": " + found[2].str() : "";
+  };
+  // Into x = 12 after 12 / slope seconds, at 17 m/s along y.
+  EXPECT_EQ(verdict(6, 4), "yes: at y = 34 m, with cones at y = 51 m");
+  EXPECT_EQ(verdict(4, 6), "no: at y = 51 m, with cones at y = 34 m");
+  EXPECT_EQ(verdict(0, 6), "no: at y = – m, with cones at y = 34 m");
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ struct Figure {
 /// One self-contained HTML page on which the drive plays; works offline.
 std::string drive_page(const sim::Scenario& scenario, const sim::Drive& drive);
 
-/// The drive's pictures, fit for print at 8 cm width: path, speed, acceleration, steering, wheel
-/// loads, solve time.
+/// The drive's pictures, fit for print at 8 cm width: path, speed, acceleration, steering, lateral
+/// motion, wheel loads, solve time.
 std::vector<Figure> drive_figures(const sim::Scenario& scenario, const sim::Drive& drive);
 
 }  // namespace slalom::study

@@ -47,7 +47,7 @@ struct PaperData {
   };
   Effort effort_P_B, effort_P_C;
   /// What a reader must know about one table of the page. Topics: outcomes, floor, effort,
-  /// positions, solve_times, speeds.
+  /// positions, solve_times, speeds, or an environment's name.
   struct Note {
     std::string topic, text;
   };

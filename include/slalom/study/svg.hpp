@@ -28,6 +28,7 @@ struct Font {
   std::string colour = "#17212c";
   bool bold = false;
   double rotate = 0;  ///< about the text's point [deg], counter-clockwise
+  bool halo = false;  ///< on white, to be read across lines
 };
 
 /// A small SVG document, fit for print: sizes in points, fonts by generic family, no script, no
@@ -38,7 +39,8 @@ class Svg {
   Svg(const std::string& name, double width, double height, std::string title);
 
   void line(Point a, Point b, const Stroke& stroke);
-  /// Breaks at points that are not finite.
+  /// Breaks at points that are not finite; those that cannot be told from a straight line are left
+  /// out.
   void polyline(const std::vector<Point>& points, const Stroke& stroke);
   void polygon(const std::vector<Point>& points, const Fill& fill, const Stroke& stroke = {});
   void rect(Point corner, double width, double height, const Fill& fill, const Stroke& stroke = {});
