@@ -17,22 +17,22 @@ struct MergeOptions {
 };
 
 int merge(const MergeOptions& options) {
-  study::SweepTable table;
+  io::SweepContent merged;
   write_or_fail([&] {
-    table =
+    merged =
         io::merge_sweeps({options.from.begin(), options.from.end()}, options.out, options.force);
   });
-  const auto found = static_cast<std::int64_t>(table.trials.size());
+  const auto& study = merged.study;
   if (options.json)
-    print(nlohmann::ordered_json({{"study", table.name},
-                                  {"trials", table.size},
-                                  {"merged", found},
-                                  {"missing", table.size - found}})
+    print(nlohmann::ordered_json({{"study", study.name},
+                                  {"trials", study.size},
+                                  {"merged", merged.trials},
+                                  {"missing", study.size - merged.trials}})
               .dump(2) +
           "\n");
   else if (!options.quiet)
-    print(fmt::format("{} of {} trials of {}, written to {}/trials.csv\n", found, table.size,
-                      table.name, options.out));
+    print(fmt::format("{} of {} trials of {}, written to {}/trials.csv\n", merged.trials,
+                      study.size, study.name, options.out));
   return kOk;
 }
 

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
+#include "slalom/io/open_sweep.hpp"
 #include "slalom/io/sweep.hpp"
 #include "sweep_progress.hpp"
 

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <set>
+#include <utility>
 
 #include "slalom/base/error.hpp"
 #include "slalom/io/drive_files.hpp"
@@ -24,8 +25,7 @@ constexpr const char* kResults[] = {"plant.csv",    "plans.csv",     "cycles.csv
   throw Error(fmt::format("{}: cannot be written ({})", path.string(), std::strerror(error)));
 }
 
-/// Writes all of `text`; 0 or the errno of what went wrong. A full disk may show as late as in
-/// fsync or close, so all three are asked.
+/// Writes all of `text`; 0 or the errno of what went wrong.
 int write_all(int descriptor, const std::string& text) {
   std::size_t done = 0;
   while (done < text.size()) {
@@ -34,7 +34,15 @@ int write_all(int descriptor, const std::string& text) {
     if (count <= 0) return count == 0 ? ENOSPC : errno;
     done += static_cast<std::size_t>(count);
   }
-  return ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+  return 0;
+}
+
+/// Flushes and closes; `problem` is the first errno so far, and stays. A full disk may show as late
+/// as here.
+int flush_and_close(int descriptor, int problem) {
+  if (problem == 0 && ::fsync(descriptor) != 0 && errno != EINVAL) problem = errno;
+  if (::close(descriptor) != 0 && problem == 0) problem = errno;
+  return problem;
 }
 
 /// Makes a rename survive a power cut; a file system that cannot is no reason to fail.
@@ -58,6 +66,11 @@ FileSet::~FileSet() {
 }
 
 void FileSet::add(const fs::path& path, const std::string& text) {
+  const std::string* rest = &text;
+  add(path, [&] { return rest == nullptr ? std::string() : *std::exchange(rest, nullptr); });
+}
+
+void FileSet::add(const fs::path& path, const std::function<std::string()>& next_part) {
   const auto folder = folder_of(path);
   std::error_code error;
   if (!fs::exists(folder, error)) {
@@ -71,8 +84,15 @@ void FileSet::add(const fs::path& path, const std::string& text) {
   const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(path, errno);
   pending_.push_back({aside, path});
-  int problem = write_all(descriptor, text);
-  if (::close(descriptor) != 0 && problem == 0) problem = errno;
+  int problem = 0;
+  try {
+    for (auto part = next_part(); problem == 0 && !part.empty(); part = next_part())
+      problem = write_all(descriptor, part);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
+  }
+  problem = flush_and_close(descriptor, problem);
   if (problem != 0) fail(path, problem);
 }
 
@@ -112,7 +132,7 @@ void prepare_folder(const fs::path& folder, bool force) {
   const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   int problem = descriptor < 0 ? errno : write_all(descriptor, "probe\n");
   if (descriptor >= 0) {
-    if (::close(descriptor) != 0 && problem == 0) problem = errno;
+    problem = flush_and_close(descriptor, problem);
     ::unlink(probe.c_str());
   }
   if (problem == 0) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ class FileSet {
   /// Writes `text` aside for `path`, making its folder if need be. Throws Error naming path and
   /// reason.
   void add(const std::filesystem::path& path, const std::string& text);
+  /// The same for text that comes in parts, up to an empty one.
+  void add(const std::filesystem::path& path, const std::function<std::string()>& next_part);
   /// Puts all files in place, in the order of add(). Throws Error when a name cannot be taken.
   void commit();
 

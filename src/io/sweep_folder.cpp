@@ -8,21 +8,25 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
+#include "file_set.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/drive_files.hpp"
-#include "slalom/io/sweep.hpp"
 #include "trial_store.hpp"
+#include "trials_csv.hpp"
 
 namespace slalom::io {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t kPart = 1 << 16;  ///< bytes of a table written at once
+
 /// The identity of the study whose results stand in a folder; empty if there are none.
 study::SweepTable study_in(const fs::path& folder) {
   study::SweepTable found;
   for (const auto& file : store_files(folder)) {
-    auto study = read_store(file, false);
+    auto study = stored_study(file);
     if (study.identity.empty()) continue;
     if (!found.identity.empty() && found.identity != study.identity)
       throw Error(fmt::format("{}: holds the results of two studies, '{}' and '{}'",
@@ -67,6 +71,33 @@ void check_sweep_folder(const fs::path& folder, const study::SweepTable& study, 
                     folder.string(), name));
 }
 
+/// The study of a folder that must hold one.
+study::SweepTable required_study(const fs::path& folder) {
+  auto study = study_in(folder);
+  if (study.identity.empty())
+    throw Error(fmt::format("{}: holds no results of a sweep", folder.string()));
+  return study;
+}
+
+/// The one study of several folders.
+study::SweepTable common_study(const std::vector<fs::path>& folders) {
+  const auto first = required_study(folders.front());
+  for (const auto& folder : folders)
+    if (const auto study = required_study(folder); study.identity != first.identity)
+      throw Error(fmt::format("{}: holds another study ('{}') than {} ('{}')", folder.string(),
+                              study.name, folders.front().string(), first.name));
+  return first;
+}
+
+/// Copies the kept drives that `out` does not have.
+void copy_drives(const fs::path& folder, const fs::path& out) {
+  std::error_code error;
+  if (!fs::exists(folder / "drives", error) || fs::equivalent(folder, out, error)) return;
+  fs::copy(folder / "drives", out / "drives",
+           fs::copy_options::recursive | fs::copy_options::skip_existing, error);
+  if (error) throw Error(fmt::format("{}: {}", (out / "drives").string(), error.message()));
+}
+
 }  // namespace
 
 void prepare_sweep_folder(const fs::path& folder, const study::SweepTable& study, bool resume,
@@ -106,54 +137,57 @@ fs::path drive_folder(const fs::path& folder, std::int64_t trial) {
 }
 
 study::SweepTable read_sweep(const fs::path& folder) {
-  auto table = study_in(folder);
-  if (table.identity.empty())
-    throw Error(fmt::format("{}: holds no results of a sweep", folder.string()));
-  for (const auto& file : store_files(folder)) {
-    auto part = read_store(file).trials;
-    table.trials.insert(table.trials.end(), std::make_move_iterator(part.begin()),
-                        std::make_move_iterator(part.end()));
-  }
-  auto& trials = table.trials;
-  // Overlapping shards: the first of equals stays.
-  std::stable_sort(trials.begin(), trials.end(),
-                   [](const auto& a, const auto& b) { return a.trial < b.trial; });
-  trials.erase(std::unique(trials.begin(), trials.end(),
-                           [](const auto& a, const auto& b) { return a.trial == b.trial; }),
-               trials.end());
+  auto table = required_study(folder);
+  TrialStream trials(store_files(folder));
+  while (auto record = trials.next()) table.trials.push_back(std::move(*record));
   return table;
 }
 
-study::SweepTable export_sweep(const fs::path& folder) {
-  auto table = read_sweep(folder);
-  write_file(folder / "trials.csv", trials_csv(table));
-  return table;
+std::string trials_csv(const fs::path& folder) {
+  const auto study = required_study(folder);
+  TrialStream trials(store_files(folder));
+  auto text = trials_csv_head(study);
+  while (const auto record = trials.next()) text += trials_csv_row(study, *record);
+  return text;
 }
 
-study::SweepTable merge_sweeps(const std::vector<fs::path>& from, const fs::path& out, bool force) {
-  std::vector<study::SweepTable> tables;
-  for (const auto& folder : from) {
-    tables.push_back(read_sweep(folder));
-    if (tables.back().identity != tables.front().identity)
-      throw Error(fmt::format("{}: holds another study ('{}') than {} ('{}')", folder.string(),
-                              tables.back().name, from.front().string(), tables.front().name));
-  }
-  prepare_sweep_folder(out, tables.front(), false, force);
+SweepContent export_sweep(const fs::path& folder) {
+  SweepContent content{required_study(folder)};
+  TrialStream trials(store_files(folder));
+  auto text = trials_csv_head(content.study);
+  FileSet files;
+  files.add(folder / "trials.csv", [&] {
+    while (text.size() < kPart) {
+      const auto record = trials.next();
+      if (!record) break;
+      ++content.trials;
+      text += trials_csv_row(content.study, *record);
+    }
+    return std::exchange(text, "");
+  });
+  files.commit();
+  return content;
+}
+
+SweepContent merge_sweeps(const std::vector<fs::path>& from, const fs::path& out, bool force) {
+  const auto study = common_study(from);
+  const bool into_one_of_them = std::any_of(from.begin(), from.end(), [&](const auto& folder) {
+    std::error_code error;
+    return fs::equivalent(folder, out, error);
+  });
+  prepare_sweep_folder(out, study, false, force && !into_one_of_them);
   const auto file = store_file(out, 1, 1);
   const SweepLock lock(file);
-  if (force) clear_sweep_folder(out);
+  if (force && !into_one_of_them) clear_sweep_folder(out);
   {
-    TrialStore store(file, tables.front());
-    store.add_all(tables);
+    TrialStore store(file, study);
+    for (const auto& folder : from) {
+      TrialStream trials(store_files(folder));
+      store.add_all(trials);
+    }
     store.checkpoint();
   }
-  for (const auto& folder : from) {
-    std::error_code error;
-    if (!fs::exists(folder / "drives", error) || fs::equivalent(folder, out, error)) continue;
-    fs::copy(folder / "drives", out / "drives",
-             fs::copy_options::recursive | fs::copy_options::skip_existing, error);
-    if (error) throw Error(fmt::format("{}: {}", (out / "drives").string(), error.message()));
-  }
+  for (const auto& folder : from) copy_drives(folder, out);
   return export_sweep(out);
 }
 

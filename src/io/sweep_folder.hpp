@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "slalom/study/sweep_table.hpp"
+#include "slalom/io/sweep.hpp"
 
 namespace slalom::io {
 
@@ -31,7 +31,7 @@ class SweepLock {
 /// The folder of a kept drive.
 std::filesystem::path drive_folder(const std::filesystem::path& folder, std::int64_t trial);
 
-/// Writes trials.csv of all that stands in the folder, whole or not at all; returns the table.
-study::SweepTable export_sweep(const std::filesystem::path& folder);
+/// Writes trials.csv of all that stands in the folder, whole or not at all.
+SweepContent export_sweep(const std::filesystem::path& folder);
 
 }  // namespace slalom::io

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "slalom/base/error.hpp"
@@ -160,20 +161,72 @@ void TrialStore::add(const TrialRecord& r) {
       .run();
 }
 
-void TrialStore::add_all(const std::vector<SweepTable>& tables) {
+std::int64_t TrialStore::add_all(TrialStream& trials) {
+  std::int64_t count = 0;
   database_.execute("BEGIN IMMEDIATE");
-  for (const auto& table : tables)
-    for (const auto& record : table.trials) add(record);
+  while (const auto record = trials.next()) {
+    add(*record);
+    ++count;
+  }
   database_.execute("COMMIT");
+  return count;
 }
 
-SweepTable read_store(const fs::path& file, bool with_trials) {
+/// One store, read trial by trial.
+class TrialStream::Cursor {
+ public:
+  explicit Cursor(const fs::path& file) : database_(file, Database::Mode::read) {
+    if (read_study(database_, file).identity.empty()) return;
+    rows_ = std::make_unique<Statement>(database_, "SELECT * FROM trials ORDER BY trial");
+    advance();
+  }
+
+  /// The number of the trial that stands next; the greatest there is at the end.
+  std::int64_t number() const {
+    return next_ ? next_->trial : std::numeric_limits<std::int64_t>::max();
+  }
+  std::optional<TrialRecord> take() {
+    auto taken = std::move(next_);
+    advance();
+    return taken;
+  }
+
+ private:
+  void advance() {
+    next_.reset();
+    if (!rows_) return;
+    if (rows_->step())
+      next_ = read_trial(*rows_);
+    else
+      rows_.reset();  // another step would begin again
+  }
+
+  Database database_;
+  std::unique_ptr<Statement> rows_;
+  std::optional<TrialRecord> next_;
+};
+
+TrialStream::TrialStream(const std::vector<fs::path>& stores) {
+  for (const auto& file : stores) cursors_.push_back(std::make_unique<Cursor>(file));
+}
+
+TrialStream::~TrialStream() = default;
+
+std::optional<TrialRecord> TrialStream::next() {
+  const auto first =
+      std::min_element(cursors_.begin(), cursors_.end(),
+                       [](const auto& a, const auto& b) { return a->number() < b->number(); });
+  if (first == cursors_.end()) return std::nullopt;
+  auto record = (*first)->take();
+  if (!record) return std::nullopt;
+  for (const auto& cursor : cursors_)
+    if (cursor->number() == record->trial) (void)cursor->take();
+  return record;
+}
+
+SweepTable stored_study(const fs::path& file) {
   const Database database(file, Database::Mode::read);
-  auto study = read_study(database, file);
-  if (!with_trials || study.identity.empty()) return study;
-  Statement row(database, "SELECT * FROM trials ORDER BY trial");
-  while (row.step()) study.trials.push_back(read_trial(row));
-  return study;
+  return read_study(database, file);
 }
 
 std::vector<std::int64_t> stored_trials(const fs::path& file) {

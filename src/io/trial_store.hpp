@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "slalom/study/sweep_table.hpp"
@@ -14,6 +16,21 @@ std::filesystem::path store_file(const std::filesystem::path& folder, int shard,
 /// All such files of a folder, sorted.
 std::vector<std::filesystem::path> store_files(const std::filesystem::path& folder);
 
+/// The trials of several stores, one by one in trial order. Of equals the first store's comes.
+class TrialStream {
+ public:
+  explicit TrialStream(const std::vector<std::filesystem::path>& stores);
+  ~TrialStream();
+  TrialStream(const TrialStream&) = delete;
+  TrialStream& operator=(const TrialStream&) = delete;
+
+  std::optional<study::TrialRecord> next();
+
+ private:
+  class Cursor;
+  std::vector<std::unique_ptr<Cursor>> cursors_;
+};
+
 /// One shard's results in an SQLite file. A trial is there once and whole, or not at all, whatever
 /// is killed. Every failure is an Error that names the file.
 class TrialStore {
@@ -23,8 +40,8 @@ class TrialStore {
 
   /// Records a trial; one that is there already stays as it is.
   void add(const study::TrialRecord& record);
-  /// The trials of all tables in one transaction.
-  void add_all(const std::vector<study::SweepTable>& tables);
+  /// All trials of a stream in one transaction; returns their number.
+  std::int64_t add_all(TrialStream& trials);
   /// Puts all into the one file, so that it can be copied by itself.
   void checkpoint() { database_.checkpoint(); }
 
@@ -33,9 +50,9 @@ class TrialStore {
   std::unique_ptr<Statement> insert_;
 };
 
-/// What a store holds; its identity is empty when it states no study yet. Throws Error for a file
-/// that is no such store.
-study::SweepTable read_store(const std::filesystem::path& file, bool with_trials = true);
+/// The study whose trials a store holds, without these; its identity is empty when the store states
+/// none yet. Throws Error for a file that is no such store.
+study::SweepTable stored_study(const std::filesystem::path& file);
 
 /// Numbers of the trials in a store, in order.
 std::vector<std::int64_t> stored_trials(const std::filesystem::path& file);

@@ -7,8 +7,8 @@
 #include "slalom/base/error.hpp"
 #include "slalom/base/kernels.hpp"
 #include "slalom/io/drive_files.hpp"
+#include "slalom/io/open_sweep.hpp"
 #include "slalom/io/scenario_file.hpp"
-#include "slalom/io/sweep.hpp"
 #include "slalom/sim/closed_loop.hpp"
 #include "trial_message.hpp"
 

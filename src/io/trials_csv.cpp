@@ -1,9 +1,10 @@
+#include "trials_csv.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "csv.hpp"
-#include "slalom/io/sweep.hpp"
 
 namespace slalom::io {
 namespace {
@@ -13,10 +14,12 @@ std::string number_cell(double value) {
   return std::isnan(value) ? "" : fmt::format("{}", value);
 }
 
-std::string row(const study::SweepTable& table, const study::TrialRecord& r) {
+}  // namespace
+
+std::string trials_csv_row(const study::SweepTable& study, const study::TrialRecord& r) {
   auto text = fmt::format("{},{},{}", r.trial, csv_cell(r.scenario), csv_cell(r.planner));
   for (const auto& value : r.values) text += "," + csv_cell(value);
-  if (table.repeats > 1) text += fmt::format(",{}", r.repeat);
+  if (study.repeats > 1) text += fmt::format(",{}", r.repeat);
   text += fmt::format(",{},{},{}", r.outcome, number_cell(r.time), number_cell(r.max_solve_time));
   text += fmt::format(",{},{},{}", csv_cell(r.hit), number_cell(r.goal_time),
                       number_cell(r.least_clearance));
@@ -28,17 +31,14 @@ std::string row(const study::SweepTable& table, const study::TrialRecord& r) {
   return text;
 }
 
-}  // namespace
-
-std::string trials_csv(const study::SweepTable& table) {
+std::string trials_csv_head(const study::SweepTable& study) {
   std::string text = "trial,scenario,planner";
-  for (const auto& column : table.columns) text += "," + csv_cell(column);
-  if (table.repeats > 1) text += ",repeat";
+  for (const auto& column : study.columns) text += "," + csv_cell(column);
+  if (study.repeats > 1) text += ",repeat";
   text +=
       ",outcome,time_s,max_solve_time_s,hit,goal_time_s,least_clearance_m,least_clearance_obstacle,"
       "least_wheel_load_N,cycles,failed_cycles,iterations,median_solve_time_s,max_cpu_time_s,"
       "median_cpu_time_s,identity,message\n";
-  for (const auto& record : table.trials) text += row(table, record);
   return text;
 }
 

@@ -55,19 +55,23 @@ struct SweepSummary {
 /// Error when the folder holds something else, cannot be written or is in use.
 SweepSummary run_sweep(const Study& study, const SweepRequest& request, const SweepHooks& hooks);
 
-/// A worker: answers the trials that come on standard input until it ends.
-void serve_trials();
+/// What stands in a folder, without the trials themselves.
+struct SweepContent {
+  study::SweepTable study;
+  std::int64_t trials = 0;  ///< their number
+};
 
 /// Puts the results of several folders of one study into `out`. Throws Error when they are of
 /// different studies.
-study::SweepTable merge_sweeps(const std::vector<std::filesystem::path>& from,
-                               const std::filesystem::path& out, bool force);
+SweepContent merge_sweeps(const std::vector<std::filesystem::path>& from,
+                          const std::filesystem::path& out, bool force);
 
-/// All trials that stand in a folder. Throws Error when it holds no sweep.
+/// All trials that stand in a folder, of a sweep that is at work too. Throws Error when it holds no
+/// sweep.
 study::SweepTable read_sweep(const std::filesystem::path& folder);
 
-/// One row a trial, in trial order: trial, scenario, planner, the axes (and repeat), outcome,
-/// time_s, max_solve_time_s, then the rest.
-std::string trials_csv(const study::SweepTable& table);
+/// The same as the text of trials.csv: one row a trial, in trial order: trial, scenario, planner,
+/// the axes (and repeat), outcome, time_s, max_solve_time_s, then the rest.
+std::string trials_csv(const std::filesystem::path& folder);
 
 }  // namespace slalom::io
