@@ -68,6 +68,7 @@ from ._core import (  # noqa: E402
     tan,
     tanh,
 )
+from ._trials import read_trials, write_parquet  # noqa: E402
 
 __all__ = [
     "ConstraintId", "Cycle", "Drive", "Error", "ErrorEstimate", "Expr", "Goal", "InvalidValue",
@@ -75,6 +76,6 @@ __all__ = [
     "Problem", "Refined", "Region", "Scenario", "Simulation", "Solution", "UnknownName", "Violation",
     "__version__", "absolute", "arccos", "arcsin", "arctan", "arctan2", "backends", "control_names",
     "cos", "cosh", "cubic_spline", "exp", "load_scenario", "log", "maximum", "minimum",
-    "planner_names", "power", "scenario_names", "scheme_names", "select", "sign", "simulate", "sin",
-    "sinh", "solver_options", "sqrt", "square", "state_names", "tan", "tanh",
+    "planner_names", "power", "read_trials", "scenario_names", "scheme_names", "select", "sign", "simulate", "sin",
+    "sinh", "solver_options", "sqrt", "square", "state_names", "tan", "tanh", "write_parquet",
 ]

@@ -80,5 +80,6 @@ void bind_phases(nb::module_& module);
 void bind_drive(nb::module_& module);
 void bind_scenario(nb::module_& module);
 void bind_planner(nb::module_& module);
+void bind_sweep(nb::module_& module);
 
 }  // namespace slalom::python

@@ -76,4 +76,5 @@ NB_MODULE(_core, module) {
   bind_scenario(module);
   bind_planner(module);
   bind_drive(module);
+  bind_sweep(module);
 }

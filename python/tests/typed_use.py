@@ -77,3 +77,9 @@ def receding(problem: Problem) -> str:
     loop = slalom.Mpc(problem, tex=0.5, goal={"x": (1, 0.1)}, update=update)
     result = loop.run([0, 0])
     return result.status + result.cycles[0].solution.status + loop.step([0, 0], 1)
+
+
+def swept() -> int:
+    slalom.write_parquet("out", "trials.parquet")
+    slalom.write_parquet(3, "trials.parquet")  # type: ignore[arg-type]
+    return int(slalom.read_trials("out").num_rows)
