@@ -40,16 +40,6 @@ Drives load_all(const CommonOptions& options) {
   return drives;
 }
 
-sim::Drive drive_one(const study::ReproducedDrive& one, std::size_t index,
-                     const CommonOptions& options) {
-  Progress progress(fmt::format("{}/{} {}", index + 1, std::size(kDrives), one.folder),
-                    options.quiet);
-  sim::LoopHooks hooks;
-  hooks.on_cycle = [&](const sim::Cycle& cycle) { progress.show(cycle); };
-  hooks.interrupted = interrupted;
-  return sim::drive(one.scenario, hooks);
-}
-
 /// What the paper says of this drive, or nullptr.
 const study::PaperDrive* paper_of(const study::PaperData& paper,
                                   const study::ReproducedDrive& one) {
@@ -74,49 +64,76 @@ std::string table_head() {
                      "paper");
 }
 
+/// Drives, writes and prints one after the other.
+class Reproduction {
+ public:
+  Reproduction(const CommonOptions& options, std::size_t count)
+      : options_(options), text_(!options.quiet && !options.json), count_(count) {
+    if (text_) print(table_head());
+  }
+
+  /// False when interrupted.
+  bool drive(study::ReproducedDrive& one, const study::PaperDrive* printed) {
+    Progress progress(fmt::format("{}/{} {}", ++index_, count_, one.folder), options_.quiet);
+    sim::LoopHooks hooks;
+    hooks.on_cycle = [&](const sim::Cycle& cycle) { progress.show(cycle); };
+    hooks.interrupted = interrupted;
+    one.drive = sim::drive(one.scenario, hooks);
+    if (options_.writes())
+      write_or_fail(
+          [&] { io::write_drive(fs::path(options_.out) / one.folder, one.scenario, one.drive); });
+    as_paper_ &= printed == nullptr || printed->outcome == sim::to_string(one.drive.outcome);
+    if (text_) print(row(one, printed));
+    json_.push_back(nlohmann::ordered_json::parse(io::summary_json(one.scenario, one.drive)));
+    return one.drive.outcome != sim::Outcome::interrupted;
+  }
+
+  bool text() const { return text_; }
+  bool as_paper() const { return as_paper_; }
+  const nlohmann::ordered_json& json() const { return json_; }
+
+ private:
+  const CommonOptions& options_;
+  bool text_, as_paper_ = true;
+  std::size_t count_, index_ = 0;
+  nlohmann::ordered_json json_ = nlohmann::ordered_json::array();
+};
+
 int reproduce(const CommonOptions& options) {
   check_expectations(options.expect, {"paper"});
   auto drives = load_all(options);
+  auto cases = io::load_concept_cases(options.request);
   const auto paper = io::load_paper_data();
+  std::vector<study::ReproducedDrive*> all;
+  for (auto& one : drives) all.push_back(&one);
+  for (auto& one : cases) all.push_back(&one.driven);
   const fs::path out = options.out;
   if (options.writes())
     write_or_fail([&] {
       io::prepare_folder(out, options.force);
-      for (const auto& one : drives) io::prepare_folder(out / one.folder, options.force);
+      for (const auto* one : all) io::prepare_folder(out / one->folder, options.force);
     });
 
-  const bool text = !options.quiet && !options.json;
-  if (text) print(table_head());
-  bool as_paper = true;
-  auto json = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < drives.size(); ++i) {
-    auto& one = drives[i];
-    one.drive = drive_one(one, i, options);
-    if (options.writes())
-      write_or_fail([&] { io::write_drive(out / one.folder, one.scenario, one.drive); });
-    const auto* printed = paper_of(paper, one);
-    as_paper &= printed == nullptr || printed->outcome == sim::to_string(one.drive.outcome);
-    if (text) print(row(one, printed));
-    json.push_back(nlohmann::ordered_json::parse(io::summary_json(one.scenario, one.drive)));
-    if (one.drive.outcome == sim::Outcome::interrupted) {
-      if (text) print("interrupted: the page of all drives is not written\n");
+  Reproduction reproduction(options, all.size());
+  for (auto* one : all)
+    if (!reproduction.drive(*one, paper_of(paper, *one))) {
+      if (reproduction.text()) print("interrupted: the page of all drives is not written\n");
       return kInterrupted;
     }
-  }
   if (options.writes()) {
-    write_or_fail([&] { io::write_reproduction(out, drives, paper); });
-    if (text) print(fmt::format("written to {}\n", (out / "index.html").string()));
+    write_or_fail([&] { io::write_reproduction(out, drives, paper, cases); });
+    if (reproduction.text()) print(fmt::format("written to {}\n", (out / "index.html").string()));
   }
-  if (options.json) print(json.dump(2) + "\n");
-  return options.expect.empty() || as_paper ? kOk : kNotExpected;
+  if (options.json) print(reproduction.json().dump(2) + "\n");
+  return options.expect.empty() || reproduction.as_paper() ? kOk : kNotExpected;
 }
 
 }  // namespace
 
 void add_reproduce(CLI::App& app, Command& run) {
   auto options = std::make_shared<CommonOptions>();
-  auto* command = app.add_subcommand(
-      "reproduce", "Drive the drives of the paper's figures and text, and compare");
+  auto* command =
+      app.add_subcommand("reproduce", "Drive what the paper's figures and text show, and compare");
   add_overrides(*command, *options, false);
   add_output(*command, *options);
   add_printing(*command, *options);
@@ -124,7 +141,8 @@ void add_reproduce(CLI::App& app, Command& run) {
       ->add_option("--expect", options->expect,
                    "'paper': exit with 1 unless every drive ends as the paper's")
       ->type_name("paper");
-  command->footer(std::string("Leaves DIR/SCENARIO/PLANNER/ for each drive and DIR/index.html.\n"
+  command->footer(std::string("Leaves DIR/SCENARIO/PLANNER/ and DIR/cases/LETTER/ for each drive,\n"
+                              "and DIR/index.html.\n"
                               "Example: slalom reproduce --out drives/paper\n\n") +
                   kExitCodeHelp);
   command->callback([options, &run] { run = [options] { return reproduce(*options); }; });

@@ -143,10 +143,11 @@ void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenar
 
 void write_reproduction(const std::filesystem::path& folder,
                         const std::vector<study::ReproducedDrive>& drives,
-                        const study::PaperData& paper) {
+                        const study::PaperData& paper,
+                        const std::vector<study::ConceptCase>& cases) {
   FileSet files;
-  files.add(folder / "index.html", study::reproduction_page(drives, paper));
-  for (const auto& figure : study::reproduction_figures(drives, paper))
+  files.add(folder / "index.html", study::reproduction_page(drives, paper, cases));
+  for (const auto& figure : study::reproduction_figures(drives, paper, cases))
     files.add(folder / "figures" / figure.file, figure.svg);
   files.commit();
 }

@@ -68,6 +68,28 @@ const OptionTable<PaperData::Note>& note_options() {
   return table;
 }
 
+/// A case as its file has it.
+struct CaseEntry : study::ConceptCase {
+  std::string scenario, planner, set;
+};
+
+const OptionTable<CaseEntry>& case_options() {
+  using C = CaseEntry;
+  static const auto table = [] {
+    OptionTable<C> t;
+    t.text("case", &C::name, "Its letter.")
+        .text("scenario", &C::scenario, "What is driven.")
+        .text("planner", &C::planner, "By which planner.")
+        .text("set", &C::set, "One override, as of --set.")
+        .text("specifications", &C::specifications, "What its planner has.")
+        .text("says", &C::says, "What the text says.")
+        .text("outcome", &C::outcome, "How the drive ends by the text.")
+        .text("faster_than", &C::faster_than, "A case it is to beat.");
+    return t;
+  }();
+  return table;
+}
+
 PaperDrive read_drive(const Value& map) {
   PaperDrive drive;
   Places places;
@@ -107,6 +129,22 @@ PaperData load_paper_data() {
   if (const Value* notes = results.find("notes"))
     paper.notes = read_list(*notes, "notes", note_options());
   return paper;
+}
+
+std::vector<study::ConceptCase> load_concept_cases(const ScenarioRequest& request) {
+  const Value root = read_map("cases.yaml", {"cases"});
+  std::vector<study::ConceptCase> cases;
+  const Value* list = root.find("cases");
+  if (list == nullptr) return cases;
+  for (auto& entry : read_list(*list, "cases", case_options())) {
+    auto own = request;
+    own.name_or_file = entry.scenario;
+    own.planner = entry.planner;
+    if (!entry.set.empty()) own.overrides.insert(own.overrides.begin(), entry.set);
+    entry.driven = {load_scenario(own), {}, "cases/" + entry.name};
+    cases.push_back(std::move(entry));
+  }
+  return cases;
 }
 
 }  // namespace slalom::io

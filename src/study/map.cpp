@@ -199,7 +199,8 @@ void name_vehicles(Svg& svg, Labels& labels, const Map& map, const View& view,
     const auto at = view.at(one.state[vehicle::X], one.state[vehicle::Y]);
     const auto time = number(one.t, 1) + " s";
     const auto& name = one.vehicle->label;
-    const auto label = map.vehicles.size() > 1 && !name.empty() ? name + ", " + time : time;
+    const auto label =
+        map.vehicles.size() > 1 && !name.empty() ? fmt::format("{}, {}", name, time) : time;
     const auto& colour = one.vehicle->stroke.colour;
     if (!view.lying) {
       labels.place(label, colour, beside(at, label_offset(map, view)));
@@ -226,7 +227,7 @@ void keep_clear(Labels& labels, const Map& map, const View& view) {
     }
 }
 
-void draw_axes(Svg& svg, const View& view, bool x_label) {
+void draw_axes(Svg& svg, const View& view, bool x_ticks, bool x_label) {
   const auto& box = view.box;
   const double bottom = view.corner.y + view.height();
   const double across0 = view.lying ? box.y0 : box.x0, across1 = view.lying ? box.y1 : box.x1;
@@ -235,7 +236,7 @@ void draw_axes(Svg& svg, const View& view, bool x_label) {
   for (const double v : across.at) {
     const auto p = view.lying ? view.at(box.x0, v) : view.at(v, box.y0);
     svg.line({p.x, view.corner.y}, {p.x, bottom}, {colours::grid, 0.5, "", 1});
-    svg.text({p.x, bottom + 8}, number(v, across.digits()), {6.5, "middle"});
+    if (x_ticks) svg.text({p.x, bottom + 8}, number(v, across.digits()), {6.5, "middle"});
   }
   const auto up = nice_ticks(up0, up1, std::max(1, int(view.height() / (view.lying ? 11 : 26))));
   for (const double v : up.at) {
@@ -251,11 +252,11 @@ void draw_axes(Svg& svg, const View& view, bool x_label) {
            {7, "middle", colours::ink, false, 90});
 }
 
-void draw_view(Svg& svg, const Map& map, const View& view, bool x_label) {
+void draw_view(Svg& svg, const Map& map, const View& view, bool x_ticks, bool x_label) {
   svg.begin_clip(view.corner, view.width(), view.height());
   draw_ground(svg, map, view);
   svg.end_clip();
-  draw_axes(svg, view, x_label);
+  draw_axes(svg, view, x_ticks, x_label);
   svg.begin_clip(view.corner, view.width(), view.height());
   draw_obstacles(svg, map, view);
   for (const auto& v : map.vehicles) draw_path(svg, v, view);
@@ -304,7 +305,7 @@ std::string picture(const std::string& name, const std::string& title, const Map
   Svg svg(name, kColumnWidth, height, title);
   svg.rect({0, 0}, svg.width(), svg.height(), {"#ffffff", 1});
   draw_legend(svg, legend(map), {kLeft, 0}, room);
-  for (const auto& view : views) draw_view(svg, map, view, &view == &views.back());
+  for (const auto& view : views) draw_view(svg, map, view, true, &view == &views.back());
   return svg.str();
 }
 
@@ -344,6 +345,32 @@ std::string zoom_svg(const std::string& name, const std::string& title, const Ma
   box.add(x, y, half, half);
   return picture(name, title, map,
                  {{box, {}, (kColumnWidth - kLeft - kRight) / (2 * half), false}});
+}
+
+std::string strips_svg(const std::string& name, const std::string& title,
+                       const std::vector<Strip>& strips) {
+  constexpr double heading = 11, gap = 3;
+  Box box;
+  for (const auto& strip : strips) {
+    const auto own = course(strip.map);
+    box.add(own.x0, own.y0, 0, 0);
+    box.add(own.x1, own.y1, 0, 0);
+  }
+  if (strips.empty()) box.add(0, 0, 1, 1);
+  View view{box, {}, (kColumnWidth - kLeft - kRight) / (box.y1 - box.y0), true};
+  view.box.x0 -= (kLabelRow + 2) / view.scale;  // room for the instants
+  const double each = heading + view.height() + gap;
+  Svg svg(name, kColumnWidth, each * static_cast<double>(strips.size()) + kBelow, title);
+  svg.rect({0, 0}, svg.width(), svg.height(), {"#ffffff", 1});
+  double y = 0;
+  for (const auto& strip : strips) {
+    svg.text({kLeft, y + 8}, strip.heading, {7, "start", colours::ink, true});
+    view.corner = {kLeft, y + heading};
+    const bool last = &strip == &strips.back();
+    draw_view(svg, strip.map, view, last, last);
+    y += each;
+  }
+  return svg.str();
 }
 
 }  // namespace slalom::study

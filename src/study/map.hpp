@@ -34,6 +34,14 @@ std::vector<double> thirds(const sim::Drive& drive);
 /// other, driven from left to right.
 std::string map_svg(const std::string& name, const std::string& title, const Map& map);
 
+/// Maps of one course each, lying one below the other to one scale, driven from left to right.
+struct Strip {
+  std::string heading;
+  Map map;
+};
+std::string strips_svg(const std::string& name, const std::string& title,
+                       const std::vector<Strip>& strips);
+
 /// A square of `half` metres to each side about (x, y), at the maps' instants.
 std::string zoom_svg(const std::string& name, const std::string& title, const Map& map, double x,
                      double y, double half);

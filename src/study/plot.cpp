@@ -69,7 +69,9 @@ Range y_range(const Plot& plot) {
     range.lo /= 1.5;
     range.hi *= 1.6;
   } else {
-    const double pad = 0.07 * std::max(range.hi - range.lo, 1e-6);
+    // What is constant but for rounding gets a scale of its own size.
+    const double least = std::max(1e-6, 0.02 * std::max(std::abs(range.lo), std::abs(range.hi)));
+    const double pad = range.hi - range.lo < 1e-4 * least ? least : 0.07 * (range.hi - range.lo);
     range.lo -= pad;
     range.hi += pad;
   }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "comparison.hpp"
+#include "concept_cases.hpp"
 #include "html.hpp"
 #include "map.hpp"
 #include "page_parts.hpp"
@@ -166,7 +167,8 @@ Figure crash_figure(const Group& group, const ReproducedDrive& crash, const Pape
 }  // namespace
 
 std::vector<Figure> reproduction_figures(const std::vector<ReproducedDrive>& drives,
-                                         const PaperData& paper) {
+                                         const PaperData& paper,
+                                         const std::vector<ConceptCase>& cases) {
   std::vector<Figure> figures;
   for (const auto& group : by_environment(drives)) {
     figures.push_back(traces_figure(group));
@@ -180,6 +182,7 @@ std::vector<Figure> reproduction_figures(const std::vector<ReproducedDrive>& dri
       first = false;
     }
   }
+  if (!cases.empty()) figures.push_back(concept_figure(cases));
   return figures;
 }
 

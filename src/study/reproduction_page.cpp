@@ -4,6 +4,7 @@
 
 #include "claims.hpp"
 #include "comparison.hpp"
+#include "concept_cases.hpp"
 #include "html.hpp"
 #include "page_parts.hpp"
 #include "reproduction_tables.hpp"
@@ -31,6 +32,12 @@ std::string figures_html(const std::vector<ReproducedDrive>& drives, const Paper
     html += "</div>\n" + note_html(paper, scenario.name.c_str());
   }
   return html;
+}
+
+std::string cases_html(const std::vector<ConceptCase>& cases) {
+  if (cases.empty()) return "";
+  return concept_table(cases) + "<div class=\"figures\">\n" + figure_html(concept_figure(cases)) +
+         "</div>\n";
 }
 
 /// "as in the paper" counts for the page's head.
@@ -71,7 +78,8 @@ std::string settings_line(const std::vector<ReproducedDrive>& drives) {
 
 }  // namespace
 
-std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const PaperData& paper) {
+std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const PaperData& paper,
+                              const std::vector<ConceptCase>& cases) {
   return fill(viewer::reproduction_html,
               {{"css", fmt::format("{}\n{}", viewer::base_css, viewer::reproduction_css)},
                {"settings", escape(settings_line(drives))},
@@ -79,6 +87,7 @@ std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const 
                {"floor_note", note_html(paper, "floor")},
                {"claims", claims_table(drives)},
                {"outcomes", outcome_table(drives, paper) + note_html(paper, "outcomes")},
+               {"cases", cases_html(cases)},
                {"positions", position_table(drives, paper) + note_html(paper, "positions")},
                {"effort", effort_table(drives, paper) + note_html(paper, "effort")},
                {"speeds", speed_table(drives, paper) + note_html(paper, "speeds")},

@@ -62,8 +62,8 @@ class Reproduction(unittest.TestCase):
         self.assertAlmostEqual(drive.end["clearance"], 0, delta=1e-6)
         return drive
 
-    def test_there_are_ten_four_variants_and_a_page(self):
-        self.assertEqual(len(DRIVES), 10 + 4 + 1)
+    def test_there_are_ten_four_variants_six_cases_and_a_page(self):
+        self.assertEqual(len(DRIVES), 10 + 4 + 6 + 1)
         self.assertTrue(DRIVES["page"].is_file())
 
     def test_a_arrives_late_and_slows(self):
@@ -111,6 +111,17 @@ class Reproduction(unittest.TestCase):
                                if row["x"] >= 12) for environment in ("E_C-no-cones", "E_C"))
             self.assertLess(y, y_cones / 2)
 
+    def test_the_cases_come_out_as_the_papers_text_says(self):
+        self.crashes("cases", "A", "O1", 2, 5)
+        slow, held, both = (DRIVES["cases", c] for c in "BCD")
+        self.assertEqual([d.outcome for d in (slow, held, both)], ["goal"] * 3)
+        times = [d.summary["goal_time_s"] for d in (slow, held, both)]
+        self.assertEqual(times, sorted(times, reverse=True))
+        self.assertGreater(times[0] - times[1], 2)
+        self.assertGreater(times[1] - times[2], 0.5)
+        self.crashes("cases", "E", "O1", 2, 5)
+        self.arrives("cases", "F", 6, 9)
+
     def test_snapshots(self):
         compared = 0
         with open(SNAPSHOTS, newline="") as file:
@@ -137,7 +148,8 @@ class Files(unittest.TestCase):
             if key == "page":
                 continue
             s = drive.summary
-            self.assertEqual((s["scenario"], s["planner"]), key)
+            if key[0] != "cases":
+                self.assertEqual((s["scenario"], s["planner"]), key)
             self.assertEqual(s["time_s"], drive.t[-1])
             least = min(row["clearance"] for row in drive.plant)
             self.assertLessEqual(s["least_clearance_m"], least + 1e-9)

@@ -135,9 +135,10 @@ class Reproduce(ProgramTest):
         result = run("reproduce", "--out", out, "--json", "--expect", "paper")
         self.assertEqual((result.code, result.err), (0, ""))
         drives = json.loads(result.out)
-        self.assertEqual(len(drives), 14)
-        for drive in drives:
-            folder = out / drive["scenario"] / drive["planner"]
+        self.assertEqual(len(drives), 14 + 6)
+        folders = [out / d["scenario"] / d["planner"] for d in drives[:14]]
+        folders += [out / "cases" / letter for letter in "ABCDEF"]
+        for drive, folder in zip(drives, folders):
             self.assertEqual(json.loads((folder / "summary.json").read_text()), drive)
             self.assertTrue((folder / "report.html").exists())
         self.assertTrue((out / "index.html").exists())
@@ -174,7 +175,8 @@ class Others(ProgramTest):
         listed = json.loads(run("list", "--json").out)
         names = {kind: [entry["name"] for entry in entries] for kind, entries in listed.items()}
         self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C",
-                                               "E_C-no-cones", "E_C-range-50"],
+                                               "E_C-no-cones", "E_C-range-50", "one-crossing",
+                                               "one-standing"],
                                  "planners": ["P_A", "P_B", "P_C", "P_D"],
                                  "vehicles": ["hmmwv"],
                                  "studies": ["latency", "paper", "paper-printed"]})

@@ -35,5 +35,33 @@ TEST(PaperData, HasTheTenDrivesAndTheirFigures) {
   for (const auto& note : paper.notes) EXPECT_FALSE(note.text.empty()) << note.topic;
 }
 
+TEST(PaperData, HasTheSixCasesWithTheirScenarios) {
+  const auto cases = load_concept_cases({.tex = 0.25, .overrides = {"planner.w_haf=2"}});
+  std::string names;
+  for (const auto& one : cases) {
+    names += one.name;
+    EXPECT_EQ(one.driven.folder, "cases/" + one.name);
+    EXPECT_EQ(one.driven.scenario.loop.tex, 0.25);
+    EXPECT_EQ(one.driven.scenario.planner.w_haf, 2);
+    const auto& outcomes = sim::outcome_names();
+    EXPECT_NE(std::find(outcomes.begin(), outcomes.end(), one.outcome), outcomes.end());
+    if (!one.faster_than.empty()) EXPECT_NE(names.find(one.faster_than), names.npos);
+  }
+  ASSERT_EQ(names, "ABCDEF");
+  const auto planner = [&](std::size_t i) { return cases[i].driven.scenario.planner; };
+  EXPECT_EQ(planner(0).model, vehicle::ModelKind::kinematic);
+  EXPECT_EQ(planner(1).w_t, 0);
+  EXPECT_EQ(planner(2).model, vehicle::ModelKind::constant_speed);
+  EXPECT_EQ(planner(3).w_ce, 1);
+  EXPECT_FALSE(planner(4).moving_avoidance);
+  EXPECT_TRUE(planner(5).moving_avoidance);
+}
+
+TEST(PaperData, CasesYieldToTheCommandLine) {
+  const auto cases = load_concept_cases({.overrides = {"planner.model=linear_tyre"}});
+  for (const auto& one : cases)
+    EXPECT_EQ(one.driven.scenario.planner.model, vehicle::ModelKind::linear_tyre) << one.name;
+}
+
 }  // namespace
 }  // namespace slalom::io

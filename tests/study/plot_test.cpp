@@ -77,6 +77,13 @@ TEST(Svg, LinesKeepTheirShapeWithFewPoints) {
   }
 }
 
+TEST(PlotSvg, ConstantsHaveShortTicks) {
+  Plot plot{.x_label = "t [s]", .y_label = "ux [m/s]"};
+  plot.series = {{"", {0, 1, 2}, {17, 17 + 1e-9, 17}, {colours::blue}}};
+  const auto svg = plot_svg("name", "title", plot);
+  EXPECT_EQ(testing::count(svg, ">17.0</text>"), 1) << svg;
+}
+
 TEST(PlotSvg, IsWellFormedAndEightCentimetresWide) {
   Plot plot{.x_label = "t [s]", .y_label = "<ux> & \"more\""};
   plot.series = {{"a & b", {0, 1, 2}, {1, 3, 2}, {colours::blue}, true, false}};

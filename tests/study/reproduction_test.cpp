@@ -161,5 +161,57 @@ TEST(ReproductionPage, SaysWhereTheLaneIsChangedWithoutCones) {
   EXPECT_EQ(verdict(0, 6), "no: at y = – m, with cones at y = 34 m");
 }
 
+std::vector<ConceptCase> three_cases(double b_arrives, double c_arrives) {
+  auto crash = synthetic_drive(3);
+  crash.outcome = sim::Outcome::crash;
+  crash.hit = "O1";
+  auto b = synthetic_drive(), c = synthetic_drive();
+  b.goal_time = b_arrives;
+  c.goal_time = c_arrives;
+  return {{"A", "S1", "it <collides>", "crash", "", reproduced("one", "P_A", crash)},
+          {"B", "S1, S3", "it arrives", "goal", "", reproduced("one", "P_A", b)},
+          {"C", "S1 to S3", "it arrives before", "goal", "B", reproduced("one", "P_B", c)}};
+}
+
+std::string case_verdicts(const std::vector<ConceptCase>& cases) {
+  const auto page = reproduction_page({}, {}, cases);
+  const std::regex row("<tr><th scope=\"row\">(.)</th>.*(yes|no)</span></td></tr>");
+  std::string verdicts;
+  for (std::sregex_iterator it(page.begin(), page.end(), row), end; it != end; ++it)
+    verdicts += (*it)[1].str() + " " + (*it)[2].str() + " ";
+  return verdicts;
+}
+
+TEST(ConceptCases, HoldByOutcomeAndOrder) {
+  EXPECT_EQ(case_verdicts(three_cases(3.6, 3.4)), "A yes B yes C yes ");
+  EXPECT_EQ(case_verdicts(three_cases(3.4, 3.6)), "A yes B yes C no ");
+  auto cases = three_cases(3.6, 3.4);
+  cases[0].driven.drive.outcome = sim::Outcome::goal;
+  cases[1].driven.drive.outcome = sim::Outcome::timeout;
+  EXPECT_EQ(case_verdicts(cases), "A no B no C no ") << "C's rival has not arrived";
+}
+
+TEST(ConceptCases, AreStripsWithTheirVerdicts) {
+  const auto figures = reproduction_figures({}, {}, three_cases(3.6, 3.4));
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_NO_THROW(parse_xml(figures[0].svg));
+  EXPECT_EQ(count(figures[0].svg, ">A: crashed into O1 at 3.0 s (S1)</text>"), 1);
+  EXPECT_EQ(count(figures[0].svg, ">C: arrives at 3.4 s (S1 to S3)</text>"), 1);
+  const auto page = reproduction_page({}, {}, three_cases(3.6, 3.4));
+  EXPECT_EQ(count(page, "it &lt;collides&gt;"), 1);
+  EXPECT_EQ(count(page, "{{"), 0);
+}
+
+TEST(ConceptCases, WithstandOddDrives) {
+  for (const auto& odd : odd_drives()) {
+    SCOPED_TRACE(odd.name);
+    auto cases = three_cases(3.6, 3.4);
+    for (auto& one : cases) one.driven = {odd.scenario, odd.drive, "cases/x"};
+    for (const auto& figure : reproduction_figures({}, {}, cases))
+      EXPECT_NO_THROW(parse_xml(figure.svg));
+    EXPECT_EQ(count(reproduction_page({}, {}, cases), "<script"), 0);
+  }
+}
+
 }  // namespace
 }  // namespace slalom::study

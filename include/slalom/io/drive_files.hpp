@@ -31,7 +31,8 @@ void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenar
 /// Writes index.html and the figures of a reproduction; the drives stand in folders of their own.
 void write_reproduction(const std::filesystem::path& folder,
                         const std::vector<study::ReproducedDrive>& drives,
-                        const study::PaperData& paper);
+                        const study::PaperData& paper,
+                        const std::vector<study::ConceptCase>& cases = {});
 
 /// The contents of single files, for tests and --json. A cell with a comma or quote is quoted.
 /// plant_csv: t [s] absolute, the state, the control, wheel loads [N], clearance [m].

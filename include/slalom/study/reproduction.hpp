@@ -38,6 +38,16 @@ struct PaperDrive {
   std::string note;  ///< where and why ours differs
 };
 
+/// One case of the paper's conceptual figure, as a drive; config/paper/cases.yaml.
+struct ConceptCase {
+  std::string name;            ///< A to F
+  std::string specifications;  ///< of the paper's table, that its planner has
+  std::string says;            ///< what the paper's text says comes of it
+  std::string outcome;         ///< the same as sim::to_string(Outcome) has it
+  std::string faster_than;     ///< a case that this one is to beat; empty: none
+  ReproducedDrive driven;
+};
+
 /// The paper's published figures; read from config/paper by io: `drives` from drives.yaml, the rest
 /// from results.yaml.
 struct PaperData {
@@ -64,8 +74,10 @@ ControlEffort effort_paper(const sim::Drive& drive);
 ControlEffort effort_weighted(const sim::Drive& drive, const planner::Settings& settings);
 
 /// One page with all tables and figures, ours | paper's, and its figures as print-ready SVG.
-std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const PaperData& paper);
+std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const PaperData& paper,
+                              const std::vector<ConceptCase>& cases = {});
 std::vector<Figure> reproduction_figures(const std::vector<ReproducedDrive>& drives,
-                                         const PaperData& paper);
+                                         const PaperData& paper,
+                                         const std::vector<ConceptCase>& cases = {});
 
 }  // namespace slalom::study
