@@ -108,6 +108,9 @@ class OpenSweep::Impl {
         lock_(file_),
         store_(cleared(request, file_), table),
         next_(request.shard) {
+    std::vector<std::string> bases;
+    for (const auto& base : study.bases) bases.push_back(to_yaml(base));
+    store_.keep_bases(bases);
     find_done();
     report({});
   }

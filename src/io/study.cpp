@@ -166,14 +166,17 @@ Trial Study::trial(std::int64_t number) const {
 }
 
 sim::Scenario Study::resolve(const Trial& trial) const {
-  auto resolved = bases.at(trial.base);
-  const auto where = fmt::format("trial {}", trial.number);
-  const auto keys = columns();
+  return resolve_trial(bases.at(trial.base), columns(), trial.values, trial.number);
+}
+
+sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& keys,
+                            const std::vector<std::string>& values, std::int64_t number) {
+  const auto where = fmt::format("trial {}", number);
   Places places;
   for (std::size_t i = 0; i < keys.size(); ++i)
-    apply_setting(keys[i], {where, 0, 0}, parse_argument(trial.values[i], where), resolved, places);
-  sim::check(resolved, where);
-  return resolved;
+    apply_setting(keys[i], {where, 0, 0}, parse_argument(values.at(i), where), base, places);
+  sim::check(base, where);
+  return base;
 }
 
 std::string Study::identity() const {

@@ -71,19 +71,11 @@ void check_sweep_folder(const fs::path& folder, const study::SweepTable& study, 
                     folder.string(), name));
 }
 
-/// The study of a folder that must hold one.
-study::SweepTable required_study(const fs::path& folder) {
-  auto study = study_in(folder);
-  if (study.identity.empty())
-    throw Error(fmt::format("{}: holds no results of a sweep", folder.string()));
-  return study;
-}
-
 /// The one study of several folders.
 study::SweepTable common_study(const std::vector<fs::path>& folders) {
-  const auto first = required_study(folders.front());
+  const auto first = study_of(folders.front());
   for (const auto& folder : folders)
-    if (const auto study = required_study(folder); study.identity != first.identity)
+    if (const auto study = study_of(folder); study.identity != first.identity)
       throw Error(fmt::format("{}: holds another study ('{}') than {} ('{}')", folder.string(),
                               study.name, folders.front().string(), first.name));
   return first;
@@ -132,19 +124,26 @@ SweepLock::~SweepLock() {
   ::close(descriptor_);
 }
 
+study::SweepTable study_of(const fs::path& folder) {
+  auto study = study_in(folder);
+  if (study.identity.empty())
+    throw Error(fmt::format("{}: holds no results of a sweep", folder.string()));
+  return study;
+}
+
 fs::path drive_folder(const fs::path& folder, std::int64_t trial) {
   return folder / "drives" / fmt::format("{:06}", trial);
 }
 
 study::SweepTable read_sweep(const fs::path& folder) {
-  auto table = required_study(folder);
+  auto table = study_of(folder);
   TrialStream trials(store_files(folder));
   while (auto record = trials.next()) table.trials.push_back(std::move(*record));
   return table;
 }
 
 std::string trials_csv(const fs::path& folder) {
-  const auto study = required_study(folder);
+  const auto study = study_of(folder);
   TrialStream trials(store_files(folder));
   auto text = trials_csv_head(study);
   while (const auto record = trials.next()) text += trials_csv_row(study, *record);
@@ -152,7 +151,7 @@ std::string trials_csv(const fs::path& folder) {
 }
 
 SweepContent export_sweep(const fs::path& folder) {
-  SweepContent content{required_study(folder)};
+  SweepContent content{study_of(folder)};
   TrialStream trials(store_files(folder));
   auto text = trials_csv_head(content.study);
   FileSet files;
@@ -181,6 +180,7 @@ SweepContent merge_sweeps(const std::vector<fs::path>& from, const fs::path& out
   if (force && !into_one_of_them) clear_sweep_folder(out);
   {
     TrialStore store(file, study);
+    store.keep_bases(stored_bases(store_files(from.front()).front()));
     for (const auto& folder : from) {
       TrialStream trials(store_files(folder));
       store.add_all(trials);

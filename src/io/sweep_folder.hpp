@@ -28,6 +28,9 @@ class SweepLock {
   int descriptor_ = -1;
 };
 
+/// The study whose results stand in a folder, without its trials; throws Error when there is none.
+study::SweepTable study_of(const std::filesystem::path& folder);
+
 /// The folder of a kept drive.
 std::filesystem::path drive_folder(const std::filesystem::path& folder, std::int64_t trial);
 

@@ -1,11 +1,13 @@
 #include "slalom/io/sweep_report.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "config_dir.hpp"
 #include "file_set.hpp"
 #include "section.hpp"
 #include "slalom/io/sweep.hpp"
+#include "sweep_folder.hpp"
 
 namespace slalom::io {
 namespace {
@@ -75,10 +77,15 @@ PaperSweep load_paper_sweep() {
 
 void write_sweep_report(const std::filesystem::path& folder) {
   const auto table = read_sweep(folder);
+  std::set<std::int64_t> kept;
+  std::error_code error;
+  for (const auto& record : table.trials)
+    if (std::filesystem::exists(drive_folder(folder, record.trial) / "report.html", error))
+      kept.insert(record.trial);
   FileSet files;
   for (const auto& figure : study::sweep_figures(table))
     files.add(folder / "figures" / figure.file, figure.svg);
-  files.add(folder / "index.html", study::sweep_page(table, load_paper_sweep()));
+  files.add(folder / "index.html", study::sweep_page(table, load_paper_sweep(), kept));
   files.commit();
 }
 

@@ -24,6 +24,9 @@ struct TrialAnswer {
 std::string to_line(const TrialAnswer& answer);
 TrialAnswer parse_answer(const std::string& line);
 
+/// Drives a trial, on its instruction set, which stays selected.
+TrialAnswer run_trial(const TrialOrder& order);
+
 /// The figures of a drive.
 study::TrialRecord record_of(const sim::Drive& drive);
 

@@ -15,11 +15,12 @@ namespace {
 using study::SweepTable;
 using study::TrialRecord;
 
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 
 constexpr const char* kSchema =
     "CREATE TABLE IF NOT EXISTS study (format INTEGER, name TEXT, title TEXT, scenarios TEXT,"
     " identity TEXT, kernels TEXT, planners TEXT, columns TEXT, repeats INTEGER, size INTEGER);"
+    "CREATE TABLE IF NOT EXISTS bases (number INTEGER PRIMARY KEY, resolved TEXT);"
     "CREATE TABLE IF NOT EXISTS trials (trial INTEGER PRIMARY KEY, identity TEXT, scenario TEXT,"
     " planner TEXT, axes TEXT, repeat INTEGER, outcome TEXT, hit TEXT, message TEXT, nearest TEXT,"
     " time_s REAL, goal_time_s REAL, least_clearance_m REAL, least_wheel_load_N REAL, cycles "
@@ -161,6 +162,14 @@ void TrialStore::add(const TrialRecord& r) {
       .run();
 }
 
+void TrialStore::keep_bases(const std::vector<std::string>& resolved) {
+  database_.execute("BEGIN IMMEDIATE");
+  Statement insert(database_, "INSERT OR IGNORE INTO bases VALUES (?, ?)");
+  for (std::size_t i = 0; i < resolved.size(); ++i)
+    insert.bind(1, static_cast<std::int64_t>(i)).bind(2, resolved[i]).run();
+  database_.execute("COMMIT");
+}
+
 std::int64_t TrialStore::add_all(TrialStream& trials) {
   std::int64_t count = 0;
   database_.execute("BEGIN IMMEDIATE");
@@ -227,6 +236,24 @@ std::optional<TrialRecord> TrialStream::next() {
 SweepTable stored_study(const fs::path& file) {
   const Database database(file, Database::Mode::read);
   return read_study(database, file);
+}
+
+std::vector<std::string> stored_bases(const fs::path& file) {
+  const Database database(file, Database::Mode::read);
+  std::vector<std::string> bases;
+  if (read_study(database, file).identity.empty()) return bases;
+  Statement row(database, "SELECT resolved FROM bases ORDER BY number");
+  while (row.step()) bases.push_back(row.text(0));
+  return bases;
+}
+
+std::optional<TrialRecord> stored_trial(const fs::path& file, std::int64_t number) {
+  const Database database(file, Database::Mode::read);
+  if (read_study(database, file).identity.empty()) return std::nullopt;
+  Statement row(database, "SELECT * FROM trials WHERE trial = ?");
+  row.bind(1, number);
+  if (!row.step()) return std::nullopt;
+  return read_trial(row);
 }
 
 std::vector<std::int64_t> stored_trials(const fs::path& file) {

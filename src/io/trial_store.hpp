@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "slalom/study/sweep_table.hpp"
@@ -40,6 +41,9 @@ class TrialStore {
 
   /// Records a trial; one that is there already stays as it is.
   void add(const study::TrialRecord& record);
+  /// Records what the axes are crossed with, in the study's order, each as a resolved file: with it
+  /// a trial can be driven again. What is there already stays.
+  void keep_bases(const std::vector<std::string>& resolved);
   /// All trials of a stream in one transaction; returns their number.
   std::int64_t add_all(TrialStream& trials);
   /// Puts all into the one file, so that it can be copied by itself.
@@ -53,6 +57,13 @@ class TrialStore {
 /// The study whose trials a store holds, without these; its identity is empty when the store states
 /// none yet. Throws Error for a file that is no such store.
 study::SweepTable stored_study(const std::filesystem::path& file);
+
+/// What keep_bases() recorded.
+std::vector<std::string> stored_bases(const std::filesystem::path& file);
+
+/// The trial of this number, if the store holds it.
+std::optional<study::TrialRecord> stored_trial(const std::filesystem::path& file,
+                                               std::int64_t number);
 
 /// Numbers of the trials in a store, in order.
 std::vector<std::int64_t> stored_trials(const std::filesystem::path& file);

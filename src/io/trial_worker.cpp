@@ -15,6 +15,19 @@
 namespace slalom::io {
 namespace {
 
+void write_line(int descriptor, std::string line) {
+  line += '\n';
+  std::size_t at = 0;
+  while (at < line.size()) {
+    const auto n = ::write(descriptor, line.data() + at, line.size() - at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw Error("the sweep does not listen any more");
+    at += static_cast<std::size_t>(n);
+  }
+}
+
+}  // namespace
+
 TrialAnswer run_trial(const TrialOrder& order) {
   select_kernels(order.kernels == "avx2" ? KernelSet::avx2 : KernelSet::baseline);
   const auto scenario = parse_scenario(order.resolved, "trial");
@@ -30,19 +43,6 @@ TrialAnswer run_trial(const TrialOrder& order) {
   }
   return answer;
 }
-
-void write_line(int descriptor, std::string line) {
-  line += '\n';
-  std::size_t at = 0;
-  while (at < line.size()) {
-    const auto n = ::write(descriptor, line.data() + at, line.size() - at);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw Error("the sweep does not listen any more");
-    at += static_cast<std::size_t>(n);
-  }
-}
-
-}  // namespace
 
 void serve_trials() {
   // Ctrl-C reaches the whole group; when to end is the supervisor's to say. SIGTERM ends it.

@@ -21,6 +21,18 @@ std::string cell(const std::string& html, const char* kind) {
   return fmt::format("<td class=\"{}\">{}</td>", kind, html);
 }
 
+std::string head_cells(const std::vector<std::string>& names) {
+  std::string html = "<tr>";
+  for (const auto& name : names)
+    html += fmt::format("<th scope=\"col\"{}>{}</th>",
+                        &name == &names.front() ? "" : " class=\"num\"", name);
+  return html + "</tr>";
+}
+
+std::string row_head(const std::string& text) {
+  return "<tr><th scope=\"row\">" + escape(text) + "</th>";
+}
+
 std::string table(const std::string& head, const std::string& rows) {
   return fmt::format(
       "<div class=\"scroll\"><table>\n<thead>{}</thead>\n<tbody>\n{}</tbody></table></div>\n", head,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "slalom/study/report.hpp"
 #include "slalom/study/svg.hpp"
@@ -9,6 +10,11 @@ namespace slalom::study {
 
 /// A table's cell; `html` as it is, `kind` its class.
 std::string cell(const std::string& html, const char* kind = "num");
+
+/// A row of column heads, HTML each; all but the first are of numbers.
+std::string head_cells(const std::vector<std::string>& names);
+/// The beginning of a row: its head, which is text.
+std::string row_head(const std::string& text);
 
 /// A table that scrolls by itself; `head` and `rows` are HTML.
 std::string table(const std::string& head, const std::string& rows);

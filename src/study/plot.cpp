@@ -170,7 +170,12 @@ void draw_series(Svg& svg, const Plot& plot, const Frame& frame) {
       points.push_back({frame.px(series.x[i]), frame.py(series.y[i])});
     if (series.line) svg.polyline(points, series.stroke);
     if (!series.markers) continue;
-    for (const auto& p : points) draw_marker(svg, p, series);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const bool marked = i < series.marks.size();
+      if (marked) svg.begin_mark(series.marks[i]);
+      draw_marker(svg, points[i], series);
+      if (marked) svg.end_mark();
+    }
   }
   svg.end_clip();
 }

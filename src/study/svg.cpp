@@ -134,6 +134,14 @@ void Svg::ellipse(Point centre, double rx, double ry, const Fill& fill, const St
                        attributes(fill), attributes(stroke));
 }
 
+void Svg::begin_mark(std::string_view mark) {
+  body_ += fmt::format("<g data-mark=\"{}\">", escape(mark));
+}
+
+void Svg::end_mark() {
+  body_ += "</g>\n";
+}
+
 void Svg::text(Point at, std::string_view text, const Font& font) {
   if (!finite(at)) return;
   const auto turned = font.rotate == 0

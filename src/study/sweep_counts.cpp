@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "slalom/study/sweep_report.hpp"
@@ -21,6 +22,27 @@ double number_at(const TrialRecord& record, std::size_t column) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   return text.empty() || *end != '\0' ? TrialRecord::kNone : value;
+}
+
+namespace {
+
+/// A numeric column that takes several values.
+bool varies(const SweepTable& table, std::size_t column) {
+  std::set<double> values;
+  for (const auto& record : table.trials) values.insert(number_at(record, column));
+  return values.size() > 1 &&
+         std::none_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+}
+
+}  // namespace
+
+std::vector<std::size_t> drawn_columns(const SweepTable& table) {
+  std::vector<std::size_t> columns;
+  const auto tex = column_index(table, kTexKey);
+  if (tex && varies(table, *tex)) columns.push_back(*tex);
+  for (std::size_t i = 0; i < table.columns.size() && columns.size() < 2; ++i)
+    if ((!tex || i != *tex) && varies(table, i)) columns.push_back(i);
+  return columns;
 }
 
 bool PaperSweep::comparable(const SweepTable& table) {
@@ -111,6 +133,56 @@ std::vector<HorizonRow> horizon_rows(const SweepTable& table, const std::string&
     row.rtf_cpu = mean(cpu);
     row.rtf_cpu_95 = quantile(cpu, 0.95);
     rows.push_back(row);
+  }
+  return rows;
+}
+
+namespace {
+
+/// Passes at each execution horizon.
+using ByHorizon = std::map<double, PassCount>;
+
+LongestHorizon::Planner longest_of(const std::string& planner, const ByHorizon& counts) {
+  const auto share = [](const PassCount& count) {
+    return static_cast<double>(count.passed) / static_cast<double>(count.trials);
+  };
+  LongestHorizon::Planner row{planner};
+  double best = 0;
+  for (const auto& [tex, count] : counts) best = std::max(best, share(count));
+  if (best == 0) return row;
+  bool from_the_shortest = true;
+  for (const auto& [tex, count] : counts) {
+    const bool as_good = share(count) == best;
+    row.best += as_good;
+    from_the_shortest = from_the_shortest && as_good;
+    if (from_the_shortest) row.tex = tex;
+  }
+  return row;
+}
+
+}  // namespace
+
+std::vector<LongestHorizon> longest_horizons(const SweepTable& table) {
+  const auto columns = drawn_columns(table);
+  if (columns.size() < 2 || table.columns[columns[0]] != kTexKey) return {};
+  std::map<double, std::map<std::string, ByHorizon>> counts;
+  for (const auto& record : table.trials) {
+    auto& count =
+        counts[number_at(record, columns[1])][record.planner][number_at(record, columns[0])];
+    ++count.trials;
+    count.passed += record.passed();
+  }
+  std::vector<LongestHorizon> rows;
+  for (const auto& [value, planners] : counts) {
+    LongestHorizon row{table.columns[columns[1]], value};
+    for (const auto& planner : table.planners) {
+      const auto found = planners.find(planner);
+      row.planners.push_back(
+          longest_of(planner, found == planners.end() ? ByHorizon{} : found->second));
+      if (found != planners.end())
+        row.horizons = std::max(row.horizons, static_cast<std::int64_t>(found->second.size()));
+    }
+    rows.push_back(std::move(row));
   }
   return rows;
 }

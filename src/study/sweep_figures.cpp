@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "html.hpp"
 #include "page_parts.hpp"
@@ -14,24 +13,6 @@
 
 namespace slalom::study {
 namespace {
-
-/// A numeric column that takes several values.
-bool varies(const SweepTable& table, std::size_t column) {
-  std::set<double> values;
-  for (const auto& record : table.trials) values.insert(number_at(record, column));
-  return values.size() > 1 &&
-         std::none_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
-}
-
-/// The two columns to draw over: tex first, if it varies, then in the study's order.
-std::vector<std::size_t> drawn_columns(const SweepTable& table) {
-  std::vector<std::size_t> columns;
-  const auto tex = column_index(table, kTexKey);
-  if (tex && varies(table, *tex)) columns.push_back(*tex);
-  for (std::size_t i = 0; i < table.columns.size() && columns.size() < 2; ++i)
-    if ((!tex || i != *tex) && varies(table, i)) columns.push_back(i);
-  return columns;
-}
 
 /// A key path for people, with its unit where it is one of the paper's axes.
 std::string axis_label(const std::string& key) {
@@ -43,6 +24,7 @@ std::string axis_label(const std::string& key) {
 /// All trials at one point of the map.
 struct MapPoint {
   int trials = 0, passed = 0, crashed = 0, unsolved = 0;
+  std::string numbers;  ///< of the trials
 };
 
 std::vector<Series> map_series(const std::map<std::pair<double, double>, MapPoint>& points) {
@@ -68,6 +50,7 @@ std::vector<Series> map_series(const std::map<std::pair<double, double>, MapPoin
                                                           : 4;
     all[kind].x.push_back(at.first);
     all[kind].y.push_back(at.second);
+    all[kind].marks.push_back(p.numbers);
   }
   std::vector<Series> used;
   for (auto& one : all)
@@ -82,6 +65,7 @@ Figure map_figure(const SweepTable& table, const std::string& planner,
     if (record.planner != planner) continue;
     auto& p = points[{number_at(record, columns[0]), number_at(record, columns[1])}];
     ++p.trials;
+    p.numbers += fmt::format("{}{}", p.numbers.empty() ? "" : " ", record.trial);
     p.passed += record.passed();
     p.crashed += record.outcome == "crash";
     p.unsolved += record.outcome == "not_optimal";

@@ -9,26 +9,12 @@
 #include "page_parts.hpp"
 #include "slalom/study/statistics.hpp"
 #include "slalom/study/sweep_report.hpp"
-#include "sweep_axes.hpp"
+#include "sweep_data.hpp"
+#include "sweep_tables.hpp"
 #include "viewer_assets.hpp"
 
 namespace slalom::study {
 namespace {
-
-/// Speeds of O2 up to which the paper looks separately [m/s], with room for the grid's third digit.
-constexpr double kModerate = 16.85, kLow = 4.215;
-
-std::string head_cells(const std::vector<std::string>& names) {
-  std::string html = "<tr>";
-  for (const auto& name : names)
-    html += fmt::format("<th scope=\"col\"{}>{}</th>",
-                        &name == &names.front() ? "" : " class=\"num\"", name);
-  return html + "</tr>";
-}
-
-std::string row_head(const std::string& text) {
-  return "<tr><th scope=\"row\">" + escape(text) + "</th>";
-}
 
 std::string share(std::int64_t k, std::int64_t n) {
   return n > 0 ? number(100.0 * static_cast<double>(k) / static_cast<double>(n), 1) + " %" : "–";
@@ -157,77 +143,6 @@ std::string outcome_table(const SweepTable& sweep) {
   return table(planner_heads(sweep, "outcome"), rows);
 }
 
-const PaperSweep::Point* printed_point(const PaperSweep& paper, const std::string& planner,
-                                       double tex, double speed) {
-  constexpr double kSameTex = 0.003;  // the paper prints .790 for .792
-  for (const auto& point : paper.points)
-    if (point.planner == planner && std::abs(point.tex - tex) < kSameTex &&
-        std::abs(point.speed - speed) < 0.1)
-      return &point;
-  return nullptr;
-}
-
-/// `speed`: the paper's, to find its figures by; `limit`: what is left out.
-std::string horizon_table(const SweepTable& sweep, const PaperSweep& paper, bool beside,
-                          double speed, double limit) {
-  std::string rows;
-  for (const auto& planner : sweep.planners)
-    for (const auto& row : horizon_rows(sweep, planner, limit)) {
-      rows += row_head(planner) + cell(number(row.tex, 3)) +
-              cell(fmt::format("{} of {}", row.passed, row.trials)) + cell(number(row.pos(), 3)) +
-              cell(significant(row.rtf_cpu, 3), row.rtf_cpu < 1 ? "num good" : "num bad") +
-              cell(significant(row.rtf_cpu_95, 3)) + cell(significant(row.rtf, 3));
-      if (beside) {
-        const auto* point = printed_point(paper, planner, row.tex, speed);
-        rows += cell(point == nullptr ? "" : number(point->rtf, 3), "num paper") +
-                cell(point == nullptr ? "" : number(point->pos, 3), "num paper");
-      }
-      rows += "</tr>\n";
-    }
-  std::vector<std::string> names = {
-      "planner",         "tex [s]", "at the goal", "POS", "RTF (CPU time)", "its 95th percentile",
-      "RTF (wall clock)"};
-  if (beside) names.insert(names.end(), {"paper: RTF", "paper: POS"});
-  return table(head_cells(names), rows);
-}
-
-std::string horizons_html(const SweepTable& sweep, const PaperSweep& paper, bool beside) {
-  if (!column_index(sweep, kTexKey)) return "<p class=\"sub\">The study does not vary tex.</p>\n";
-  const auto part = [&](const char* title, double speed, double limit, bool open) {
-    return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open ? " open" : "",
-                       title, horizon_table(sweep, paper, beside, speed, limit));
-  };
-  auto html = part("All speeds", 40, std::numeric_limits<double>::infinity(), true);
-  if (column_index(sweep, kSpeedKey))
-    html += part("O2 at up to 16.8 m/s", 16.8, kModerate, false) +
-            part("O2 at up to 4.21 m/s", 4.21, kLow, false);
-  return html;
-}
-
-/// Every pass with how near it came.
-std::string pass_table(const SweepTable& sweep) {
-  const bool several = sweep.scenarios.size() > 1;
-  std::string rows;
-  for (const auto& r : sweep.trials) {
-    if (!r.passed()) continue;
-    rows += row_head(fmt::format("{}", r.trial));
-    if (several) rows += cell(escape(r.scenario), "");
-    rows += cell(escape(r.planner), "");
-    for (std::size_t i = 0; i < r.values.size(); ++i) {
-      const double value = number_at(r, i);
-      rows += cell(std::isnan(value) ? escape(r.values[i]) : significant(value, 4));
-    }
-    rows += cell(number(r.time, 2)) + cell(number(r.least_clearance, 3)) +
-            cell(escape(r.least_clearance_obstacle), "") + "</tr>\n";
-  }
-  std::vector<std::string> names = {"trial"};
-  if (several) names.push_back("scenario");
-  names.push_back("planner");
-  for (const auto& column : sweep.columns) names.push_back(escape(column));
-  names.insert(names.end(), {"time [s]", "least clearance [m]", "to"});
-  return table(head_cells(names), rows);
-}
-
 /// Under which the page stands: few scenarios by name.
 std::string settings_line(const SweepTable& sweep) {
   constexpr std::size_t kNamed = 8;
@@ -251,7 +166,8 @@ std::string summary(const SweepTable& sweep) {
 
 }  // namespace
 
-std::string sweep_page(const SweepTable& sweep, const PaperSweep& paper) {
+std::string sweep_page(const SweepTable& sweep, const PaperSweep& paper,
+                       const std::set<std::int64_t>& kept) {
   const bool beside = PaperSweep::comparable(sweep);
   const auto notes = [&](const char* topic) { return beside ? notes_html(paper, topic) : ""; };
   std::string figures;
@@ -268,6 +184,9 @@ std::string sweep_page(const SweepTable& sweep, const PaperSweep& paper) {
                       notes("counts") + scenario_table(sweep)},
        {"outcomes", outcome_table(sweep)},
        {"horizons", horizons_html(sweep, paper, beside) + notes("real_time")},
+       {"times", solve_time_table(sweep) + longest_horizon_table(sweep)},
+       {"data", script_json(sweep_data(sweep, kept))},
+       {"script", std::string(viewer::sweep_js)},
        {"passes", pass_table(sweep)}});
 }
 

@@ -42,7 +42,7 @@ axes:
 
 const driveDir = made('SLALOM_DRIVE_DIR', 'drive', ['simulate', 'E_B', '--planner', 'P_D']);
 const sweepDir = made('SLALOM_SWEEP_DIR', 'sweep', ['sweep', smallStudy()]);
-if (process.env.SLALOM) execFileSync(process.env.SLALOM, ['study-report', sweepDir], { stdio: 'ignore' });
+if (process.env.SLALOM) execFileSync(process.env.SLALOM, ['study-report', sweepDir, '--trial', '2'], { stdio: 'ignore' });
 const reproduceDir = made('SLALOM_REPRODUCE_DIR', 'reproduce', ['reproduce']);
 const report = join(driveDir, 'report.html');
 
@@ -289,6 +289,16 @@ describe('the page of a sweep', () => {
         }
         await page.click('summary >> nth=1');
         assert.ok(await page.isVisible('details >> nth=1 >> table'));
+        await page.click('[data-mark="2"]');
+        assert.match(await page.textContent('dialog'), /Trial 2.*planner.*P_C.*obstacles.O2.vy.*10/s);
+        assert.equal(await page.getAttribute('dialog a.open', 'href'), 'drives/000002/report.html');
+        await page.screenshot({ path: join(out, `sweep-trial-${colorScheme}.png`) });
+        await page.click('dialog button');
+        await page.focus('[data-mark="3"]');
+        await page.keyboard.press('Enter');
+        assert.match(await page.textContent('dialog'), /Trial 3.*was not kept.*--trial 3/s);
+        await page.keyboard.press('Escape');
+        assert.ok(!(await page.isVisible('dialog')));
         await page.screenshot({ path: join(out, `sweep-${colorScheme}.png`), fullPage: true });
         assert.deepEqual(complaints, []);
       } finally {

@@ -120,6 +120,34 @@ TEST(SweepCounts, FasterObstaclesAreLeftOutAndFailedTrialsCountAsNotPassed) {
   EXPECT_EQ(slow[0].trials, 2);
 }
 
+TEST(SweepCounts, TheLongestHorizonIsOneBelowWhichAllAreAsGood) {
+  const auto rows = longest_horizons(small_sweep());
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].key, "obstacles.O2.vy");
+  EXPECT_EQ(rows[0].value, -20);
+  EXPECT_TRUE(std::isnan(rows[0].planners[1].tex));  // none arrives
+  EXPECT_EQ(rows[0].planners[1].best, 0);
+  EXPECT_EQ(rows[1].planners[1].tex, 0.5);  // P_D at -10: at .5 alone
+  EXPECT_EQ(rows[1].planners[1].best, 1);
+  EXPECT_EQ(rows[2].planners[1].tex, 1);  // P_D at 0: at both
+  EXPECT_EQ(rows[2].planners[1].best, 2);
+  EXPECT_EQ(rows[2].horizons, 2);
+  auto longer = small_sweep();
+  longer.trials[0].outcome = "crash";
+  longer.trials[3].outcome = "goal";  // P_C at 0: at 1 alone, not at the shortest
+  EXPECT_TRUE(std::isnan(longest_horizons(longer)[2].planners[0].tex));
+  EXPECT_EQ(longest_horizons(longer)[2].planners[0].best, 1);
+  longer.columns[0] = "planner.w_t";
+  EXPECT_TRUE(longest_horizons(longer).empty());
+}
+
+TEST(SweepFigures, MarksNameTheirTrials) {
+  const auto figures = sweep_figures(small_sweep());
+  EXPECT_NE(figures[0].svg.find("data-mark=\"5\""), std::string::npos);
+  EXPECT_EQ(figures[0].svg.find("data-mark=\"7\""), std::string::npos);  // the other planner's
+  EXPECT_NE(figures[1].svg.find("data-mark=\"7\""), std::string::npos);
+}
+
 TEST(SweepFigures, EachPlannerHasAMapAndAllShareOneOfTheHorizons) {
   const auto figures = sweep_figures(small_sweep());
   ASSERT_EQ(figures.size(), 3U);
@@ -143,7 +171,8 @@ TEST(SweepPage, ShowsCountsTestsAndThePapersBesideThem) {
   for (const char* part : {"a &amp; b", "small &lt;study&gt;", "22 of 400 (5.5 %)", "1.3e-29",
                            "a note on counts", "crash O&lt;2&gt;", "11 <small>of 12</small>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("<study>"), std::string::npos);
+  EXPECT_EQ(page.find("O<2>"), std::string::npos);  // nor in the data of the script
   EXPECT_EQ(page.find("http://"), page.find("http://www.w3.org"));
   // Elsewhere the paper has nothing to say.
   sweep.scenarios = {"E_B"};

@@ -73,6 +73,11 @@ struct Study {
 /// trial.
 Study load_study(const std::string& name_or_file, const std::vector<std::string>& overrides = {});
 
+/// `base` with a trial's values in the place of its own. Throws InvalidValue, naming the trial, for
+/// values that contradict each other.
+sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& keys,
+                            const std::vector<std::string>& values, std::int64_t number);
+
 /// A hash of a trial's resolved configuration (the YAML of its scenario, instruction set, repeat).
 std::string trial_identity(const std::string& resolved, const std::string& kernels, int repeat);
 

@@ -27,6 +27,8 @@ struct Series {
   bool hollow = false;  ///< markers are rings
   bool line = true;     ///< false: markers alone
   double size = 1;      ///< of the markers, as a multiple of their usual one
+  std::vector<std::string> marks =
+      {};  ///< what each marker stands for (Svg::begin_mark); may be empty
 };
 
 /// A level drawn across a plot, such as a limit.

@@ -45,6 +45,9 @@ class Svg {
   void polygon(const std::vector<Point>& points, const Fill& fill, const Stroke& stroke = {});
   void rect(Point corner, double width, double height, const Fill& fill, const Stroke& stroke = {});
   void ellipse(Point centre, double rx, double ry, const Fill& fill, const Stroke& stroke = {});
+  /// What follows carries data-mark="mark", by which a page knows it, until end_mark().
+  void begin_mark(std::string_view mark);
+  void end_mark();
   void text(Point at, std::string_view text, const Font& font);
 
   /// What follows is clipped to a rectangle, until end_clip().

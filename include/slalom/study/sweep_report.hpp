@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -71,8 +73,27 @@ struct HorizonRow {
 std::vector<HorizonRow> horizon_rows(const SweepTable& table, const std::string& planner,
                                      double speed = std::numeric_limits<double>::infinity());
 
-/// The page of a sweep, self-contained, and its pictures.
-std::string sweep_page(const SweepTable& table, const PaperSweep& paper);
+/// How short execution horizons must be at one value of the axis beside tex.
+struct LongestHorizon {
+  struct Planner {
+    std::string planner;
+    /// The longest at which, and at all shorter ones, the share of passes is the best there is [s];
+    /// NaN where none passes or the shortest is not as good.
+    double tex = TrialRecord::kNone;
+    std::int64_t best = 0;  ///< horizons with the best share
+  };
+  std::string key;  ///< of the other axis
+  double value = 0;
+  std::int64_t horizons = 0;
+  std::vector<Planner> planners = {};  ///< in the study's order
+};
+/// In order of the value; empty unless tex and another numeric axis vary.
+std::vector<LongestHorizon> longest_horizons(const SweepTable& table);
+
+/// The page of a sweep, self-contained; a click on a trial's mark opens its drive. `kept`: trials
+/// whose drives stand beside it. The pictures are those of the page.
+std::string sweep_page(const SweepTable& table, const PaperSweep& paper,
+                       const std::set<std::int64_t>& kept = {});
 std::vector<Figure> sweep_figures(const SweepTable& table);
 
 }  // namespace slalom::study
