@@ -1,13 +1,13 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios peers wheel docs format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios peers long-solves verdicts wheel docs format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
 help: ## this list
 	@echo "usage: make TARGET"
-	@sed -n 's/^\([a-z]*\):.*## /\1|/p' $(MAKEFILE_LIST) | \
-	  while IFS='|' read -r name what; do printf '  %-10s %s\n' "$$name" "$$what"; done
+	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' $(MAKEFILE_LIST) | \
+	  while IFS='|' read -r name what; do printf '  %-16s %s\n' "$$name" "$$what"; done
 
 build: ## the release build in build/, without setting anything up
 	cmake --preset release
@@ -47,10 +47,23 @@ study: ## the paper's sweep of 800 drives into run/study/, with its page; goes o
 	build/slalom sweep paper --out run/study
 	build/slalom study-report run/study
 
-results: ## all drives of the figures into docs/results.md and docs/figures/
+results: ## all drives of the figures into docs/results.md, docs/paper-index.md and docs/figures/
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/results.py --program build/slalom
+	python3 tools/paper_index.py --program build/slalom
+
+verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/verdicts.md
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	build/slalom sweep paper --out run/study
+	build/slalom sweep paper-printed --out run/printed
+	python3 tools/verdicts.py --program build/slalom
+
+long-solves: ## long cold plans beside CasADi with Ipopt, into docs/long-solves.md (takes a quarter of an hour)
+	tools/setup.sh bench
+	$(MAKE) --no-print-directory build
+	python3 benchmarks/long_solves.py --program build/slalom
 
 robustness: ## outcomes over floors, starts and horizons into docs/robustness.md (takes minutes)
 	tools/setup.sh results

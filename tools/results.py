@@ -65,6 +65,12 @@ class Drive:
                    for a, b in zip(self.rows, self.rows[1:]))
 
 
+def read(folder):
+    """All drives of a reproduction's folder, by environment and planner."""
+    drives = {key: Drive(folder / key[0] / key[1]) for key in DRIVES + VARIANTS}
+    return drives | {("cases", c): Drive(folder / "cases" / c) for c in CASES}
+
+
 def paper_drives():
     """What config/paper/drives.yaml keeps, read line by line."""
     found, key = {}, {}
@@ -257,8 +263,7 @@ def main():
         folder = pathlib.Path(args.drives or pathlib.Path(scratch) / "paper")
         if not args.drives:
             subprocess.run([args.program, "reproduce", "--out", folder, "--quiet"], check=True)
-        drives = {key: Drive(folder / key[0] / key[1]) for key in DRIVES + VARIANTS}
-        drives |= {("cases", c): Drive(folder / "cases" / c) for c in CASES}
+        drives = read(folder)
         out = pathlib.Path(args.out)
         (out / "figures").mkdir(exist_ok=True)
         for source, name, _ in FIGURES:
