@@ -153,8 +153,11 @@ def same(mine, theirs):
 
 
 def best(mine, theirs):
-    """CasADi's fastest way, of those with our optimum if there is one; its name and answer."""
-    key = min(theirs, key=lambda k: (not same(mine, theirs[k]), seconds(theirs[k])))
+    """CasADi's fastest way to our optimum or, if none ended there, to its lowest; name and answer."""
+    lowest = min((a["cost"] for a in theirs.values() if a["solved"]), default=math.inf)
+    ours = [k for k, a in theirs.items() if same(mine, a)]
+    low = [k for k, a in theirs.items() if a["solved"] and a["cost"] <= lowest * (1 + 1e-6)]
+    key = min(ours or low or theirs, key=lambda k: seconds(theirs[k]))
     return key, theirs[key]
 
 
@@ -173,7 +176,7 @@ def details(rows, limit):
         mine = row["ours"]
         (mode, rule), theirs = best(mine, row["casadi"])
         both = mine["solved"] and theirs["solved"]
-        ratio = f"× {seconds(theirs) / seconds(mine):.1f}" if both else "–"
+        ratio = f"× {seconds(theirs) / seconds(mine):.1f}" if same(mine, theirs) else "–"
         apart = abs(theirs["cost"] / mine["cost"] - 1) if both else math.nan
         agree = "–" if not both else f"{apart:.1e}" if same(mine, theirs) else "another optimum"
         way = ("C" if mode == "c" else "virtual machine") + f", {rule}"
@@ -209,8 +212,8 @@ def slower_line(rows):
 
     pairs = [(row, row["ours"], best(row["ours"], row["casadi"])[1]) for row in rows]
     slower = [place(r) for r, mine, theirs in pairs if seconds(theirs) < seconds(mine)]
-    worse = [place(r) for r, mine, theirs in pairs if mine["solved"] and theirs["solved"]
-             and not same(mine, theirs) and theirs["cost"] < mine["cost"]]
+    worse = [place(r) for r, mine, _ in pairs if mine["solved"] and any(
+        a["solved"] and not same(mine, a) and a["cost"] < mine["cost"] for a in r["casadi"].values())]
     return (f"CasADi is the faster in {len(slower)} of {len(rows)}" + (f" ({'; '.join(slower)})" if slower else "")
             + f", and finds a lower optimum in {len(worse)}" + (f" ({'; '.join(worse)})" if worse else "") + ".")
 
@@ -253,8 +256,8 @@ def page(rows, args):
         f"CasADi {version} (wheel): the same problem, stated anew from [formulation.md](formulation.md)",
         "(`benchmarks/long_casadi.py`), exact Hessian, MUMPS, tol 1e-8, the same straight start. Of the",
         "ways tried (barrier rule adaptive or monotone by the virtual machine, and compiled C, -O3",
-        "-march=native, with the better rule) the fastest stands here, of those that ended in our optimum where",
-        f"one did. Limit: {args.limit:g} s a solve.", "",
+        "-march=native, with the better rule) the fastest stands here, of those that ended in our optimum or, where",
+        f"none did, in their lowest. Limit: {args.limit:g} s a solve.", "",
         *details(rows, args.limit), "",
         "Costs are the same problem's where both ended in the same optimum: passing obstacles on another side is",
         "another one. " + slower_line(rows) + " " + setup_line(rows), ""])  # fmt: skip

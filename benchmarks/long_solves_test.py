@@ -36,7 +36,8 @@ class Judgement(unittest.TestCase):
         ways = {("vm", "adaptive"): answer(900.0, 0.1), ("vm", "monotone"): answer(500.0001, 0.4),
                 ("c", "monotone"): answer(500.0001, 0.2)}
         self.assertEqual(long_solves.best(answer(500.0, 0.01), ways)[0], ("c", "monotone"))
-        self.assertEqual(long_solves.best(answer(700.0, 0.01), ways)[0], ("vm", "adaptive"))
+        self.assertEqual(long_solves.best(answer(700.0, 0.01), ways)[0], ("c", "monotone"))
+        self.assertEqual(long_solves.best(answer(900.0, 0.01), ways)[0], ("vm", "adaptive"))
         unsolved = {("vm", "adaptive"): answer(500.0, 600, solved=False), ("c", "adaptive"): answer(900.0, 3)}
         self.assertEqual(long_solves.best(answer(500.0, 0.01), unsolved)[0], ("c", "adaptive"))
 

@@ -58,6 +58,11 @@ TEST(ReproductionPage, SetsOursBesideThePapers) {
   EXPECT_EQ(count(page, "a note on &lt;this&gt; drive"), 1);
   EXPECT_EQ(count(page, "why the effort differs"), 1);
   EXPECT_EQ(count(page, "−20.9 %"), 1);
+  for (const char* environment : {"E_A-figure", "E_A"}) {
+    EXPECT_EQ(count(page, std::string(environment) + "<br><small>0.1 ∫(·)² dt, the paper’s"), 1);
+    EXPECT_EQ(count(page, std::string(environment) + "<br><small>the cost’s weights 0.1, 1, 0.01"),
+              1);
+  }
   EXPECT_EQ(count(page, "✓ within"), 1);
   EXPECT_EQ(count(page, "✕ outside"), 1);
   EXPECT_EQ(count(page, "over at 4.00 s"), 1);
