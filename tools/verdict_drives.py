@@ -92,6 +92,19 @@ def effort_free(d):
             no_dearer([numbers for _, _, *numbers in found]))
 
 
+def area(drive, x_goal=200):
+    """Between the path and the line through the goal along y [m²]."""
+    return sum(abs(a["x"] + b["x"] - 2 * x_goal) / 2 * abs(b["y"] - a["y"])
+               for a, b in zip(drive.rows, drive.rows[1:]))
+
+
+def less_area(d):
+    found = {p: area(d[f"E_A-figure/{p}"]) for p in ("P_A", "P_B", "P_C")}
+    return ("P_A keeps the area between path and goal line smaller than P_B and P_C do", "compare the paths",
+            "E_A-figure: " + ", ".join(f"{p} {a:.0f} m²" for p, a in found.items()),
+            verdict(found["P_A"] < found[p] for p in ("P_B", "P_C")))
+
+
 def moving_is_safer(d):
     ours = "; ".join(f"{e}: P_C {d[f'{e}/P_C'].ended()}, P_D {d[f'{e}/P_D'].ended()}" for e in ("E_B", "E_C"))
     return ("Moving obstacle avoidance (P_D instead of P_C) is what saves the vehicle in E_B and E_C",
@@ -142,6 +155,14 @@ def danger(d):
             "peak at 19.0 s", f"O2 is nearest at {closest:.1f} s; in the {NEAR:g} s before, median "
             f"{interval_ms(near)} ms, else {interval_ms(rest)} ms, {text}; the longest of all, {ms(drive.solves[k])} "
             f"ms, is planned at {drive.t0[k]:.1f} s", verdict([low > 1, peak]))
+
+
+def dearer_to_avoid(d):
+    c, other = d["E_C/P_C"], d["E_C/P_D"]
+    last = [max(t for t0, t in zip(x.t0, x.solves) if c.time - NEAR <= t0 <= c.time) for x in (c, other)]
+    return ("P_D avoids O2 with a solve time only slightly above P_C's just before its crash", "slightly higher",
+            f"longest in the {NEAR:g} s before: P_D {ms(last[1])} ms, P_C {ms(last[0])} ms",
+            "holds" if last[1] <= 1.5 * last[0] else "does not hold")
 
 
 def crash_speed(d):
@@ -212,8 +233,8 @@ def ipopt(d, other):
 
 def all_of(d, more):
     """Every claim of the drives; `more` holds the drives made besides."""
-    return [minimum_time_arrives(d), minimum_time_solves(d), baseline_misses(d), slow_is_hard(d),
+    return [minimum_time_arrives(d), minimum_time_solves(d), baseline_misses(d), slow_is_hard(d), less_area(d),
             effort_less(d), effort_free(d), moving_is_safer(d), crash_speed(d), moving_is_free(d),
-            real_time(d), danger(d), more_obstacles(d), range_50(d, more["range"]), lane_change(d),
+            dearer_to_avoid(d), real_time(d), danger(d), more_obstacles(d), range_50(d, more["range"]), lane_change(d),
             cases(d), small_tex_instead(more["case E"]), kinematic_moving(more["kinematic F"]),
             ipopt(d, more["ipopt"])]

@@ -82,6 +82,14 @@ def real_time(s):
             "holds" if len(below) <= 2 else "holds in part" if first > last else "does not hold")
 
 
+def safety_by_tex(s):
+    low = [s.rtf("P_C", t)[1] for t in s.texs]
+    small, large = (s.of("P_D", tex=t) for t in ((-1, 0.5), (0.5, math.inf)))
+    return ("P_C's probability of safety is very low at every tex; P_D's is higher at small tex", "compare the figure",
+            f"P_C at most {max(low):.2f}; P_D {share(small):.2f} up to .5 s, {share(large):.2f} above",
+            verdict([max(low) < 0.25, share(small) > share(large)]))
+
+
 def trade_off(s):
     both = [t for t in s.texs if s.rtf("P_D", t)[0] < 1]
     best = max(both, key=lambda t: s.rtf("P_D", t)[1]) if both else None
@@ -135,5 +143,5 @@ def shares(s):
 
 def all_of(s):
     found = [safer(s), shares(s), solve_times(s), not_needed(s), too_fast(s), small_tex(s), real_time(s),
-             trade_off(s), slower_is_safer(s), danger(s)]
+             safety_by_tex(s), trade_off(s), slower_is_safer(s), danger(s)]
     return [one for one in found if one]

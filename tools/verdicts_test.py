@@ -68,6 +68,15 @@ class Rules(unittest.TestCase):
         self.assertEqual(verdict_drives.real_time(good | {"E_B/P_D": drive(solves=[0.6] * 3)})[3],
                          "does not hold")
 
+    def test_area_is_between_path_and_line(self):
+        drives = {f"E_A-figure/{p}": drive(time=2) for p in ("P_A", "P_B", "P_C")}
+        for p, x in (("P_A", 199.0), ("P_B", 197.0), ("P_C", 203.0)):
+            for row in drives[f"E_A-figure/{p}"].rows:
+                row["x"] = x
+        claim = verdict_drives.less_area(drives)
+        self.assertIn("P_A 80 m², P_B 240 m², P_C 240 m²", claim[2])  # 80 m along y
+        self.assertEqual(claim[3], "holds")
+
     def test_cases(self):
         found = {f"cases/{c}": drive(o, t) for c, o, t in (
             ("A", "crash", 3), ("B", "goal", 13), ("C", "goal", 9), ("D", "goal", 8), ("E", "crash", 3),
@@ -123,6 +132,8 @@ class SweepRules(unittest.TestCase):
         self.assertAlmostEqual(pos, 0.8, delta=1e-12)
         self.assertEqual(self.like.rtf("P_D", 0.1, 20)[1], 1)
         self.assertEqual(verdict_sweep.danger(self.like)[3], "holds")
+        self.assertIn("P_C at most 0.40; P_D 0.80 up to .5 s, 0.40 above",
+                      verdict_sweep.safety_by_tex(self.like)[2])
 
 
 if __name__ == "__main__":
