@@ -21,7 +21,7 @@ def drive(outcome="goal", time=6.0, hit=None, solves=(0.001,) * 12, ux=20.0):
             for k in range(int(2 * time) + 1)]
     made = types.SimpleNamespace(
         outcome=outcome, arrived=outcome == "goal", time=time, rows=rows, solves=list(solves),
-        later=list(solves)[1:], t0=[0.5 * k for k in range(len(solves))],
+        later=list(solves)[1:], iterations=[5] * len(solves), t0=[0.5 * k for k in range(len(solves))],
         summary={"hit": hit, "outcome": outcome, "time_s": time, "goal_time_s": time})
     made.ended = lambda: f"{outcome} at {time}"
     made.at = lambda t, column: rows[0][column]
