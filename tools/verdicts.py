@@ -96,8 +96,9 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         drives = reproductions(args.program, folder / "own", args.repeats)
-        claims = verdict_drives.all_of(drives, besides(args.program, folder))
-    text = page(claims, verdict_sweep.all_of(Sweep(args.sweep)),
+        sweep = Sweep(args.sweep)
+        claims = verdict_drives.all_of(drives, besides(args.program, folder), sweep)
+    text = page(claims, verdict_sweep.all_of(sweep),
                 verdict_sweep.all_of(Sweep(args.printed)), args.repeats)
     pathlib.Path(args.out).write_text(text)
 

@@ -119,6 +119,12 @@ class SweepRules(unittest.TestCase):
                       verdict_sweep.not_needed(self.like)[2])
         self.assertEqual(verdict_sweep.not_needed(self.unlike)[3], "does not hold")
 
+    def test_a_small_tex_instead(self):
+        crashes = {0.5: "crash", 0.1: "crash"}
+        self.assertEqual(verdict_drives.small_tex_instead(crashes, self.like)[3], "holds in part")
+        self.assertEqual(verdict_drives.small_tex_instead(crashes | {0.1: "goal"}, self.like)[3], "holds")
+        self.assertEqual(verdict_drives.small_tex_instead(crashes, self.unlike)[3], "does not hold")
+
     def test_speed_and_tex(self):
         self.assertEqual(verdict_sweep.too_fast(self.like)[3], "holds")
         self.assertEqual(verdict_sweep.too_fast(self.unlike)[3], "does not hold")
