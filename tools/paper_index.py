@@ -141,7 +141,6 @@ def rows(program, drives, sweep_folder):
     moving, structured = ([(e, p) for p in ("P_C", "P_D")] for e in ("E_B", "E_C"))
     sweep, counts = sweep_figures(sweep_folder), paper_counts()
     reproduce, study = "`make reproduce`", "`make study`"
-    kept = "run/reproduce/figures/"
     cases = ", ".join(f"{c} {drives['cases', c].summary['outcome']} {drives['cases', c].summary['time_s']:.1f} s"
                       for c in results.CASES)
     return [
@@ -158,14 +157,14 @@ def rows(program, drives, sweep_folder):
          parameters(program, "parama"), "–"),
         ("Table enva", "`slalom check E_A`", "config/scenarios/E_A.yaml", parameters(program, "enva"), "–"),
         ("Table envc", "`slalom check E_C`", "config/scenarios/E_C.yaml", parameters(program, "envc"), "–"),
-        ("Fig. mt, E_A", reproduce, f"{kept}E_A-figure_traces, _path, _dynamics", ended(drives, *figure),
+        ("Fig. mt, E_A", reproduce, "[E_A-figure.svg](figures/E_A-figure.svg)", ended(drives, *figure),
          papers(drives, *figure)),
         ("Table cer, control effort", reproduce, "[results.md](results.md#control-effort)", *effort(drives)),
-        ("Fig. mo, E_B", reproduce, f"{kept}E_B_traces, _path, _crash, _dynamics", ended(drives, *moving),
+        ("Fig. mo, E_B", reproduce, "[E_B.svg](figures/E_B.svg)", ended(drives, *moving),
          papers(drives, *moving)),
-        ("Fig. moa, E_C", reproduce, f"{kept}E_C_path", ended(drives, *structured), papers(drives, *structured)),
-        ("Fig. mob, the crash", reproduce, f"{kept}E_C_crash", *crash(drives)),
-        ("Fig. moc, traces of E_C", reproduce, f"{kept}E_C_traces, _dynamics", ended(drives, *structured),
+        ("Fig. moa, E_C", reproduce, "[E_C.svg](figures/E_C.svg)", ended(drives, *structured), papers(drives, *structured)),
+        ("Fig. mob, the crash", reproduce, "[E_C_crash.svg](figures/E_C_crash.svg)", *crash(drives)),
+        ("Fig. moc, traces of E_C", reproduce, "[E_C.svg](figures/E_C.svg), [E_C_dynamics.svg](figures/E_C_dynamics.svg)", ended(drives, *structured),
          papers(drives, *structured)),
         ("Fig. texv, tex and speed of O2", study, "run/study/figures/map_P_C, map_P_D", sweep["texv"],
          f"P_C {counts['P_C'][0]}, P_D {counts['P_D'][0]} of {counts['P_D'][1]}"),
@@ -182,8 +181,8 @@ def page(lines):
     return "\n".join([
         "<!-- Written by tools/paper_index.py (`make results`). -->",
         "# The paper's tables and figures", "",
-        "By the names of the paper's sources. Figures are SVG; those of the drives that are small are in",
-        "[results.md](results.md) too. All numbers are of the run that wrote this page, and the printed ones from",
+        "By the names of the paper's sources. `make reproduce` leaves its figures in run/reproduce/figures/, some of them",
+        "also here. All numbers are of the run that wrote this page, and the printed ones from",
         "`config/paper/`.", "",
         "| " + " | ".join(head) + " |", "|---" * len(head) + "|",
         *("| " + " | ".join(line) + " |" for line in lines), ""])

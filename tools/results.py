@@ -26,13 +26,10 @@ VARIANTS = (("E_C-range-50", "P_C"), ("E_C-range-50", "P_D"), ("E_C-no-cones", "
             ("E_C-no-cones", "P_D"))
 # Pictures kept: the file in the reproduction's folder, its name in docs/figures, what it shows.
 FIGURES = (
-    ("figures/E_A-figure_path.svg", "E_A-figure_path.svg", "E_A-figure: P_A, P_B, P_C; rings are the paper's vehicles"),
-    ("figures/E_A-figure_traces.svg", "E_A-figure_traces.svg", "E_A-figure: solve time, steering angle, speed, acceleration"),
-    ("figures/E_B_path.svg", "E_B_path.svg", "E_B: P_C to the left and into O1, P_D to the right and behind it"),
-    ("figures/E_B_traces.svg", "E_B_traces.svg", "E_B: solve time, steering angle, speed, acceleration"),
-    ("figures/E_C_path.svg", "E_C_path.svg", "E_C: P_C into O2, P_D out of its way"),
+    ("figures/E_A-figure.svg", "E_A-figure.svg", "E_A-figure: P_A, P_B, P_C; rings are the paper's vehicles"),
+    ("figures/E_B.svg", "E_B.svg", "E_B: P_C to the left and into O1, P_D to the right and behind it"),
+    ("figures/E_C.svg", "E_C.svg", "E_C: P_C into O2, P_D out of its way"),
     ("figures/E_C_crash.svg", "E_C_crash.svg", "E_C at 19.5 s: P_C's plan takes O2 to stand where it was (dashed)"),
-    ("figures/E_C_traces.svg", "E_C_traces.svg", "E_C: solve time, steering angle, speed, acceleration"),
     ("figures/E_C_dynamics.svg", "E_C_dynamics.svg", "E_C: lateral speed, yaw rate, controls, least wheel load"),
     ("figures/E_C-range-50_crash.svg", "E_C-range-50_crash.svg", "E_C seen 50 m ahead: both crash into O2"),
     ("figures/E_C-no-cones_path.svg", "E_C-no-cones_path.svg", "E_C without cones: the lane is changed at once"),

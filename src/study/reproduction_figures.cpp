@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "comparison.hpp"
 #include "concept_cases.hpp"
@@ -164,24 +165,36 @@ Figure crash_figure(const Group& group, const ReproducedDrive& crash, const Pape
                    12)};
 }
 
+/// The paper's figure of two columns: its traces, and beside them the paths.
+Figure whole_figure(const Group& group, const Figure& traces, const Figure& path) {
+  const auto& name = group.front()->scenario.name;
+  return {plain_name(name) + ".svg", name + ": traces and paths, for two columns",
+          side_by_side(name + ": traces and paths", {traces.svg, path.svg}, 12)};
+}
+
+std::vector<Figure> group_figures(const Group& group, const PaperData& paper) {
+  const auto traces = traces_figure(group);
+  const auto path = path_figure(group, paper);
+  std::vector<Figure> figures = {traces, dynamics_figure(group), path,
+                                 whole_figure(group, traces, path)};
+  bool first = true;
+  for (const auto* one : group) {
+    if (one->drive.outcome != sim::Outcome::crash || one->drive.plant.empty()) continue;
+    figures.push_back(
+        crash_figure(group, *one, paper, first ? "" : "_" + one->scenario.planner.name));
+    first = false;
+  }
+  return figures;
+}
+
 }  // namespace
 
 std::vector<Figure> reproduction_figures(const std::vector<ReproducedDrive>& drives,
                                          const PaperData& paper,
                                          const std::vector<ConceptCase>& cases) {
   std::vector<Figure> figures;
-  for (const auto& group : by_environment(drives)) {
-    figures.push_back(traces_figure(group));
-    figures.push_back(dynamics_figure(group));
-    figures.push_back(path_figure(group, paper));
-    bool first = true;
-    for (const auto* one : group) {
-      if (one->drive.outcome != sim::Outcome::crash || one->drive.plant.empty()) continue;
-      figures.push_back(
-          crash_figure(group, *one, paper, first ? "" : "_" + one->scenario.planner.name));
-      first = false;
-    }
-  }
+  for (const auto& group : by_environment(drives))
+    for (auto& figure : group_figures(group, paper)) figures.push_back(std::move(figure));
   if (!cases.empty()) figures.push_back(concept_figure(cases));
   return figures;
 }

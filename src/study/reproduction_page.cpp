@@ -29,7 +29,10 @@ std::string figures_html(const std::vector<ReproducedDrive>& drives, const Paper
                         plain_name(scenario.name), escape(scenario.name), escape(scenario.title));
     for (const auto& figure : figures)
       if (figure.file.rfind(plain_name(scenario.name) + "_", 0) == 0) html += figure_html(figure);
-    html += "</div>\n" + note_html(paper, scenario.name.c_str());
+    html += fmt::format("</div>\n<p class=\"remark\">{}</p>\n",
+                        link("figures/" + plain_name(scenario.name) + ".svg",
+                             "Traces and paths as one figure of two columns")) +
+            note_html(paper, scenario.name.c_str());
   }
   return html;
 }

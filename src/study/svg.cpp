@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -87,7 +88,56 @@ std::string joined(const std::vector<Point>& points) {
   return text;
 }
 
+/// The document from its root on, and its size.
+struct Part {
+  std::string_view text;
+  double width = 0, height = 0;
+};
+
+Part part_of(std::string_view document) {
+  Part part{document.substr(std::min(document.find("<svg"), document.size()))};
+  const auto number_after = [&](std::string_view key) {
+    const auto at = part.text.find(key);
+    return at == part.text.npos ? 0 : std::strtod(part.text.data() + at + key.size(), nullptr);
+  };
+  part.width = number_after(" width=\"");
+  part.height = number_after(" height=\"");
+  return part;
+}
+
+std::string document(double width, double height, const std::string& title,
+                     const std::string& body) {
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}pt\" height=\"{}pt\" "
+      "viewBox=\"0 0 {} {}\" role=\"img\" "
+      "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n<title>{}</title>\n{}</svg>\n",
+      coordinate(width), coordinate(height), coordinate(width), coordinate(height), escape(title),
+      body);
+}
+
 }  // namespace
+
+std::string side_by_side(const std::string& title, const std::vector<std::string>& documents,
+                         double gap) {
+  double width = 0, height = 0;
+  std::string body;
+  for (const auto& one : documents) {
+    const auto part = part_of(one);
+    if (part.text.empty()) continue;
+    if (!body.empty()) width += gap;
+    // Inside a picture, a length in points would be one of 4/3 of its units.
+    body += fmt::format("<svg x=\"{}\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">{}",
+                        coordinate(width), coordinate(part.width), coordinate(part.height),
+                        coordinate(part.width), coordinate(part.height),
+                        part.text.substr(part.text.find('>') + 1));
+    width += part.width;
+    height = std::max(height, part.height);
+  }
+  const auto ground = fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n",
+                                  coordinate(width), coordinate(height));
+  return document(width, height, title, ground + body);
+}
 
 Svg::Svg(const std::string& name, double width, double height, std::string title)
     : name_(plain_name(name)), title_(std::move(title)), width_(width), height_(height) {}
@@ -169,13 +219,7 @@ void Svg::end_clip() {
 }
 
 std::string Svg::str() const {
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}pt\" height=\"{}pt\" "
-      "viewBox=\"0 0 {} {}\" role=\"img\" "
-      "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n<title>{}</title>\n{}</svg>\n",
-      coordinate(width_), coordinate(height_), coordinate(width_), coordinate(height_),
-      escape(title_), body_);
+  return document(width_, height_, title_, body_);
 }
 
 }  // namespace slalom::study

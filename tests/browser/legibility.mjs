@@ -1,10 +1,12 @@
-// What a figure looks like in print at 8 cm: its smallest letters, its thinnest line, words that run into each other.
+// What a figure looks like in print, at 8 cm or, if it is made for two columns, at its own width: its smallest letters, its thinnest line, words that run into each other.
 const COLUMN_PT = 8 / 2.54 * 72;
 
-/** Sizes in points at 8 cm width; `overlaps` and `outside` name the words concerned. */
+/** Sizes in points at that width; `overlaps` and `outside` name the words concerned. */
 export function legibility(page) {
-  return page.evaluate((column) => {
+  return page.evaluate((narrow) => {
     const svg = document.querySelector('svg');
+    const own = parseFloat(svg.getAttribute('width'));
+    const column = own > 1.01 * narrow ? own : narrow;
     const frame = svg.getBoundingClientRect();
     const scale = column / svg.viewBox.baseVal.width;  // points in print a unit of the picture
     const pixel = svg.viewBox.baseVal.width / frame.width;

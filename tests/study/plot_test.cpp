@@ -77,6 +77,27 @@ TEST(Svg, LinesKeepTheirShapeWithFewPoints) {
   }
 }
 
+TEST(Svg, StandSideBySideAtTheirOwnSizes) {
+  Svg one("one", 100, 50.5, "one <1>"), two("two", 200, 80, "two");
+  one.text({1, 2}, "left", {});
+  two.text({3, 4}, "right", {});
+  const auto both = side_by_side("both & more", {one.str(), two.str()}, 10);
+  const auto tree = testing::parse_xml(both);
+  EXPECT_EQ(tree.get<std::string>("svg.<xmlattr>.width"), "310pt");
+  EXPECT_EQ(tree.get<std::string>("svg.<xmlattr>.height"), "80pt");
+  EXPECT_EQ(tree.get<std::string>("svg.title"), "both & more");
+  std::string places;
+  for (const auto& [name, child] : tree.get_child("svg"))
+    if (name == "svg")
+      places += child.get<std::string>("<xmlattr>.x") + "+" +
+                child.get<std::string>("<xmlattr>.width") + " of " +
+                child.get<std::string>("<xmlattr>.viewBox") + " " + child.get<std::string>("text") +
+                "; ";
+  EXPECT_EQ(places, "0+100 of 0 0 100 50.5 left; 110+200 of 0 0 200 80 right; ");
+  EXPECT_NO_THROW(testing::parse_xml(side_by_side("none", {}, 10)));
+  EXPECT_NO_THROW(testing::parse_xml(side_by_side("empty", {""}, 10)));
+}
+
 TEST(PlotSvg, ConstantsHaveShortTicks) {
   Plot plot{.x_label = "t [s]", .y_label = "ux [m/s]"};
   plot.series = {{"", {0, 1, 2}, {17, 17 + 1e-9, 17}, {colours::blue}}};

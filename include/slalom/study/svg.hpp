@@ -65,6 +65,10 @@ class Svg {
   int clips_ = 0;
 };
 
+/// Documents made by Svg beside each other, tops aligned, `gap` apart; each keeps its size.
+std::string side_by_side(const std::string& title, const std::vector<std::string>& documents,
+                         double gap);
+
 /// Okabe and Ito's palette, told apart by colour-blind readers and in grey.
 namespace colours {
 inline constexpr const char* ink = "#17212c";
