@@ -1,25 +1,40 @@
 #include "slalom/study/path_exists.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <queue>
+#include <unordered_set>
 #include <vector>
 
 namespace slalom::study {
 namespace {
 
+constexpr int kParts = 10;  ///< of a move, each checked: a metre at 25 m/s
+/// Cells within which places count as one.
+constexpr double kPlace = 1, kHeading = 0.1, kSpeed = 3, kCurvature = 0.013, kTime = 0.8;
+/// How much more the way ahead counts than the way so far: a way is enough, it need not be the
+/// shortest.
+constexpr double kGreed = 2;
+
 struct Place {
-  double x = 0, y = 0;
+  double x = 0, y = 0, psi = 0, v = 0, kappa = 0, t = 0;
+};
+
+/// A place to go on from; `rank` is the time it would bring us to the goal at, at best.
+struct Open {
+  double rank = 0;
+  std::uint32_t order = 0;  ///< of two alike the older first: the same search everywhere
+  Place at;
+  bool operator<(const Open& other) const {
+    return rank > other.rank || (rank == other.rank && order > other.order);
+  }
 };
 
 class Search {
  public:
-  Search(const sim::Scenario& scenario, const PathSearch& search)
-      : s_(scenario), p_(search), start_{s_.start[vehicle::X], s_.start[vehicle::Y]} {
-    const double dx = s_.goal.x - start_.x, dy = s_.goal.y - start_.y;
-    const double length = std::max(std::hypot(dx, dy), 1e-9);
-    along_ = {dx / length, dy / length};
-    rows_ = static_cast<int>(std::ceil((length + s_.goal.sigma) / p_.cell)) + 1;
-    side_ = static_cast<int>(std::floor(p_.half_width / p_.cell));
+  Search(const sim::Scenario& scenario, const PathSearch& search) : s_(scenario), p_(search) {
     for (const auto& o : s_.obstacles) {
       auto grown = o;
       grown.a += s_.loop.sm_crash + p_.clearance;
@@ -28,88 +43,78 @@ class Search {
     }
   }
 
-  bool run() const {
-    const int columns = 2 * side_ + 1;
-    std::vector<char> reached(index(rows_, 0), 0), next;
-    reached[static_cast<std::size_t>(side_)] = 1;
-    const int layers = static_cast<int>(std::ceil(p_.t_max / p_.dt));
-    for (int layer = 0; layer < layers; ++layer) {
-      next.assign(reached.size(), 0);
-      bool any = false;
-      for (int row = 0; row < rows_; ++row)
-        for (int column = 0; column < columns; ++column)
-          if (reached[index(row, column)] != 0) {
-            if (at_goal(place(row, column))) return true;
-            any = spread(row, column, layer * p_.dt, next) || any;
-          }
-      if (!any) return false;
-      reached.swap(next);
+  bool run() {
+    const auto& X = s_.start;
+    add({X[vehicle::X], X[vehicle::Y], X[vehicle::PSI],
+         std::clamp(X[vehicle::UX], p_.v_min, p_.v_max), 0, 0});
+    for (int looked_at = 0; !open_.empty() && looked_at < p_.max_places; ++looked_at) {
+      const Place from = open_.top().at;
+      open_.pop();
+      if (at_goal(from)) return true;
+      for (const double turn : {0.0, -1.0, 1.0})
+        for (const double push : {p_.acceleration, 0.0, -p_.braking})
+          if (Place to; move(from, turn * p_.curvature_rate, push, to)) add(to);
     }
     return false;
   }
 
  private:
-  std::size_t index(int row, int column) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(2 * side_ + 1) +
-           static_cast<std::size_t>(column);
-  }
-
-  Place place(double row, double column) const {
-    const double s = row * p_.cell, n = (column - side_) * p_.cell;
-    return {start_.x + along_.x * s + along_.y * n, start_.y + along_.y * s - along_.x * n};
-  }
-
   bool at_goal(const Place& p) const {
     return std::fabs(p.x - s_.goal.x) <= s_.goal.sigma &&
            std::fabs(p.y - s_.goal.y) <= s_.goal.sigma;
   }
 
-  bool free(const Place& p, double t) const {
+  bool free(const Place& p) const {
     if (p.x < s_.region.x_min || p.x > s_.region.x_max || p.y < s_.region.y_min ||
         p.y > s_.region.y_max)
       return false;
     return std::none_of(obstacles_.begin(), obstacles_.end(), [&](const auto& o) {
-      const double dx = (p.x - o.x_at(t)) / o.a, dy = (p.y - o.y_at(t)) / o.b;
+      const double dx = (p.x - o.x_at(p.t)) / o.a, dy = (p.y - o.y_at(p.t)) / o.b;
       return dx * dx + dy * dy < 1;
     });
   }
 
-  bool move_free(int row, int column, int ahead, int across, double t) const {
-    constexpr int kParts = 12;  // a metre at 24 m/s: thinner than any obstacle with its margins
-    for (int part = kParts; part > 0; --part) {
-      const double share = static_cast<double>(part) / kParts;
-      if (!free(place(row + share * ahead, column + share * across), t + share * p_.dt))
-        return false;
+  /// The place after dt; false where the vehicle cannot, or something is in the way.
+  bool move(const Place& from, double kappa_rate, double push, Place& to) const {
+    to = from;
+    if (from.t >= p_.t_max) return false;
+    const double h = p_.dt / kParts;
+    for (int part = 0; part < kParts; ++part) {
+      to.v = std::clamp(to.v + push * h, p_.v_min, p_.v_max);
+      to.kappa += kappa_rate * h;
+      const double turned = to.v * to.kappa * h;
+      to.x += to.v * h * std::cos(to.psi + turned / 2);
+      to.y += to.v * h * std::sin(to.psi + turned / 2);
+      to.psi += turned;
+      to.t += h;
+      if (!free(to)) return false;
     }
-    return true;
+    const double most = std::min(p_.curvature, p_.lateral_acceleration / (to.v * to.v));
+    return std::fabs(to.kappa) <= most;
   }
 
-  /// Marks where moves from one place lead; whether any is free.
-  bool spread(int row, int column, double t, std::vector<char>& next) const {
-    const int columns = 2 * side_ + 1;
-    const int least = std::max(1, static_cast<int>(std::ceil(p_.v_min * p_.dt / p_.cell)));
-    const int most = static_cast<int>(std::floor(p_.v_max * p_.dt / p_.cell));
-    bool any = false;
-    for (int ahead = most; ahead >= least; --ahead) {
-      const int to_row = row + ahead;
-      if (to_row >= rows_) continue;
-      const int reach = static_cast<int>(std::floor(p_.slope * ahead));
-      for (int across = -reach; across <= reach; ++across) {
-        const int to = column + across;
-        if (to < 0 || to >= columns) continue;
-        auto& mark = next[index(to_row, to)];
-        if (mark == 0 && move_free(row, column, ahead, across, t)) mark = 1;
-        any = any || mark != 0;
-      }
-    }
-    return any;
+  void add(const Place& p) {
+    std::uint64_t key = 0;
+    const auto mix = [&key](double value, double size, int bits) {
+      const auto cell = static_cast<std::uint64_t>(std::llround(value / size));
+      key = key << bits | (cell & ((1U << bits) - 1));
+    };
+    mix(p.x, kPlace, 14);
+    mix(p.y, kPlace, 14);
+    mix(p.psi, kHeading, 8);
+    mix(p.v, kSpeed, 6);
+    mix(p.kappa, kCurvature, 6);
+    mix(p.t, kTime, 8);
+    if (!seen_.insert(key).second) return;
+    const double left = std::max(0.0, std::hypot(p.x - s_.goal.x, p.y - s_.goal.y) - s_.goal.sigma);
+    open_.push({p.t + kGreed * left / p_.v_max, static_cast<std::uint32_t>(seen_.size()), p});
   }
 
   const sim::Scenario& s_;
   const PathSearch p_;
-  Place start_, along_;
-  int rows_ = 0, side_ = 0;
   std::vector<planner::Obstacle> obstacles_;  ///< grown
+  std::priority_queue<Open> open_;
+  std::unordered_set<std::uint64_t> seen_;
 };
 
 }  // namespace

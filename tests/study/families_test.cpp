@@ -100,13 +100,22 @@ TEST(PathExists, CountsWhereObstaclesAreByThen) {
   EXPECT_FALSE(path_exists(s));
 }
 
+TEST(PathExists, TurnsAndBrakesAsAVehicleCan) {
+  auto s = open_way();
+  s.obstacles = {{"wall", -4, 60, 8, 1, 0, 0}};  // 6 m aside at least
+  EXPECT_TRUE(path_exists(s));
+  s.obstacles[0].y = 24;
+  EXPECT_FALSE(path_exists(s)) << "too near at 17 m/s";
+  EXPECT_TRUE(path_exists(s, {.lateral_acceleration = 12, .curvature_rate = 0.1}));
+}
+
 TEST(PathExists, StaysInTheRegionAndReachesTheGoalInTime) {
   auto s = open_way();
   s.goal.x = 40;
   EXPECT_FALSE(path_exists(s)) << "the region ends before the goal's square";
   s = open_way();
-  EXPECT_FALSE(path_exists(s, {.t_max = 3})) << "72 m at 24 m/s";
-  EXPECT_TRUE(path_exists(s, {.t_max = 5}));
+  EXPECT_FALSE(path_exists(s, {.t_max = 3})) << "90 m from 17 m/s on";
+  EXPECT_TRUE(path_exists(s, {.t_max = 6}));
 }
 
 }  // namespace

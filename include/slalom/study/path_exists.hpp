@@ -4,22 +4,28 @@
 
 namespace slalom::study {
 
-/// The search of path_exists(): metres and seconds.
+/// The search of path_exists(), and what the vehicle in it can do.
 struct PathSearch {
-  double dt = 0.5;               ///< of a move
-  double cell = 1;               ///< of the grid, along and across
-  double clearance = 0.5;        ///< kept beyond the crash check's margin sm_crash
-  double v_min = 2, v_max = 24;  ///< speed along the line from start to goal [m/s]
-  double slope = 0.5;            ///< most metres across for one along
-  double half_width = 40;        ///< searched to each side of the line
-  double t_max = 30;
+  double dt = 0.4;               ///< of a move [s]
+  double clearance = 0.5;        ///< kept beyond the crash check's margin sm_crash [m]
+  double v_min = 3, v_max = 25;  ///< [m/s]
+  double acceleration = 1.5;     ///< [m/s^2]
+  double braking = 3.5;          ///< [m/s^2]
+  double lateral_acceleration =
+      4;                    ///< most [m/s^2]; some .5 below where a wheel load falls to 1000 N
+  double curvature = 0.15;  ///< most [1/m]
+  double curvature_rate = 0.026;  ///< most [1/(m s)]: 5 deg/s of steering on a wheelbase of 3.3 m
+  double t_max = 45;              ///< [s]
+  int max_places = 150'000;       ///< looked at before the search gives up
 };
 
-/// Whether a point can move from the start into the goal's square past the obstacles, where they
-/// are by then, within the region: breadth-first over a grid of places and times. Moves go along
-/// the line from start to goal, never back, and are checked every twelfth of dt. What it finds is a
-/// necessary condition for a drive in moderate turns, not a drive: the point turns and brakes at
-/// once. A scenario it denies may have a way that goes back or leaves the grid.
+/// Whether the search finds a way from the start into the goal's square, past the obstacles where
+/// they are by then and within the region: hybrid A* (D. Dolgov, S. Thrun, M. Montemerlo and
+/// J. Diebel, "Path planning for autonomous vehicles in unknown semi-structured environments", Int.
+/// J. Robotics Research 29(5), 2010) over place, heading, speed, curvature and time. A move holds
+/// one rate of curvature and one acceleration; the way is one that a vehicle with these limits and
+/// no slip can drive. Its clearance is checked every tenth of a move. A scenario it denies may
+/// have a way between its grid's points.
 bool path_exists(const sim::Scenario& scenario, const PathSearch& search = {});
 
 }  // namespace slalom::study
