@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios peers long-solves verdicts wheel docs format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios paper-sweep peers long-solves verdicts wheel docs format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -52,6 +52,11 @@ results: ## all drives of the figures into docs/results.md, docs/paper-index.md 
 	$(MAKE) --no-print-directory build
 	python3 tools/results.py --program build/slalom
 	python3 tools/paper_index.py --program build/slalom
+
+paper-sweep: ## the paper's sweep on both grids and with one thing changed, into docs/paper-sweep.md (takes 20 minutes)
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/paper_sweep.py --program build/slalom
 
 verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/verdicts.md
 	tools/setup.sh results

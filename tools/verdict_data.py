@@ -126,8 +126,9 @@ class Sweep:
             self.trials = [{
                 "planner": row["planner"], "tex": float(row["loop.tex"]),
                 "speed": abs(float(row["obstacles.O2.vy"])), "passed": row["outcome"] == "goal",
-                "outcome": row["outcome"],
+                "outcome": row["outcome"], "hit": row["hit"],
                 "max": float(row["max_cpu_time_s"] or "nan"),
+                "max_wall": float(row["max_solve_time_s"] or "nan"),
                 "median": float(row["median_cpu_time_s"] or "nan"),
             } for row in csv.DictReader(file)]
         self.texs = sorted({t["tex"] for t in self.trials})
@@ -147,10 +148,11 @@ class Sweep:
         return [(t, other[t["tex"], t["speed"]]) for t in self.trials if t["planner"] == "P_C"
                 and (t["tex"], t["speed"]) in other]
 
-    def rtf(self, planner, tex, most=math.inf):
-        """The paper's real-time factor and probability of safety at one tex, speeds up to `most`."""
+    def rtf(self, planner, tex, most=math.inf, measure="max"):
+        """The paper's real-time factor and probability of safety at one tex, speeds up to `most`; by
+        CPU time, or by wall clock ("max_wall")."""
         own = [t for t in self.trials if t["planner"] == planner and t["tex"] == tex and t["speed"] <= most]
-        longest = [t["max"] for t in own if math.isfinite(t["max"])]
+        longest = [t[measure] for t in own if math.isfinite(t[measure])]
         return statistics.mean(longest) / tex, share(own)
 
 

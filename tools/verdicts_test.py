@@ -90,14 +90,14 @@ def sweep(passes):
     folder = tempfile.TemporaryDirectory()
     with open(pathlib.Path(folder.name) / "trials.csv", "w", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(["planner", "loop.tex", "obstacles.O2.vy", "outcome", "max_cpu_time_s",
-                         "median_cpu_time_s"])
+        writer.writerow(["planner", "loop.tex", "obstacles.O2.vy", "outcome", "hit", "max_cpu_time_s",
+                         "median_cpu_time_s", "max_solve_time_s"])
         for planner in ("P_C", "P_D"):
             for tex in (0.1, 0.3, 0.687, 0.9):
                 for speed in (0, 2.1, 10, 20, 30):
                     passed = passes(planner, tex, speed)
                     writer.writerow([planner, tex, -speed, "goal" if passed else "crash",
-                                     0.001 if passed else 0.003, 0.001])
+                                     "" if passed else "O2", 0.001 if passed else 0.003, 0.001, 0.004])
     with folder:
         return Sweep(folder.name)
 
