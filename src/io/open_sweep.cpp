@@ -77,6 +77,12 @@ class OpenSweep::Impl {
   void record(std::int64_t number, const std::string& line) {
     auto answer = parse_answer(line);
     if (!answer.not_written.empty()) throw Error(answer.not_written);
+    // A worker elsewhere may have written to a disk of its own.
+    std::error_code error;
+    if (const auto folder = drive_folder(request_.out, number);
+        study_.settings.keep == Keep::drives && !fs::exists(folder, error))
+      throw Error(folder.string() +
+                  ": not to be seen here; drives are kept in a folder that all workers share");
     keep(number, std::move(answer.record));
   }
 

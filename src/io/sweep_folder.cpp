@@ -1,13 +1,8 @@
 #include "sweep_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "file_set.hpp"
@@ -109,19 +104,9 @@ void clear_sweep_folder(const fs::path& folder) {
   }
 }
 
-SweepLock::SweepLock(const fs::path& store) {
-  const auto file = store.parent_path() / ("." + store.stem().string() + ".lock");
-  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor_ < 0)
-    throw Error(fmt::format("{}: cannot be written ({})", file.string(), std::strerror(errno)));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(descriptor_);
-    throw Error(fmt::format("{}: another sweep is at work on it", store.string()));
-  }
-}
-
-SweepLock::~SweepLock() {
-  ::close(descriptor_);
+SweepLock::SweepLock(const fs::path& store)
+    : lock_(store.parent_path() / ("." + store.stem().string() + ".lock"), FileLock::Wait::no) {
+  if (!lock_.held()) throw Error(fmt::format("{}: another sweep is at work on it", store.string()));
 }
 
 study::SweepTable study_of(const fs::path& folder) {
@@ -151,6 +136,8 @@ std::string trials_csv(const fs::path& folder) {
 }
 
 SweepContent export_sweep(const fs::path& folder) {
+  // Of two shards that end together, the second to write must know what the first one has.
+  const FileLock lock(folder / ".export.lock", FileLock::Wait::yes);
   SweepContent content{study_of(folder)};
   TrialStream trials(store_files(folder));
   auto text = trials_csv_head(content.study);

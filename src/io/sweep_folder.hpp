@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "file_lock.hpp"
 #include "slalom/io/sweep.hpp"
 
 namespace slalom::io {
@@ -15,17 +16,14 @@ void prepare_sweep_folder(const std::filesystem::path& folder, const study::Swee
 /// Removes what a sweep left in the folder, nothing else.
 void clear_sweep_folder(const std::filesystem::path& folder);
 
-/// Keeps other sweeps out of a file while it lives, also when this process is killed.
+/// Keeps other sweeps out of a store while it lives, also when this process is killed.
 class SweepLock {
  public:
   /// Throws Error when another process holds it.
   explicit SweepLock(const std::filesystem::path& store);
-  ~SweepLock();
-  SweepLock(const SweepLock&) = delete;
-  SweepLock& operator=(const SweepLock&) = delete;
 
  private:
-  int descriptor_ = -1;
+  FileLock lock_;
 };
 
 /// The study whose results stand in a folder, without its trials; throws Error when there is none.

@@ -1,6 +1,7 @@
 """Sweeps: the same table on any number of workers, whatever is killed; one message for bad studies."""
 
 import csv
+import fcntl
 import json
 import os
 import random
@@ -94,6 +95,19 @@ class Sweep(SweepTest):
         for limit in (1, 4, 100):
             pieces = self.sweep("pieces", "--limit", str(limit))
         self.assertEqual(pieces, one)
+
+    def test_shards_that_end_together_wait_for_each_others_table(self):
+        self.sweep("out", "--shard", "1/2", "--limit", "0")
+        with open(self.folder / "out/.export.lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            process = start("sweep", self.study, "--out", self.folder / "out", "--shard", "2/2",
+                            "--limit", "1", "--json")
+            next_event(process, "recorded")
+            with self.assertRaises(subprocess.TimeoutExpired):
+                process.wait(timeout=0.5)
+            self.assertEqual(table(self.folder / "out"), [])
+        process.communicate(timeout=60)
+        self.assertEqual(len(table(self.folder / "out")), 1)
 
     def test_a_finished_trial_is_not_run_again(self):
         self.sweep("out", "--limit", "5")

@@ -1,0 +1,34 @@
+#include "file_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "slalom/base/error.hpp"
+
+namespace slalom::io {
+
+FileLock::FileLock(const std::filesystem::path& file, Wait wait) {
+  const auto fail = [&](const char* what) {
+    const int reason = errno;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    throw Error(fmt::format("{}: cannot be {} ({})", file.string(), what, std::strerror(reason)));
+  };
+  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("written");
+  int code = 0;
+  do code = ::flock(descriptor_, wait == Wait::yes ? LOCK_EX : LOCK_EX | LOCK_NB);
+  while (code != 0 && errno == EINTR);
+  held_ = code == 0;
+  if (!held_ && errno != EWOULDBLOCK) fail("locked");
+}
+
+FileLock::~FileLock() {
+  ::close(descriptor_);
+}
+
+}  // namespace slalom::io

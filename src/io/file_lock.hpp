@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+namespace slalom::io {
+
+/// Keeps other processes out of something while it lives, also when this process is killed. The
+/// file it is held by stays.
+class FileLock {
+ public:
+  enum class Wait { no, yes };  ///< for another process that holds it
+
+  /// Throws Error when the file cannot be made or locked.
+  FileLock(const std::filesystem::path& file, Wait wait);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  /// False where another process holds it and was not waited for.
+  bool held() const { return held_; }
+
+ private:
+  int descriptor_ = -1;
+  bool held_ = false;
+};
+
+}  // namespace slalom::io
