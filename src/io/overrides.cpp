@@ -1,6 +1,7 @@
 #include "overrides.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -66,6 +67,32 @@ void set_obstacle(const Assignment& a, sim::Scenario& scenario, Places& places) 
   places[a.section] = a.place;
 }
 
+/// The sections whose keys are options.
+constexpr const char* kSections[] = {"planner", "loop", "vehicle", "start", "goal", "region"};
+
+/// One of them; nothing for other names. `start` is where the keys of the start go.
+std::optional<Section> section_of(const std::string& name, sim::Scenario& scenario, Start& start) {
+  if (name == "planner") return Section(name).add(planner::setting_options(), scenario.planner);
+  if (name == "loop") return Section(name).add(sim::loop_options(), scenario.loop);
+  if (name == "vehicle") return Section(name).add(vehicle::parameter_options(), scenario.vehicle);
+  if (name == "start") return start_section(start);
+  if (name == "goal") return goal_section(scenario.goal);
+  if (name == "region") return region_section(scenario.region);
+  return std::nullopt;
+}
+
+/// "loop.tex" for tex: the keys of this name with their sections.
+std::vector<std::string> whole_paths(const std::string& key, sim::Scenario& scenario) {
+  std::vector<std::string> paths;
+  Start start(scenario.start);
+  for (const std::string name : kSections) {
+    const auto keys = section_of(name, scenario, start)->keys();
+    if (std::find(keys.begin(), keys.end(), key) != keys.end())
+      paths.push_back(fmt::format("{}.{}", name, key));
+  }
+  return paths;
+}
+
 void set_top_level(const Assignment& a, sim::Scenario& scenario) {
   if (a.key == "name" || a.key == "title") {
     check_text(a.text, a.place.source, "text");
@@ -74,32 +101,28 @@ void set_top_level(const Assignment& a, sim::Scenario& scenario) {
   }
   static const std::vector<std::string> sections = {"planner", "loop",      "vehicle", "start",
                                                     "goal",    "obstacles", "region"};
-  if (std::find(sections.begin(), sections.end(), a.key) == sections.end())
+  if (std::find(sections.begin(), sections.end(), a.key) == sections.end()) {
+    if (const auto paths = whole_paths(a.key, scenario); !paths.empty())
+      throw InvalidValue(a.place.to_string(), fmt::format("key '{}' without its section", a.key),
+                         fmt::format("{}", fmt::join(paths, " or ")));
     unknown_key(
         a.key, a.place, "",
         {"name", "title", "planner", "loop", "vehicle", "start", "goal", "region", "obstacles"});
+  }
   throw InvalidValue(a.place.to_string(), "a whole section",
                      fmt::format("one key of it, {}.KEY=value", a.key));
 }
 
 void apply(const Assignment& a, sim::Scenario& scenario, Places& places) {
-  const auto head = a.section.substr(0, a.section.find('.'));
-  if (a.section == "planner") {
-    set_field(Section(a.section).add(planner::setting_options(), scenario.planner), a, places);
-  } else if (a.section == "loop") {
-    set_field(Section(a.section).add(sim::loop_options(), scenario.loop), a, places);
-  } else if (a.section == "vehicle") {
-    set_field(Section(a.section).add(vehicle::parameter_options(), scenario.vehicle), a, places);
-  } else if (a.section == "start") {
-    Start start(scenario.start);
-    set_field(start_section(start), a, places);
+  Start start(scenario.start);
+  if (const auto section = section_of(a.section, scenario, start)) {
+    set_field(*section, a, places);
+    if (a.section != "start") return;
     scenario.start = start.state();
     places["start"] = a.place;
-  } else if (a.section == "goal") {
-    set_field(goal_section(scenario.goal), a, places);
-  } else if (a.section == "region") {
-    set_field(region_section(scenario.region), a, places);
-  } else if (head == "obstacles") {
+    return;
+  }
+  if (a.section == "obstacles" || a.section.starts_with("obstacles.")) {
     set_obstacle(a, scenario, places);
   } else if (a.section.empty()) {
     set_top_level(a, scenario);

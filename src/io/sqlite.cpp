@@ -44,6 +44,11 @@ void Database::execute(const char* sql) {
 
 void Database::checkpoint() {
   execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  // Without a log the file can be read where nothing may be written. Whoever reads it right now
+  // is in the way of that, and no reason to fail.
+  sqlite3_busy_timeout(handle_, 0);
+  sqlite3_exec(handle_, "PRAGMA journal_mode=DELETE", nullptr, nullptr, nullptr);
+  sqlite3_busy_timeout(handle_, kBusyWait);
 }
 
 void Database::fail(int code) const {

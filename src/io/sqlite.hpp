@@ -19,7 +19,7 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   void execute(const char* sql);
-  /// Moves what the write-ahead log holds into the file itself.
+  /// Moves what the write-ahead log holds into the file itself, and does without one from now on.
   void checkpoint();
   [[noreturn]] void fail(int code) const;
 

@@ -40,8 +40,10 @@ class StudyLoader {
     if (const Value* title = root_.find("title")) study_.title = to_text(*title, "a title");
     Section("").add(study_options(), study_.settings).read(root_, places_, other_keys());
     bases_ = read_bases(root_, file_, overrides_, places_);
+    check_size(bases_.all.size());
+    check_size(static_cast<std::size_t>(study_.settings.repeats));
     if (const Value* axes = root_.find("axes")) read_axes(*axes);
-    check_size();
+    check_set_keys();
     study_.kernels = kernel_name(study_.settings.kernels);
     study_.scenarios = std::move(bases_.scenarios);
     study_.bases = std::move(bases_.all);
@@ -66,8 +68,24 @@ class StudyLoader {
           throw InvalidValue(placed.keys[i].to_string(),
                              fmt::format("key '{}' a second time", placed.axis.keys[i]),
                              "each key on one axis");
+      check_size(placed.values.size());
       try_values(placed);
       study_.axes.push_back(std::move(placed.axis));
+    }
+  }
+
+  /// What is set for all trials would be lost on an axis. Throws InvalidValue.
+  void check_set_keys() const {
+    for (const auto& key : study_.columns()) {
+      const auto refuse = [&](const std::string& where) {
+        throw InvalidValue(where, fmt::format("a value for '{}', which an axis varies", key),
+                           "a key that is the same in all trials");
+      };
+      if (const Value* set = root_.find("set"))
+        for (const auto& member : set->members)
+          if (member.key == key) refuse(member.place.to_string());
+      for (const auto& assignment : overrides_)
+        if (assignment.starts_with(key + "=")) refuse("--set " + key);
     }
   }
 
@@ -87,11 +105,17 @@ class StudyLoader {
     }
   }
 
-  void check_size() const {
-    double size = static_cast<double>(bases_.all.size()) * study_.settings.repeats;
-    for (const auto& axis : study_.axes) size *= static_cast<double>(axis.points.size());
+  /// Before an axis is gone through, for a slip of a few digits makes billions.
+  void check_size(std::size_t points) {
+    factors_.push_back(points);
+    double size = 1;
+    std::string product;
+    for (const auto factor : factors_) {
+      size *= static_cast<double>(factor);
+      if (factor > 1) product += fmt::format("{}{}", product.empty() ? "" : " x ", factor);
+    }
     if (size > static_cast<double>(kMaxTrials))
-      throw InvalidValue(file_.string(), fmt::format("{:.3g} trials", size),
+      throw InvalidValue(file_.string(), fmt::format("{:.10g} trials ({})", size, product),
                          fmt::format("at most {} in one study", kMaxTrials));
   }
 
@@ -100,6 +124,7 @@ class StudyLoader {
   Value root_;
   Study study_;
   StudyBases bases_;
+  std::vector<std::size_t> factors_;  ///< whose product is the number of trials
   Places places_;
 };
 

@@ -72,6 +72,9 @@ class BaseReader {
     if (one != nullptr && several != nullptr)
       throw InvalidValue(several->place.to_string(), "'scenarios' beside 'scenario'",
                          "one of the two");
+    if (one != nullptr && one->kind == Value::Kind::sequence)
+      throw InvalidValue(one->place.to_string(), one->describe(),
+                         "one scenario, or the key 'scenarios' for several");
     if (one != nullptr) return {referenced("scenario", *one)};
     if (several == nullptr)
       throw InvalidValue(root_.place.to_string(), "a study without 'scenario'",

@@ -49,7 +49,13 @@ std::string foreign_entry(const fs::path& folder) {
 
 /// Throws Error unless the folder holds nothing, or results of the same study.
 void check_sweep_folder(const fs::path& folder, const study::SweepTable& study, bool resume) {
-  const auto found = study_in(folder);
+  study::SweepTable found;
+  try {
+    found = study_in(folder);
+  } catch (const Error& error) {
+    throw Error(
+        fmt::format("{}; take another folder, or --force to replace what is there", error.what()));
+  }
   const bool same = found.identity == study.identity;
   if (resume && !same)
     throw Error(fmt::format("{}: holds {}, so that there is nothing to resume", folder.string(),
@@ -111,8 +117,10 @@ SweepLock::SweepLock(const fs::path& store)
 
 study::SweepTable study_of(const fs::path& folder) {
   auto study = study_in(folder);
+  std::error_code error;
   if (study.identity.empty())
-    throw Error(fmt::format("{}: holds no results of a sweep", folder.string()));
+    throw Error(fmt::format("{}: holds no results of a sweep{}", folder.string(),
+                            fs::is_directory(folder, error) ? "" : " (no such folder)"));
   return study;
 }
 

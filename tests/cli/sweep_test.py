@@ -1,6 +1,6 @@
-"""Sweeps: the same table on any number of workers, whatever is killed; one message for bad studies."""
+"""Sweeps: the same table on any number of workers, and whatever is killed."""
 
-import csv
+import contextlib
 import fcntl
 import json
 import os
@@ -14,51 +14,8 @@ import urllib.error
 import urllib.request
 import xml.etree.ElementTree
 
-from program import PROGRAM, ProgramTest, interrupt, run, start
-
-# Twelve trials of about a tenth of a second each.
-SMALL = """
-title: small
-scenario: E_B
-planners: [P_C, P_D]
-set: {loop.timeout: 1.5}
-axes:
-  - key: loop.tex
-    values: [0.25, 0.5]
-  - keys: [obstacles.O1.vx, obstacles.O1.vy]
-    values: [[-2, 0], [-1, 0.5], [0, 1]]
-"""
-MEASURED = {"max_solve_time_s", "median_solve_time_s", "max_cpu_time_s", "median_cpu_time_s"}
-
-
-def table(folder):
-    """The rows of trials.csv without what is measured."""
-    with open(folder / "trials.csv", newline="") as file:
-        return [{k: v for k, v in row.items() if k not in MEASURED} for row in csv.DictReader(file)]
-
-
-def events(text):
-    return [json.loads(line) for line in text.splitlines()]
-
-
-def next_event(process, kind):
-    """Reads the process's events up to one of a kind."""
-    for line in process.stdout:
-        event = json.loads(line)
-        if event["event"] == kind:
-            return event
-    raise AssertionError(f"no event '{kind}' before the end")
-
-
-class SweepTest(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.study = self.write("small.yaml", SMALL)
-
-    def sweep(self, out, *arguments, study=None):
-        result = run("sweep", study or self.study, "--out", self.folder / out, "--quiet", *arguments)
-        self.assertEqual((result.code, result.err), (0, ""))
-        return table(self.folder / out)
+from program import PROGRAM, interrupt, run, start
+from sweeps import SMALL, SweepTest, events, next_event, table
 
 
 class Sweep(SweepTest):
@@ -84,9 +41,9 @@ class Sweep(SweepTest):
     def test_jobs_and_shards_and_pieces_give_the_same_bytes(self):
         one = self.sweep("one", "--jobs", "1")
         self.assertEqual(self.sweep("two", "--jobs", "2"), one)
-        shards = [self.folder / f"shard{i}" for i in (1, 2, 3)]
+        shards = [self.folder / f"shard{i}" for i in (1, 2, 3, 4)]
         for i, shard in enumerate(shards, 1):
-            self.assertEqual(len(self.sweep(shard.name, "--shard", f"{i}/3")), 4)
+            self.assertEqual(len(self.sweep(shard.name, "--shard", f"{i}/4")), 3)
         self.assertEqual(run("merge", *shards, "--out", self.folder / "merged", "--quiet").code, 0)
         self.assertEqual(table(self.folder / "merged"), one)
         for i in (1, 2):  # shards in one folder need no merging
@@ -228,7 +185,8 @@ class Report(SweepTest):
 
     def test_a_folder_without_a_sweep_is_refused(self):
         self.assert_refused(run("study-report", self.folder), 3, "holds no results of a sweep")
-        self.assert_refused(run("study-report", self.folder / "none"), 3, "holds no results")
+        self.assert_refused(run("study-report", self.folder / "none"), 3, "holds no results",
+                            "no such folder")
 
 
 class Killed(SweepTest):
@@ -290,35 +248,39 @@ class Killed(SweepTest):
         self.fail("the worker outlived its supervisor")
 
     def test_whatever_is_killed_the_table_is_the_same(self):
-        expected = self.sweep("calm")
+        """Workers and supervisors by turns, of the whole study and of its shards, at any moment."""
+        expected = self.sweep("calm", "--jobs", "1")
         dice = random.Random(7)
         kills = 0
         while kills < 20:
+            shard = dice.choice([(), ("--shard", f"{dice.randint(1, 4)}/4")])
             process = start("sweep", self.study, "--out", self.folder / "out", "--json",
-                            "--jobs", "2")
-            worker = None
-            if dice.random() < 0.5:
+                            "--jobs", "2", *shard)
+            victim = process.pid
+            if kills % 2 == 0:
                 try:
-                    worker = next_event(process, "started")["process"]
-                except AssertionError:
-                    worker = None
-            time.sleep(dice.uniform(0, 0.35))
+                    victim = next_event(process, "started")["process"]
+                except AssertionError:  # it had nothing left to do
+                    pass
+            time.sleep(dice.uniform(0, 0.3))
             try:
-                os.kill(worker or process.pid, signal.SIGKILL)
+                os.kill(victim, signal.SIGKILL)
                 kills += 1
             except ProcessLookupError:
                 pass
             time.sleep(dice.uniform(0, 0.1))
             process.kill()
             process.communicate(timeout=60)
-            stores = list((self.folder / "out").glob("trials*.sqlite"))
-            if stores and stores[0].stat().st_size > 0:
-                with sqlite3.connect(stores[0]) as store:
-                    self.assertEqual(store.execute("PRAGMA integrity_check").fetchone()[0], "ok")
-                store.close()
+            for file in (self.folder / "out").glob("trials*.sqlite"):
+                if file.stat().st_size > 0:
+                    with contextlib.closing(sqlite3.connect(file)) as store:
+                        self.assertEqual(store.execute("PRAGMA integrity_check").fetchone()[0], "ok")
             if kills % 7 == 6:  # begin anew, so that kills hit all stages
                 run("sweep", self.study, "--out", self.folder / "out", "--force", "--limit", "1")
         self.assertEqual(self.sweep("out"), expected)
+        self.assertEqual(run("merge", self.folder / "out", "--out", self.folder / "merged",
+                             "--quiet").code, 0)
+        self.assertEqual(table(self.folder / "merged"), expected)
 
     def test_ctrl_c_ends_soon_with_a_valid_table(self):
         slow = self.write("slow.yaml", "scenario: E_C\nset: {loop.tex: 0.01}\nrepeats: 4\n")
@@ -339,136 +301,6 @@ class Killed(SweepTest):
         self.assertEqual(interrupt(process).code, 130)
         self.assertGreaterEqual(len(table(self.folder / "fast")), 1)
         self.assertEqual(self.sweep("fast"), self.sweep("calm"))
-
-
-class Refused(SweepTest):
-    def test_studies(self):
-        head = "scenario: E_B\n"
-        for text, parts in (
-                ("planners: [P_C]\n", ["s.yaml:1:1", "a study without 'scenario'"]),
-                (head + "scenarios: [E_A]\n", ["s.yaml:2:12", "'scenarios' beside 'scenario'"]),
-                ("scenarios: []\n", ["s.yaml:1:12", "an empty list"]),
-                ("scenarios: [E_B, E_X]\n", ["s.yaml:1:18", "scenario 'E_X'"]),
-                ("scenarios: [E_B, 'none/*.yaml']\n", ["s.yaml:1:18", "pattern 'none/*.yaml'"]),
-                ("scenarios: [E_B, E_A, E_B]\n", ["s.yaml:1:23", "a second scenario named 'E_B'"]),
-                ("scenarios: [E_A, E_C]\naxes:\n  - {key: obstacles.O3.x, values: [1, 2]}\n",
-                 ["s.yaml:3:11", "'O3'", "for scenario 'E_C'"]),
-                ("scenarios: [E_A, E_C]\nset: {obstacles.O3.x: 1}\n",
-                 ["s.yaml:2:7", "'O3'", "for scenario 'E_C'"]),
-                (head + "axis: []\n", ["s.yaml:2:1", "unknown key 'axis'", "'axes'"]),
-                (head + "planners: [P_C, P_X]\n", ["s.yaml:2:17", "planner 'P_X'"]),
-                (head + "planners: [P_C, P_C]\n", ["s.yaml:2:17", "a second planner named 'P_C'"]),
-                (head + "planners: []\n", ["s.yaml:2:11", "no planner"]),
-                (head + "axes:\n  - {key: loop.tx, values: [1]}\n",
-                 ["s.yaml:3:11", "unknown key 'tx'", "did you mean 'tex'?"]),
-                (head + "axes:\n  - {key: lop.tex, values: [1]}\n", ["s.yaml:3:11", "'loop'"]),
-                (head + "axes:\n  - {key: obstacles.O9.x, values: [1]}\n", ["s.yaml:3:11", "'O9'"]),
-                (head + "axes:\n  - {key: loop.tex, values: []}\n",
-                 ["s.yaml:3:29", "an empty list"]),
-                (head + "axes:\n  - {key: loop.tex, values: [0.5, .nan]}\n",
-                 ["s.yaml:3:35", "tex = nan"]),
-                (head + "axes:\n  - {key: loop.tex, values: [0.5, -1]}\n",
-                 ["s.yaml:3:35", "tex = -1"]),
-                (head + "axes:\n  - {key: loop.tex, values: [soon]}\n", ["s.yaml:3:30", "soon"]),
-                (head + "axes:\n  - {key: loop.tex, range: {from: 0.1, to: .inf, count: 3}}\n",
-                 ["s.yaml:3:", "a finite number"]),
-                (head + "axes:\n  - {key: loop.tex, range: {from: 0.1, to: 1, count: 0}}\n",
-                 ["s.yaml:3:", "an integer from 1"]),
-                (head + "axes:\n  - {key: loop.tex, range: {from: 0.1, to: 1, count: 1000000000}}\n",
-                 ["s.yaml:3:", "an integer from 1 to 1000000"]),
-                (head + "axes:\n" + "".join(
-                    f"  - {{key: {key}, range: {{from: 1, to: 2, count: 1000}}}}\n"
-                    for key in ("loop.tex", "start.ux", "planner.w_g")),
-                 ["1e+09 trials", "at most 1000000"]),
-                (head + "repeats: -1\n", ["s.yaml:2:10", "repeats = -1"]),
-                (head + "axes:\n  - {key: loop.tex, values: [1]}\n  - {key: loop.tex, values: [2]}\n",
-                 ["s.yaml:4:11", "'loop.tex' a second time"]),
-                (head + "axes:\n  - {key: loop.tex}\n", ["s.yaml:3:5", "none of the known forms"]),
-                (head + "axes:\n  - {keys: [start.x, start.y], values: [[1, 2], [3]]}\n",
-                 ["s.yaml:3:", "1 values", "2 values"]),
-                (head + "axes:\n  - draw: {count: 3, of: [{key: start.x, uniform: [2, 1]}]}\n",
-                 ["s.yaml:3:", "low < high"]),
-                (head + "axes:\n  - draw: {count: 3, method: sobl, of: [{key: start.x, normal: [2, 1]}]}\n",
-                 ["s.yaml:3:30", "did you mean 'sobol'?"]),
-                (head + "axes:\n  - draw: {count: 3, of: [{key: start.x, gauss: [2, 1]}]}\n",
-                 ["s.yaml:3:42", "unknown key 'gauss'"]),
-        ):
-            with self.subTest(text):
-                study = self.write("s.yaml", text)
-                result = run("sweep", study, "--out", self.folder / "out")
-                self.assert_refused(result, 2, *parts)
-                self.assertFalse((self.folder / "out").exists())
-
-    def test_arguments(self):
-        for arguments, parts in ((["sweep", "papre", "--out", "o"], ["did you mean 'paper'"]),
-                                 (["sweep", "paper"], ["--out"]),
-                                 (["sweep", "paper", "--out", "o", "--shard", "0/4"], ["--shard"]),
-                                 (["sweep", "paper", "--out", "o", "--shard", "2"], ["--shard"]),
-                                 (["sweep", "paper", "--out", "o", "--jobs", "0"], ["--jobs"]),
-                                 (["sweep", "paper", "--out", "o", "--limit", "-1"], ["--limit"])):
-            with self.subTest(arguments):
-                self.assert_refused(run(*arguments, cwd=self.folder), 2, *parts)
-                self.assertEqual(self.entries(), ["small.yaml"])
-
-    def test_folders_of_something_else(self):
-        out = self.folder / "out"
-        sweep = ["sweep", self.study, "--out", out]
-        self.assert_refused(run(*sweep, "--resume"), 3, "no sweep", "nothing to resume")
-        self.sweep("out", "--limit", "1")
-        before = (out / "trials.csv").read_bytes()
-        self.assertEqual(run(*sweep, "--resume", "--limit", "0", "--quiet").code, 0)
-        other = self.write("other.yaml", SMALL)
-        changed = self.write("small.yaml", SMALL.replace("1.5}", "1.25}"))
-        self.assert_refused(run("sweep", changed, "--out", out), 3, "before it changed", "--force")
-        self.assert_refused(run("sweep", changed, "--out", out, "--resume"), 3, "another study")
-        self.assert_refused(run("sweep", self.write("third.yaml", SMALL + "repeats: 2\n"), "--out",
-                                out), 3, "another study, 'small'")
-        self.assertEqual((out / "trials.csv").read_bytes(), before)
-        self.assertEqual(run("sweep", other, "--out", out, "--limit", "0", "--quiet").code, 0)
-        notes = self.folder / "notes"
-        notes.mkdir()
-        (notes / "diary.txt").write_text("dear diary")
-        self.assert_refused(run("sweep", self.study, "--out", notes), 3, "'diary.txt'")
-        self.assertEqual(run("sweep", self.study, "--out", notes, "--force", "--limit", "1",
-                             "--quiet").code, 0)
-        self.assertEqual((notes / "diary.txt").read_text(), "dear diary")
-        self.assert_refused(run("sweep", self.study, "--out", self.study), 3, "is a file")
-        self.assert_refused(run("merge", out, notes, "--out", self.folder / "m"), 3,
-                            "another study")
-        self.assert_refused(run("merge", self.folder, "--out", self.folder / "m"), 3, "no results")
-
-    def test_a_store_of_another_version_is_replaced_by_force_alone(self):
-        self.sweep("out", "--limit", "1")
-        store = self.folder / "out/trials.sqlite"
-        with sqlite3.connect(store) as database:
-            database.execute("UPDATE study SET format = 1")
-        database.close()
-        self.assert_refused(run("sweep", self.study, "--out", self.folder / "out"), 3,
-                            "another version of Slalom")
-        self.assertEqual(len(self.sweep("out", "--limit", "2", "--force")), 2)
-        store.write_bytes(b"dear diary, " * 100)
-        self.assert_refused(run("sweep", self.study, "--out", self.folder / "out"), 3,
-                            "trials.sqlite: ", "not a database")
-        self.assertEqual(len(self.sweep("out", "--limit", "1", "--force")), 1)
-
-    def test_two_sweeps_do_not_share_a_store(self):
-        process = start("sweep", self.study, "--out", self.folder / "out", "--json", "--jobs", "1")
-        next_event(process, "started")
-        result = run("sweep", self.study, "--out", self.folder / "out")
-        self.assert_refused(result, 3, "another sweep is at work")
-        process.communicate(timeout=60)
-        self.assertEqual(len(table(self.folder / "out")), 12)
-
-    def test_a_full_disk_is_said_and_the_sweep_goes_on_afterwards(self):
-        expected = self.sweep("calm")
-        study = self.write("keep.yaml", SMALL + "keep: drives\n")
-        out = self.folder / "out"
-        # A file may not grow beyond 64 KiB: drives, and at last the store, cannot be written.
-        result = run("sweep", study, "--out", out, "--jobs", "1",
-                     preexec_fn=lambda: __import__("resource").setrlimit(
-                         __import__("resource").RLIMIT_FSIZE, (65536, -1)))
-        self.assert_refused(result, 3, "cannot be written")
-        self.assertEqual(self.sweep("out", study=study), expected)
 
 
 if __name__ == "__main__":

@@ -248,7 +248,10 @@ TEST(BadScenario, OverridesNameThemselves) {
   expect_contains(message_of_set("start.x=a: b"), {"--set start.x"});
   expect_contains(message_of_set("start.x=[1"), {"--set start.x", "bracket"});
   expect_contains(message_of_set("planner=P_C"), {"--set planner", "planner.KEY=value"});
-  expect_contains(message_of_set("tex=1"), {"--set tex", "unknown key 'tex'"});
+  expect_contains(message_of_set("tex=1"),
+                  {"--set tex", "'tex' without its section, expected loop.tex"});
+  expect_contains(message_of_set("x=1"), {"expected start.x or goal.x"});
+  expect_contains(message_of_set("txe=1"), {"--set txe", "unknown key 'txe'"});
   expect_contains(message_of_set("w_t"), {"--set: found 'w_t', expected key.path=value"});
   expect_contains(message_of_set("=3"), {"--set: found '=3'"});
   expect_contains(message_of_set("title=\xff"), {"--set title", "binary"});
