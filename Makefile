@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios paper-sweep peers long-solves verdicts wheel docs format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios paper-sweep latency peers long-solves verdicts wheel docs format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -57,6 +57,11 @@ paper-sweep: ## the paper's sweep on both grids and with one thing changed, into
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/paper_sweep.py --program build/slalom
+
+latency: ## what each latency rule does to the pass rate, into docs/latency.md
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/latency.py --program build/slalom
 
 verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/verdicts.md
 	tools/setup.sh results
