@@ -124,9 +124,11 @@ void bind_plant(nb::module_& module) {
       .def(
           "__init__",
           [](Plant* self, const Scenario& s) {
-            new (self) Plant(s.vehicle, s.loop.plant_tolerance, s.loop.sample_step);
+            new (self) Plant(sim::plant_vehicle(s.vehicle, s.plant, s.name), s.loop.plant_tolerance,
+                             s.loop.sample_step);
           },
-          "scenario"_a, "The vehicle of a scenario.")
+          "scenario"_a,
+          "The plant of a scenario: its vehicle, changed as `plant` says, without actuator delay.")
       .def(
           "advance",
           [](const Plant& plant, const std::vector<double>& state, const Plan* plan, double t0,

@@ -37,6 +37,8 @@ void for_tables(const Scenario& s, const Visit& visit) {
   visit("vehicle.", vehicle::parameter_options(), s.vehicle);
   visit("planner.", planner::setting_options(), s.planner);
   visit("loop.", sim::loop_options(), s.loop);
+  visit("plant.", sim::plant_options(), s.plant);
+  visit("sensing.", sim::sensing_options(), s.sensing);
 }
 
 std::vector<std::string> keys(const Scenario& scenario) {
@@ -99,7 +101,7 @@ void bind_class(nb::module_& module) {
       .def_ro("region", &Scenario::region)
       .def_prop_ro(
           "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
-      .def("keys", &keys, "Keys of the vehicle's, planner's and loop's values.")
+      .def("keys", &keys, "Keys of the values of vehicle, planner, loop, plant and sensing.")
       .def("__getitem__", &value, "key"_a, "A value by its key, such as \"planner.w_t\".")
       .def(
           "replace",

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "document.hpp"
@@ -68,12 +69,23 @@ void set_obstacle(const Assignment& a, sim::Scenario& scenario, Places& places) 
 }
 
 /// The sections whose keys are options.
-constexpr const char* kSections[] = {"planner", "loop", "vehicle", "start", "goal", "region"};
+constexpr const char* kSections[] = {"planner", "loop",  "plant", "sensing",
+                                     "vehicle", "start", "goal",  "region"};
+
+/// These, the obstacles, and `others`.
+std::vector<std::string> sections_and(const std::vector<std::string>& others = {}) {
+  std::vector<std::string> names(std::begin(kSections), std::end(kSections));
+  names.emplace_back("obstacles");
+  names.insert(names.end(), others.begin(), others.end());
+  return names;
+}
 
 /// One of them; nothing for other names. `start` is where the keys of the start go.
 std::optional<Section> section_of(const std::string& name, sim::Scenario& scenario, Start& start) {
   if (name == "planner") return Section(name).add(planner::setting_options(), scenario.planner);
   if (name == "loop") return Section(name).add(sim::loop_options(), scenario.loop);
+  if (name == "plant") return Section(name).add(sim::plant_options(), scenario.plant);
+  if (name == "sensing") return Section(name).add(sim::sensing_options(), scenario.sensing);
   if (name == "vehicle") return Section(name).add(vehicle::parameter_options(), scenario.vehicle);
   if (name == "start") return start_section(start);
   if (name == "goal") return goal_section(scenario.goal);
@@ -99,15 +111,12 @@ void set_top_level(const Assignment& a, sim::Scenario& scenario) {
     (a.key == "name" ? scenario.name : scenario.title) = a.text;
     return;
   }
-  static const std::vector<std::string> sections = {"planner", "loop",      "vehicle", "start",
-                                                    "goal",    "obstacles", "region"};
-  if (std::find(sections.begin(), sections.end(), a.key) == sections.end()) {
+  const auto known = sections_and();
+  if (std::find(known.begin(), known.end(), a.key) == known.end()) {
     if (const auto paths = whole_paths(a.key, scenario); !paths.empty())
       throw InvalidValue(a.place.to_string(), fmt::format("key '{}' without its section", a.key),
                          fmt::format("{}", fmt::join(paths, " or ")));
-    unknown_key(
-        a.key, a.place, "",
-        {"name", "title", "planner", "loop", "vehicle", "start", "goal", "region", "obstacles"});
+    unknown_key(a.key, a.place, "", sections_and({"name", "title"}));
   }
   throw InvalidValue(a.place.to_string(), "a whole section",
                      fmt::format("one key of it, {}.KEY=value", a.key));
@@ -127,8 +136,7 @@ void apply(const Assignment& a, sim::Scenario& scenario, Places& places) {
   } else if (a.section.empty()) {
     set_top_level(a, scenario);
   } else {
-    unknown_key(a.section, a.place, "",
-                {"planner", "loop", "vehicle", "start", "goal", "region", "obstacles"});
+    unknown_key(a.section, a.place, "", sections_and());
   }
 }
 

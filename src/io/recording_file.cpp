@@ -26,6 +26,24 @@ vehicle::State state(const JsonReader& reader) {
   return result;
 }
 
+Json json_obstacles(const std::vector<planner::Obstacle>& obstacles) {
+  Json json = Json::array();
+  for (const auto& o : obstacles)
+    json.push_back({{"name", o.name}, {"numbers", json_numbers({o.x, o.y, o.a, o.b, o.vx, o.vy})}});
+  return json;
+}
+
+std::vector<planner::Obstacle> obstacles(const JsonReader& reader) {
+  std::vector<planner::Obstacle> result;
+  for (std::size_t i = 0; i < reader.size(); ++i) {
+    const JsonReader one = reader.at(i), numbers = one.at("numbers");
+    const auto n = numbers.list();
+    if (n.size() != 6) numbers.refuse(fmt::format("{} numbers", n.size()), "x, y, a, b, vx, vy");
+    result.push_back({one.at("name").text(), n[0], n[1], n[2], n[3], n[4], n[5]});
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string to_json(const RecordedSolve& solve) {
@@ -38,6 +56,7 @@ std::string to_json(const RecordedSolve& solve) {
                      {"t0", r.t0},
                      {"tex", r.tex},
                      {"goal_in_range", r.goal_in_range}};
+  if (!r.obstacles.empty()) json["request"]["obstacles"] = json_obstacles(r.obstacles);
   json["options"] = json_options(r.options);
   json["status"] = nlp::to_string(r.status);
   json["iterations"] = r.iterations;
@@ -62,6 +81,7 @@ RecordedSolve read_recording(const std::string& file) {
   r.t0 = request.at("t0").real();
   r.tex = request.at("tex").real();
   r.goal_in_range = request.at("goal_in_range").flag();
+  if (request.has("obstacles")) r.obstacles = obstacles(request.at("obstacles"));
   r.kernels = reader.at("kernels").one_of(KernelSet::avx2);
   r.options = reader.at("options").options();
   r.status = reader.at("status").one_of(nlp::Status::numerical_failure);

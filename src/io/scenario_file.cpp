@@ -32,8 +32,9 @@ class Loader {
 
   sim::Scenario load() {
     require_map(root_, "a scenario (a map with start, goal, ...)");
-    static const std::vector<std::string> known = {
-        "name", "title", "vehicle", "planner", "start", "goal", "region", "obstacles", "loop"};
+    static const std::vector<std::string> known = {"name",  "title", "vehicle", "planner",
+                                                   "start", "goal",  "region",  "obstacles",
+                                                   "loop",  "plant", "sensing"};
     for (const auto& member : root_.members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
         unknown_key(member.key, member.place, "", known);
@@ -43,8 +44,9 @@ class Loader {
     read_planner();
     read_start_goal_region();
     if (const Value* obstacles = root_.find("obstacles")) read_obstacles(*obstacles);
-    if (const Value* loop = root_.find("loop"))
-      Section("loop").add(sim::loop_options(), scenario_.loop).read(*loop, places_);
+    read_plain("loop", sim::loop_options(), scenario_.loop);
+    read_plain("plant", sim::plant_options(), scenario_.plant);
+    read_plain("sensing", sim::sensing_options(), scenario_.sensing);
     apply_command_line();
     check_scenario(scenario_, file_.string(), places_);
     return std::move(scenario_);
@@ -133,6 +135,13 @@ class Loader {
       region_section(scenario_.region).read(*region, places_);
       places_["region"] = region->place;
     }
+  }
+
+  /// Reads a section of options alone, if it is there.
+  template <class S>
+  void read_plain(const std::string& name, const OptionTable<S>& table, S& settings) {
+    if (const Value* value = root_.find(name))
+      Section(name).add(table, settings).read(*value, places_);
   }
 
   void read_obstacles(const Value& list) {

@@ -144,6 +144,13 @@ std::string scenario_reference() {
   text += obstacle_rows();
   section("loop", "The closed loop.");
   text += table(sim::loop_options(), defaults.loop);
+  section("plant",
+          "How the plant differs from the `vehicle` that planner and prediction believe in; see "
+          "[formulation.md](formulation.md), section 4. The defaults change nothing.");
+  text += table(sim::plant_options(), defaults.plant);
+  section("sensing",
+          "How what the planner is told differs from what is. The defaults tell the truth.");
+  text += table(sim::sensing_options(), defaults.sensing);
   section("planner", "The trajectory-planning problem and its solver.");
   text += table(planner::setting_options(), defaults.planner);
   section("vehicle", "The vehicle; the defaults are the HMMWV's.");

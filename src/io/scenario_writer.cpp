@@ -73,6 +73,8 @@ std::string to_yaml(const sim::Scenario& scenario) {
   for (const auto& obstacle : scenario.obstacles)
     text += fmt::format("  - {}\n", flow(obstacle_options(), obstacle));
   text += fmt::format("loop:\n{}", block(sim::loop_options(), scenario.loop));
+  text += fmt::format("plant:\n{}", block(sim::plant_options(), scenario.plant));
+  text += fmt::format("sensing:\n{}", block(sim::sensing_options(), scenario.sensing));
   text += fmt::format("planner:\n  name: {}\n{}", yaml_text(scenario.planner.name),
                       block(planner::setting_options(), scenario.planner));
   text += fmt::format("vehicle:\n  name: {}\n{}", yaml_text(scenario.vehicle.name),

@@ -118,8 +118,11 @@ class Planner::Impl {
 
   /// Chooses this cycle's obstacles. Multipliers carry over only where the last solve had the same.
   void choose(const Request& request) {
-    if (settings_.obstacle_choice == ObstacleChoice::all) return;
-    auto now = choose_obstacles(settings_, request, obstacles_);
+    const bool measured = !request.obstacles.empty();
+    if (settings_.obstacle_choice == ObstacleChoice::all && !measured && as_made_) return;
+    as_made_ = !measured;
+    auto now = choose_obstacles(
+        settings_, request, measured ? group_obstacles(settings_, request.obstacles) : obstacles_);
     same_obstacles_ = same_names(now, chosen_);
     chosen_ = std::move(now);
     for (const bool in_range : {false, true}) {
@@ -149,10 +152,10 @@ class Planner::Impl {
 
   /// The last solve, but for what judging it brings.
   Recording record_solve(const Request& request, bool in_range, const nlp::Options& options) const {
-    Recording r{request.X0p,        request.t0, request.tex,   in_range,
-                current_kernels(),  options,    start_,        answer_.status,
-                answer_.iterations, 0,          answer_.cpu_s, answer_.wall_s,
-                answer_.point};
+    Recording r{
+        request.X0p,   request.t0,     request.tex,    in_range,           current_kernels(),
+        options,       start_,         answer_.status, answer_.iterations, 0,
+        answer_.cpu_s, answer_.wall_s, answer_.point,  request.obstacles};
     r.options.stop = nullptr;
     r.options.stop_data = nullptr;
     return r;
@@ -217,6 +220,7 @@ class Planner::Impl {
   const std::vector<Obstacle> obstacles_;               ///< grouped
   std::vector<Obstacle> chosen_;                        ///< of these, in this cycle
   bool same_obstacles_ = true;                          ///< as in the last solve
+  bool as_made_ = true;                                 ///< none measured in the last cycle
   std::map<std::pair<bool, std::size_t>, Form> forms_;  ///< goal in range, number of obstacles
   Guess guess_;
   std::optional<Recorder> recorder_;

@@ -40,10 +40,10 @@ Replayed replay(const Recording& recording, const Settings& settings,
   request.X0p = recording.X0p;
   request.t0 = recording.t0;
   request.tex = recording.tex;
-  TrajectoryProblem problem(
-      settings, vehicle, goal, region,
-      choose_obstacles(settings, request, group_obstacles(settings, obstacles)),
-      recording.goal_in_range);
+  const auto& known = recording.obstacles.empty() ? obstacles : recording.obstacles;
+  TrajectoryProblem problem(settings, vehicle, goal, region,
+                            choose_obstacles(settings, request, group_obstacles(settings, known)),
+                            recording.goal_in_range);
   problem.update(request);
   ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
                                    scheme_of(settings));

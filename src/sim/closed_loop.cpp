@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "slalom/base/timer.hpp"
+#include "slalom/sim/actuator.hpp"
 #include "slalom/sim/control_signal.hpp"
 #include "slalom/sim/latency.hpp"
 #include "slalom/sim/plant.hpp"
@@ -27,7 +28,11 @@ class ClosedLoop {
         loop_(scenario.loop),
         plan_(plan),
         hooks_(hooks),
-        plant_(scenario.vehicle, loop_.plant_tolerance, loop_.sample_step),
+        plant_(plant_vehicle(scenario.vehicle, scenario.plant, scenario.name),
+               loop_.plant_tolerance, loop_.sample_step),
+        believed_(scenario.vehicle, loop_.plant_tolerance, loop_.sample_step),
+        sensors_(scenario.sensing, scenario.plant.cg_shift),
+        actuator_(scenario.plant.actuator_delay),
         watch_(scenario, plant_),
         latency_(loop_),
         state_(scenario.start) {}
@@ -99,13 +104,14 @@ class ClosedLoop {
   /// The plant takes the plan over, if it is one to be driven.
   void swap(Cycle& cycle) {
     if (!to_be_driven(cycle.plan)) return;
-    signal_ = ControlSignal(cycle.plan);
-    drive_.plant.back().control = signal_.at(t_);
+    actuator_.command(ControlSignal(cycle.plan), t_);
+    drive_.plant.back().control = actuator_.driven(t_).at(t_);
     cycle.used = true;
   }
 
-  /// Predicts the state at t0 + tex on the current signal and plans from there; plans from where
-  /// the plant stands when plans take effect at once.
+  /// Predicts the state at t0 + tex from what is measured at t0, on the current signal and with the
+  /// vehicle believed in, and plans from there; plans from where the plant is measured to stand
+  /// when plans take effect at once.
   Cycle plan_ahead(int index, double t0) {
     Cycle cycle;
     cycle.index = index;
@@ -113,7 +119,10 @@ class ClosedLoop {
     cycle.tex = loop_.tex;
     solve_time_ = 0;
     try {
-      cycle.X0p = instant() ? state_ : plant_.predict(state_, signal_, t0, t0 + loop_.tex);
+      const auto measured = sensors_.measured(state_at(t0 - scenario_.sensing.delay), index);
+      cycle.X0p = instant()
+                      ? measured
+                      : believed_.predict(measured, actuator_.commanded(), t0, t0 + loop_.tex);
     } catch (const PlantError& error) {
       cycle.X0p.fill(std::nan(""));
       cycle.plan.report.status = fmt::format("no prediction: {}", error.what());
@@ -123,6 +132,7 @@ class ClosedLoop {
     request.X0p = cycle.X0p;
     request.t0 = t0;
     request.tex = instant() ? 0 : loop_.tex;
+    request.obstacles = sensors_.believed(scenario_.obstacles, index, t0);
     // By a scripted rule the deadline is held against the time charged: see charge().
     request.time_limit = loop_.deadline == Deadline::tex && !latency_.scripted()
                              ? std::min(loop_.tex, loop_.solve_time_limit)
@@ -134,6 +144,16 @@ class ClosedLoop {
     cycle.plan = plan_(request);
     solve_time_ = std::max(timer.wall(), cycle.plan.report.wall_s);
     return cycle;
+  }
+
+  /// The plant's state at t, no later than now; before the drive, its start.
+  vehicle::State state_at(double t) const {
+    if (scenario_.sensing.delay == 0) return state_;
+    const auto later = std::upper_bound(drive_.plant.begin(), drive_.plant.end(), t,
+                                        [](double at, const PlantSample& s) { return at < s.t; });
+    if (later == drive_.plant.begin()) return scenario_.start;
+    const auto& sample = *(later - 1);
+    return plant_.advance(sample.state, actuator_.driven(sample.t), sample.t, t);
   }
 
   static bool to_be_driven(const planner::Plan& plan) {
@@ -155,12 +175,18 @@ class ClosedLoop {
                                              : cycle.plan.report.status));
   }
 
-  /// Lets the plant drive on the current signal until `t_end` or the first event.
+  /// Lets the plant drive until `t_end` or the first event, on the signals that reach it.
   void drive_until(double t_end) {
-    for (const double t1 : plant_.instants(signal_, t_, t_end)) {
+    do {
+      drive_on(actuator_.driven(t_), std::min(t_end, actuator_.next_change(t_)));
+    } while (!ended_ && t_ < t_end);
+  }
+
+  void drive_on(const ControlSignal& signal, double t_end) {
+    for (const double t1 : plant_.instants(signal, t_, t_end)) {
       if (interrupted()) return end(Outcome::interrupted, "interrupted while driving");
       Stretch stretch{
-          t_, t1, state_, {}, [&](double t) { return plant_.advance(state_, signal_, t_, t); }};
+          t_, t1, state_, {}, [&](double t) { return plant_.advance(state_, signal, t_, t); }};
       try {
         stretch.state1 = stretch.at(t1);
         const auto event = watch_.pass(stretch);
@@ -203,8 +229,8 @@ class ClosedLoop {
 
   void record() {
     if (!drive_.plant.empty() && t_ <= drive_.plant.back().t) return;
-    drive_.plant.push_back({t_, state_, signal_.at(t_), plant_.dynamics().wheel_loads(state_),
-                            watch_.clearance(t_, state_)});
+    drive_.plant.push_back({t_, state_, actuator_.driven(t_).at(t_),
+                            plant_.dynamics().wheel_loads(state_), watch_.clearance(t_, state_)});
   }
 
   Drive finish() {
@@ -223,13 +249,15 @@ class ClosedLoop {
   const PlanFunction& plan_;
   const LoopHooks& hooks_;
   Plant plant_;
+  Plant believed_;  ///< what prediction takes the plant for
+  Sensors sensors_;
+  Actuator actuator_;  ///< straight on at constant speed until the first plan takes over
   Watch watch_;
   Latency latency_;
   vehicle::State state_;
   double t_ = 0;
-  double anchor_ = 0;     ///< cycles begin at anchor + k tex [s]
-  int horizons_ = 0;      ///< k of the next one
-  ControlSignal signal_;  // straight on at constant speed until the first plan takes over
+  double anchor_ = 0;  ///< cycles begin at anchor + k tex [s]
+  int horizons_ = 0;   ///< k of the next one
   double solve_time_ = 0;
   bool ended_ = false;
   Drive drive_;

@@ -23,6 +23,12 @@ ControlSignal::ControlSignal(const planner::Plan& plan) : control_(plan.controls
   for (const double t : plan.t) t_.push_back(plan.t_start + t);
 }
 
+ControlSignal ControlSignal::delayed(double delay) const {
+  ControlSignal result = *this;
+  for (double& t : result.t_) t += delay;
+  return result;
+}
+
 vehicle::Control ControlSignal::at(double t) const {
   if (t_.empty()) return {};
   const auto next = std::upper_bound(t_.begin(), t_.end(), t);

@@ -1,26 +1,21 @@
 #include "slalom/sim/latency.hpp"
 
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdint>
-#include <random>
 
+#include "draws.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::sim {
 namespace {
 
-/// One lognormal draw a cycle, by inversion; each cycle has a generator of its own, so that a drive
-/// that plans more often meets the same times.
+/// One lognormal draw a cycle; each cycle has a generator of its own, so that a drive that plans
+/// more often meets the same times.
 double drawn(const LoopSettings& settings, int index) {
   if (settings.latency_spread == 0) return settings.latency_median;
-  std::seed_seq mix{static_cast<std::uint32_t>(settings.latency_seed),
+  NormalDraws draws{static_cast<std::uint32_t>(settings.latency_seed),
                     static_cast<std::uint32_t>(index)};
-  std::mt19937_64 generator(mix);
-  const double u = (static_cast<double>(generator() >> 11U) + 0.5) * 0x1p-53;
-  const boost::math::normal_distribution<double> standard;
-  return settings.latency_median *
-         std::exp(settings.latency_spread * boost::math::quantile(standard, u));
+  return settings.latency_median * std::exp(settings.latency_spread * draws.next());
 }
 
 }  // namespace

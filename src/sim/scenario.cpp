@@ -64,7 +64,8 @@ void check_obstacles(const Scenario& s, const std::string& where) {
   }
 }
 
-void check_start_bounds(const Scenario& s, const std::string& where) {
+void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
+                        const std::string& where) {
   using namespace vehicle;
   const State& start = s.start;
   const Parameters& car = s.vehicle;
@@ -77,7 +78,7 @@ void check_start_bounds(const Scenario& s, const std::string& where) {
   require_within(start[UX], car.ux_min, car.ux_max, where, "start ux", "ux_min to ux_max, in m/s");
   require_within(start[AX], car.ax_min_at(start[UX]), car.ax_max_at(start[UX]), where, "start ax",
                  "ax_min to ax_max at the start's ux, in m/s^2");
-  const WheelLoads loads = Dynamics(car).wheel_loads(start);
+  const WheelLoads loads = Dynamics(driven).wheel_loads(start);
   for (std::size_t i = 0; i < kWheels; ++i)
     if (!(loads[i] >= s.loop.Fz_failure))
       throw InvalidValue(fmt::format("{}: start", where),
@@ -168,13 +169,15 @@ void check(const Scenario& scenario, const std::string& where) {
   planner::check(scenario.planner, where);
   vehicle::check(scenario.vehicle, where);
   loop_options().check(scenario.loop, where);
+  plant_options().check(scenario.plant, where + ": plant");
+  sensing_options().check(scenario.sensing, where + ": sensing");
   if (scenario.loop.tex > scenario.planner.tf_max)
     throw InvalidValue(where, fmt::format("tex = {}", scenario.loop.tex),
                        fmt::format("at most tf_max = {}", scenario.planner.tf_max));
   (void)Latency(scenario.loop);
   check_goal_and_region(scenario, where);
   check_obstacles(scenario, where);
-  check_start_bounds(scenario, where);
+  check_start_bounds(scenario, plant_vehicle(scenario.vehicle, scenario.plant, where), where);
   if (scenario.planner.model == vehicle::ModelKind::constant_speed &&
       scenario.start[vehicle::AX] != 0)
     throw InvalidValue(fmt::format("{}: start ax", where),

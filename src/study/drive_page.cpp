@@ -86,6 +86,8 @@ std::string drive_page(const sim::Scenario& scenario, const sim::Drive& drive) {
                                        planner::setting_options(), scenario.planner) +
                         settings_table("Scenario and closed loop", sim::loop_options(),
                                        scenario.loop, scenario_rows(scenario)) +
+                        settings_table("Plant", sim::plant_options(), scenario.plant) +
+                        settings_table("Sensing", sim::sensing_options(), scenario.sensing) +
                         settings_table("Vehicle " + scenario.vehicle.name,
                                        vehicle::parameter_options(), scenario.vehicle);
   std::string script;

@@ -235,6 +235,12 @@ TEST(BadScenario, OverridesNameThemselves) {
   expect_contains(message_of_set("loop.tex=11"), {"--set loop.tex: found tex = 11", "tf_max"});
   expect_contains(message_of_set("planner.L_range=5"), {"--set planner.L_range", "kappa"});
   expect_contains(message_of_set("planner.kappa=95"), {"--set planner.kappa", "L_range = 90"});
+  expect_contains(message_of_set("plant.mass_facter=1"), {"did you mean 'mass_factor'?"});
+  expect_contains(message_of_set("plant.friction_factor=0"),
+                  {"--set plant.friction_factor: found friction_factor = 0"});
+  expect_contains(message_of_set("plant.cg_shift=2"), {"--set plant.cg_shift", "la = 1.5775"});
+  expect_contains(message_of_set("sensing.delay=-1"), {"--set sensing.delay: found delay = -1"});
+  expect_contains(message_of_set("sensings.delay=1"), {"did you mean 'sensing'?"});
   expect_contains(message_of_set("obstacles.O3.vy=1"),
                   {"--set obstacles.O3.vy", "'O3' of obstacles"});
   expect_contains(message_of_set("obstacles.O2.speed=1"),

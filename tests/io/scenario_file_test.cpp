@@ -49,6 +49,8 @@ void expect_same(const sim::Scenario& a, const sim::Scenario& b) {
   expect_same(planner::setting_options(), a.planner, b.planner);
   expect_same(vehicle::parameter_options(), a.vehicle, b.vehicle);
   expect_same(sim::loop_options(), a.loop, b.loop);
+  expect_same(sim::plant_options(), a.plant, b.plant);
+  expect_same(sim::sensing_options(), a.sensing, b.sensing);
 }
 
 TEST(ScenarioFile, BuiltInEnvironmentsAreThePapers) {
@@ -153,10 +155,12 @@ TEST(ScenarioFile, YamlReadsBackToTheSameBits) {
   TemporaryFolder folder;
   std::vector<sim::Scenario> scenarios;
   for (const auto& entry : built_in_scenarios()) scenarios.push_back(load(entry.name));
-  auto odd = load("E_C", {"planner.w_t=1e-300", "vehicle.m=2688.7000000000003", "start.v=-0.0",
-                          "region.y_max=1e22", "obstacles.O1.vx=0.1",
-                          "planner.scheme=hermite_simpson", "loop.on_failure=last_plan",
-                          "loop.warm_up=false", "planner.wheel_load_cost=shifted"});
+  auto odd = load(
+      "E_C", {"planner.w_t=1e-300", "vehicle.m=2688.7000000000003", "start.v=-0.0",
+              "region.y_max=1e22", "obstacles.O1.vx=0.1", "planner.scheme=hermite_simpson",
+              "loop.on_failure=last_plan", "loop.warm_up=false", "planner.wheel_load_cost=shifted",
+              "plant.mass_factor=1.1", "plant.actuator_delay=0.1", "sensing.noise_seed=3",
+              "sensing.obstacle_velocity_factor=-0.3"});
   odd.title = "quote \" colon: # hash \\ tab \t ünï";
   odd.obstacles[0].name = "- {a: b}";
   scenarios.push_back(odd);

@@ -128,6 +128,15 @@ TEST(Study, AnAxisMayHoldChoicesListsAndDegrees) {
   EXPECT_EQ(scenario.planner.X0_tol[5], 0.25);
 }
 
+TEST(Study, WhatThePlantIsAndWhatIsSensedAreAxes) {
+  const auto study = study_of(
+      "scenario: E_B\naxes:\n  - {key: plant.mass_factor, values: [1.1, 1.2]}\n"
+      "  - draw: {count: 2, of: [{key: sensing.delay, uniform: [0.1, 0.2]}]}\n");
+  const auto scenario = study.resolve(study.trial(3));
+  EXPECT_EQ(scenario.plant.mass_factor, 1.2);
+  EXPECT_GT(scenario.sensing.delay, 0.1);
+}
+
 TEST(Study, DrawsFollowTheSeedAndTheirDistributions) {
   const auto text = [](int seed, int count) {
     return "scenario: E_B\nseed: " + std::to_string(seed) +

@@ -174,6 +174,28 @@ TEST(Planner, MovingObstaclesAreMetInAbsoluteTime) {
   EXPECT_LT(distance(a, b, [](const State& s) { return std::pair{s[X], s[Y]}; }), 1e-6);
 }
 
+/// Obstacles measured in a cycle take the place of those the planner was made with, and only there.
+TEST(Planner, MeasuredObstaclesAreThoseOfTheirCycleAlone) {
+  Scene scene = E_B(), elsewhere = E_B();
+  for (auto& o : elsewhere.obstacles) o = {o.name, o.x + 40, o.y - 30, o.a, o.b, 1, 1};
+  const Plan expected = scene.planner().plan(scene.first);
+
+  Planner planner = elsewhere.planner();
+  std::vector<Recording> recordings;
+  planner.record({[](const SolveReport&) { return true; },
+                  [&](const Recording& r) { recordings.push_back(r); }});
+  Request measured = elsewhere.first;
+  measured.obstacles = scene.obstacles;
+  expect_same(planner.plan(measured), expected);
+  planner.reset();
+  expect_same(planner.plan(elsewhere.first), elsewhere.planner().plan(elsewhere.first));
+  ASSERT_EQ(recordings.size(), 2u);
+  for (const auto& r : recordings)
+    EXPECT_TRUE(replay(r, elsewhere.settings, elsewhere.vehicle, elsewhere.goal, elsewhere.region,
+                       elsewhere.obstacles)
+                    .same);
+}
+
 TEST(Planner, MovedSceneGivesTheMovedPlan) {
   for (const auto& scene : {E_A(), E_B(), E_C()}) {
     Scene moved = scene;

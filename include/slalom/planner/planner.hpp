@@ -23,6 +23,9 @@ struct Request {
   /// A plan that is not solved, but violates no row or bound by more than this [its unit], is one
   /// to be driven, and the next solve starts from it. Negative: none is.
   double best_iterate_tol = -1;
+  /// As measured in this cycle, in the order and with the names that the planner was made with;
+  /// empty: as it was made.
+  std::vector<Obstacle> obstacles;
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
 

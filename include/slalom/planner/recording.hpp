@@ -26,9 +26,10 @@ struct Recording {
 
   nlp::Status status = nlp::Status::numerical_failure;
   int iterations = 0;
-  double phi = 0;                ///< of nlp::check at `end`
-  double cpu_s = 0, wall_s = 0;  ///< of the solve
-  nlp::Start end;                ///< the answer's point
+  double phi = 0;                   ///< of nlp::check at `end`
+  double cpu_s = 0, wall_s = 0;     ///< of the solve
+  nlp::Start end;                   ///< the answer's point
+  std::vector<Obstacle> obstacles;  ///< of the Request
 };
 
 /// Which solves a planner records, and where to.

@@ -20,6 +20,9 @@ class ControlSignal {
   /// decrease. Whether the solver calls it solved is another question.
   static bool usable(const planner::Plan& plan);
 
+  /// The same signal, each knot `delay` [s] later.
+  ControlSignal delayed(double delay) const;
+
   /// Control at absolute time t [s].
   vehicle::Control at(double t) const;
   /// Absolute times [s] of the knots, where the signal may have kinks; empty for straight on.

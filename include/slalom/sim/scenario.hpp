@@ -7,6 +7,8 @@
 #include "slalom/planner/goal.hpp"
 #include "slalom/planner/obstacle.hpp"
 #include "slalom/planner/settings.hpp"
+#include "slalom/sim/plant_settings.hpp"
+#include "slalom/sim/sensing.hpp"
 #include "slalom/vehicle/parameters.hpp"
 #include "slalom/vehicle/state.hpp"
 
@@ -50,7 +52,8 @@ struct LoopSettings {
 
 const OptionTable<LoopSettings>& loop_options();
 
-/// Everything a drive needs.
+/// Everything a drive needs. Obstacles are what they are; `vehicle` is what the planner believes,
+/// and what is driven but for `plant`.
 struct Scenario {
   std::string name;
   std::string title;
@@ -61,6 +64,8 @@ struct Scenario {
   vehicle::Parameters vehicle;
   planner::Settings planner;
   LoopSettings loop;
+  PlantSettings plant;
+  SensingSettings sensing;
 };
 
 /// Throws InvalidValue for contradictions no single option shows: start outside its bounds or

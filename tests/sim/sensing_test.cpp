@@ -1,0 +1,129 @@
+#include "slalom/sim/sensing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "sim/fakes.hpp"
+
+namespace slalom::sim {
+namespace {
+
+using vehicle::State;
+
+const State kState = {200, 8.5, 0.3, 0.1, 1.5, 0.05, 17, 0.2};
+
+/// Every noise there is.
+SensingSettings noisy() {
+  SensingSettings s;
+  s.position_noise = 0.3;
+  s.heading_noise = 0.02;
+  s.speed_noise = 0.5;
+  s.yaw_rate_noise = 0.04;
+  s.obstacle_position_noise = 0.7;
+  return s;
+}
+
+TEST(Sensors, DefaultsTellTheTruthToTheBit) {
+  const Sensors sensors({}, 0);
+  EXPECT_EQ(sensors.measured(kState, 3), kState);
+  EXPECT_TRUE(sensors.believed({testing::circle("O1", 1, 2, 3, 4, 5)}, 3, 2).empty());
+}
+
+TEST(Sensors, NoiseHasNoBiasAndTheDeviationAskedFor) {
+  const Sensors sensors(noisy(), 0);
+  const std::array<double, vehicle::kStates> sigma = {0.3, 0.3, 0.5, 0.04, 0.02, 0, 0.5, 0};
+  constexpr int kCycles = 4000;
+  State mean{}, square{};
+  for (int k = 0; k < kCycles; ++k) {
+    const State told = sensors.measured(kState, k);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      mean[i] += (told[i] - kState[i]) / kCycles;
+      square[i] += (told[i] - kState[i]) * (told[i] - kState[i]) / kCycles;
+    }
+  }
+  for (std::size_t i = 0; i < sigma.size(); ++i) {  // five standard errors
+    EXPECT_NEAR(mean[i], 0, 5 * sigma[i] / std::sqrt(kCycles)) << i;
+    EXPECT_NEAR(square[i], sigma[i] * sigma[i], 5 * sigma[i] * sigma[i] * std::sqrt(2. / kCycles))
+        << i;
+  }
+}
+
+TEST(Sensors, ACyclesNoiseIsItsOwnAndTheSeeds) {
+  auto settings = noisy();
+  const State told = Sensors(settings, 0).measured(kState, 7);
+  EXPECT_EQ(Sensors(settings, 0).measured(kState, 7), told);
+  EXPECT_NE(Sensors(settings, 0).measured(kState, 8), told);
+  // x and y, and ux and v, have draws of their own.
+  EXPECT_NE(told[vehicle::X] - kState[vehicle::X], told[vehicle::Y] - kState[vehicle::Y]);
+  EXPECT_NE(told[vehicle::UX] - kState[vehicle::UX], told[vehicle::V] - kState[vehicle::V]);
+  // Without the noise of position the others stay as they are.
+  auto quieter = settings;
+  quieter.position_noise = 0;
+  const State less = Sensors(quieter, 0).measured(kState, 7);
+  EXPECT_EQ(less[vehicle::X], kState[vehicle::X]);
+  EXPECT_EQ(less[vehicle::R], told[vehicle::R]);
+  settings.noise_seed = 1;
+  EXPECT_NE(Sensors(settings, 0).measured(kState, 7), told);
+}
+
+TEST(Sensors, TheLateralSpeedIsThatOfTheBelievedCentreOfGravity) {
+  const double shift = 0.4;
+  const State told = Sensors({}, shift).measured(kState, 1);
+  // The front axle's centre, la ahead of the one and la - shift of the other, moves as it does.
+  const double la = 1.5775;
+  EXPECT_DOUBLE_EQ(told[vehicle::V] + la * told[vehicle::R],
+                   kState[vehicle::V] + (la - shift) * kState[vehicle::R]);
+}
+
+TEST(Sensors, ObstaclesStandWhereTheyAreAndErrFromThereOn) {
+  SensingSettings settings;
+  settings.obstacle_velocity_factor = 0.7;
+  const std::vector<planner::Obstacle> real = {testing::circle("O1", 10, 20, 3, -2, 5),
+                                               testing::circle("cone", 1, 2, 0.5)};
+  const double t0 = 6.5;
+  const auto believed = Sensors(settings, 0).believed(real, 2, t0);
+  ASSERT_EQ(believed.size(), 2u);
+  EXPECT_EQ(believed[0].name, "O1");
+  EXPECT_EQ(believed[0].a, 3);
+  for (const double h : {0., 0.5, 4.}) {
+    EXPECT_NEAR(believed[0].x_at(t0 + h) - real[0].x_at(t0 + h), -0.3 * -2 * h, 1e-12);
+    EXPECT_NEAR(believed[0].y_at(t0 + h) - real[0].y_at(t0 + h), -0.3 * 5 * h, 1e-12);
+    EXPECT_EQ(believed[1].x_at(t0 + h), 1);
+    EXPECT_EQ(believed[1].y_at(t0 + h), 2);
+  }
+}
+
+TEST(Sensors, ObstaclesHaveNoiseOfTheirOwn) {
+  const Sensors sensors(noisy(), 0);
+  const std::vector<planner::Obstacle> real(3, testing::circle("O", 10, 20, 3));
+  double square = 0;
+  constexpr int kCycles = 1000;
+  for (int k = 0; k < kCycles; ++k) {
+    const auto told = sensors.believed(real, k, 0);
+    EXPECT_NE(told[0].x, told[1].x);
+    EXPECT_NE(told[1].x, told[2].x);
+    for (const auto& o : told)
+      square += ((o.x - 10) * (o.x - 10) + (o.y - 20) * (o.y - 20)) / (6. * kCycles);
+  }
+  EXPECT_NEAR(square, 0.49, 5 * 0.49 * std::sqrt(2 / (6. * kCycles)));
+}
+
+TEST(Sensors, EverySettingIsAnOptionWithItsRange) {
+  std::set<std::string> names;
+  for (const auto& entry : sensing_options().entries()) {
+    names.insert(entry.info.name);
+    EXPECT_FALSE(entry.info.doc.empty());
+    EXPECT_NO_THROW((void)entry.info.checked(entry.get(SensingSettings{}), "defaults"));
+    if (entry.info.name != "obstacle_velocity_factor")
+      EXPECT_FALSE(entry.info.range.contains(-0.1)) << entry.info.name;
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"position_noise", "heading_noise", "speed_noise",
+                                          "yaw_rate_noise", "noise_seed", "delay",
+                                          "obstacle_velocity_factor", "obstacle_position_noise"}));
+}
+
+}  // namespace
+}  // namespace slalom::sim
