@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios paper-sweep latency peers long-solves verdicts wheel docs format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios paper-sweep latency peers long-solves verdicts wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -46,6 +46,11 @@ study: ## the paper's sweep of 800 drives into run/study/, with its page; goes o
 	$(MAKE) --no-print-directory build
 	build/slalom sweep paper --out run/study
 	build/slalom study-report run/study
+
+sweep-scale: ## 100,000 very short trials: rate, memory, and how soon a sweep goes on (takes half an hour)
+	tools/setup.sh bench
+	$(MAKE) --no-print-directory build
+	python3 benchmarks/sweep_scale.py --program build/slalom
 
 results: ## all drives of the figures into docs/results.md, docs/paper-index.md and docs/figures/
 	tools/setup.sh results

@@ -156,4 +156,23 @@ void apply_setting(const std::string& path, const Place& place, const Value& val
   apply(a, scenario, places);
 }
 
+void try_settings(const std::string& path, const Place& place,
+                  const std::vector<const Value*>& values, sim::Scenario scenario) {
+  Assignment a;
+  a.place = place;
+  split_path(path, a);
+  // Making a section takes longer than setting a value.
+  Start start(scenario.start);
+  const auto section = section_of(a.section, scenario, start);
+  Places places;
+  for (const Value* value : values) {
+    a.text = value->text;
+    a.value = *value;
+    if (section)
+      set_field(*section, a, places);
+    else
+      apply(a, scenario, places);
+  }
+}
+
 }  // namespace slalom::io

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "section.hpp"
 #include "slalom/sim/scenario.hpp"
@@ -15,5 +16,9 @@ void apply_override(const std::string& assignment, sim::Scenario& scenario, Plac
 /// places.
 void apply_setting(const std::string& path, const Place& place, const Value& value,
                    sim::Scenario& scenario, Places& places);
+
+/// Sets each of several values of one key, one after the other, for what is thrown alone.
+void try_settings(const std::string& path, const Place& place,
+                  const std::vector<const Value*>& values, sim::Scenario scenario);
 
 }  // namespace slalom::io

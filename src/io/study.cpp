@@ -93,15 +93,13 @@ class StudyLoader {
   /// What a key takes is the same in every scenario; that they all have it is not.
   void try_values(const PlacedAxis& placed) const {
     for (const auto& base : bases_.all) {
-      auto scenario = base;
-      Places places;
       const std::size_t points = &base == &bases_.all.front() ? placed.values.size() : 1;
-      for (std::size_t k = 0; k < points; ++k)
-        for (std::size_t i = 0; i < placed.values[k].size(); ++i)
-          apply_to(bases_, base, [&] {
-            apply_setting(placed.axis.keys[i], placed.keys[i], placed.values[k][i], scenario,
-                          places);
-          });
+      for (std::size_t i = 0; i < placed.keys.size(); ++i) {
+        std::vector<const Value*> values;
+        for (std::size_t k = 0; k < points; ++k) values.push_back(&placed.values[k][i]);
+        apply_to(bases_, base,
+                 [&] { try_settings(placed.axis.keys[i], placed.keys[i], values, base); });
+      }
     }
   }
 
