@@ -111,6 +111,17 @@ def test_plans():
         plant.advance(scenario.start, "plan", 0, 1)
 
 
+def test_the_plant_may_differ_from_the_vehicle():
+    scenario = slalom.load_scenario("E_B")
+    heavy = scenario.replace(set={"plant.mass_factor": 1.4, "sensing.delay": 0.1})
+    assert (heavy["plant.mass_factor"], heavy["vehicle.m"]) == (1.4, scenario["vehicle.m"])
+    assert {"plant.actuator_delay", "sensing.noise_seed"} <= set(heavy.keys())
+    turning = scenario.start
+    turning[5] = 0.1  # steering angle
+    as_is, as_heavy = (slalom.Plant(s).advance(turning, None, 0, 1) for s in (scenario, heavy))
+    assert abs(as_heavy[3]) < abs(as_is[3]) - 1e-3
+
+
 def test_cycles_are_told_as_they_come():
     seen = []
     drive = slalom.simulate("E_B", set={"loop.timeout": 2}, on_cycle=lambda c: seen.append(c.index))

@@ -51,6 +51,19 @@ class Simulate(ProgramTest):
         for figure in (out / "figures").glob("*.svg"):
             xml.etree.ElementTree.parse(figure)
 
+    def test_what_is_not_as_believed_drives_again_from_its_resolved_file(self):
+        changed = ["--set", "plant.mass_factor=1.3", "--set", "plant.actuator_delay=0.07", "--set",
+                   "sensing.position_noise=0.1", "--set", "sensing.obstacle_velocity_factor=0.9"]
+        exact, out, again, other = (self.folder / name for name in ("exact", "out", "again", "other"))
+        self.assertEqual(run("simulate", "E_B", "--out", exact, "--quiet").code, 0)
+        self.assertEqual(run("simulate", "E_B", *changed, "--out", out, "--quiet").code, 0)
+        self.assertEqual(run("simulate", out / "resolved.yaml", "--out", again, "--quiet").code, 0)
+        self.assertEqual(run("simulate", out / "resolved.yaml", "--set", "sensing.noise_seed=1",
+                             "--out", other, "--quiet").code, 0)
+        drives = [(folder / "plant.csv").read_bytes() for folder in (exact, out, again, other)]
+        self.assertEqual(drives[1], drives[2])
+        self.assertEqual(len(set(drives)), 3)
+
     def test_that_there_is_no_plan_is_soon_known(self):
         # O2 comes at 27 m/s and is taken as standing: at last it is too near for any plan.
         out = self.folder / "out"
