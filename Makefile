@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice random-scenarios paper-sweep latency peers long-solves verdicts wheel docs sweep-scale format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -94,6 +94,11 @@ obstacle-choice: ## what leaving out obstacles does, into docs/obstacle-choice.m
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/obstacle_choice.py --program build/slalom
+
+sensitivity: ## how far plant and sensors may be from what is believed, into docs/sensitivity.md (takes minutes)
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/sensitivity.py --program build/slalom
 
 problems: ## every problem of the library by two schemes, beside its known value
 	tools/setup.sh run

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""How the page on sensitivity counts and interpolates, on drives made up for it."""
+
+import json
+import pathlib
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import sensitivity  # noqa: E402
+from sensitivity import QUANTITIES, limit, page, point_of, points, study  # noqa: E402
+
+
+def trials(passes):
+    """The trials of the two studies; passes(key, value, seed) says which arrive."""
+    rows = []
+    for environment in sensitivity.STARTS:
+        text = json.loads(study(environment))
+        for values in text["axes"][0]["values"]:
+            row = {q.key: str(value) for q, value in zip(QUANTITIES, values)}
+            key, value = point_of(row)
+            for tex in text["axes"][1]["values"]:
+                for seed, _ in enumerate(text["axes"][2]["values"]):
+                    good = passes(key, value, seed)
+                    rows.append({**row, "scenario": environment, "loop.tex": str(tex),
+                                 "least_clearance_m": "0.25", "least_clearance_obstacle": "O2",
+                                 "least_wheel_load_N": "1100",
+                                 "outcome": "goal" if good else "crash", "hit": "" if good else "cone12"})
+    return rows
+
+
+class Sensitivity(unittest.TestCase):
+    def test_the_limit_is_where_the_rate_has_first_fallen_so_far(self):
+        self.assertAlmostEqual(limit([(1, 0.9), (1.1, 0.9), (1.3, 0.7), (1.5, 0.9)], 0.9), 1.2)
+        self.assertAlmostEqual(limit([(1, 1.0), (0.9, 0.95), (0.7, 0.45)], 1.0), 0.88)
+        self.assertIsNone(limit([(0, 0.9), (1, 0.81), (2, 0.95)], 0.9))
+        self.assertAlmostEqual(limit([(0, 0.5), (1, 0.3)], 0.5), 0.5)
+
+    def test_a_study_varies_one_quantity_at_a_time(self):
+        values = json.loads(study("E_B"))["axes"][0]["values"]
+        self.assertEqual(len(values), len(list(points())))
+        for one, expected in zip(values, points()):
+            away = [(q.key, v) for q, v in zip(QUANTITIES, one) if v != q.neutral]
+            self.assertEqual(away, [expected] if expected[0] else [])
+
+    def test_each_start_has_a_seed_of_its_own(self):
+        starts = json.loads(study("E_C"))["axes"][2]["values"]
+        self.assertEqual(len({seed for *_, seed in starts}), len(starts))
+        self.assertIn([6.3, -0.3], [start[:2] for start in starts])
+
+    def test_the_page_says_how_far_each_may_go(self):
+        # Of 15 starts, 10 fail with much mass; elsewhere all arrive.
+        def passes(key, value, seed):
+            return key != "plant.mass_factor" or value <= 1.2 or seed >= 10
+        text = page(trials(passes), "A note.\n")
+        row = next(line for line in text.splitlines() if line.startswith("| `plant.mass_factor` | 1 | 1 "))
+        self.assertIn("| not to 0.6 (lowest rate 1.00) | 1.23 |", row)  # .1/(2/3) of the way from 1.2 to 1.4
+        self.assertIn("| `plant.mass_factor` | 1.4 | 30 | 0.33 | 0.24–0.44 |", text)
+        self.assertIn("crash cone (60)", text)
+        self.assertIn("| E_C, tex 0.25 | 15/15 | 0.25–0.25 | O2 | 1100 |", text)
+        self.assertIn("A note.", text)
+        self.assertIn("90 drives at each value", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
