@@ -116,7 +116,7 @@ def test_the_plant_may_differ_from_the_vehicle():
     heavy = scenario.replace(set={"plant.mass_factor": 1.4, "sensing.delay": 0.1})
     assert (heavy["plant.mass_factor"], heavy["vehicle.m"]) == (1.4, scenario["vehicle.m"])
     assert {"plant.actuator_delay", "sensing.noise_seed"} <= set(heavy.keys())
-    turning = scenario.start
+    turning = np.array(scenario.start)
     turning[5] = 0.05  # steering angle
     as_is, as_heavy = (slalom.Plant(s).advance(turning, None, 0, 1) for s in (scenario, heavy))
     assert abs(as_heavy[0] - as_is[0]) > 1e-3  # m
