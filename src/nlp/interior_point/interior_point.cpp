@@ -124,7 +124,7 @@ class Run final : public Restoration::Watch, public Deadline {
     const double most =
         std::max(std::min(kSufficient * point.local.violation, kStricter * handed_back_),
                  options_->constraint_tol);
-    const auto outcome = restoration_.run(*this, most);
+    const auto outcome = restoration_.run(*this, most, std::isfinite(handed_back_));
     watchdog_.restart();
     switch (outcome) {
       case Restoration::Outcome::restored:

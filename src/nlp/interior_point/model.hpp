@@ -16,10 +16,7 @@ namespace slalom::nlp::ipm {
 /// What the restoration phase minimises in place of f (Waechter & Biegler 2006, eq. 30):
 ///   rho sum(p + n) + zeta/2 sum (D_i (x_i - reference_i))^2, rows relaxed by -p + n.
 struct Elastic {
-  /// Ten times W&B's rho: at a floor mu, elastic parts of some mu / rho each would hide whether the
-  /// rows can be met.
-  double rho = 1e4;
-  double zeta = 0;
+  double rho = 1000, zeta = 0;
   std::vector<double> reference, weight;  ///< weight: D_i^2
 };
 

@@ -7,6 +7,9 @@
 namespace slalom::nlp::ipm {
 namespace {
 
+/// Weight of violation: W&B's when first called. At a floor mu, elastic parts of some mu / rho each
+/// then hide whether the rows can be met, so that it is more when it is called again.
+constexpr double kFirstWeight = 1e3, kLaterWeight = 1e4;
 /// Of its own errors, in units of rho; and its least barrier parameter, for slacks of mu / rho are
 /// to stay well above rounding.
 constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
@@ -113,8 +116,9 @@ bool Restoration::update_barrier() {
   return inner_.complete();
 }
 
-Restoration::Outcome Restoration::run(Watch& watch, double most_violation) {
+Restoration::Outcome Restoration::run(Watch& watch, double most_violation, bool again) {
   most_violation_ = most_violation;
+  elastic_.rho = again ? kLaterWeight : kFirstWeight;
   begin();
   if (!inner_.complete()) return Outcome::failed;
   inner_.search.reset(inner_.point.local.violation);

@@ -22,8 +22,8 @@ class Restoration {
   };
   /// On `restored` and `infeasible`, the primal point of `main` is the one reached (on `restored`
   /// complete, with multipliers for going on); otherwise it is as it was. `most_violation`: with
-  /// which the main method may go on.
-  Outcome run(Watch& watch, double most_violation);
+  /// which the main method may go on; `again`: it was called before in this solve.
+  Outcome run(Watch& watch, double most_violation, bool again);
   void give_up_at(Deadline* deadline) { inner_.newton.give_up_at(deadline); }
   /// Takes over scales and limits of the main model; for a new solve.
   void refresh();
