@@ -54,7 +54,7 @@ class CommandLinePage(unittest.TestCase):
 
     def test_options(self):
         text = drives.run("--help")
-        commands = re.findall(r"^  ([a-z]+) {2,}", text.split("Subcommands:")[1], re.M)
+        commands = re.findall(r"^  ([a-z-]+) {2,}", text.split("Subcommands:")[1], re.M)
         self.assertIn("simulate", commands)
         helps = text + "".join(drives.run(command, "--help") for command in commands)
         shown = set(re.findall(r"(--[a-z]+)", helps)) - {"--help"}
