@@ -7,10 +7,10 @@ The sweep goes on where it stopped, in --work.
 """
 
 import argparse
-import csv
 import pathlib
 import re
-import subprocess
+
+from sweeps import head, row, swept
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
@@ -41,19 +41,17 @@ def main():
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run/latency")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/latency.md")
     options = parser.parse_args()
-    subprocess.run([options.program, "sweep", "latency", "--out", options.work], check=True)
-    with open(options.work / "trials.csv", newline="") as file:
-        trials = list(csv.DictReader(file))
+    trials = swept(options.program, "latency", options.work)
     study = (ROOT / "config/studies/latency.yaml").read_text()
     settings = dict(re.findall(r"loop\.(solve_times|latency_spread): \[?([\d.]+)", study))
     rules = list(dict.fromkeys(t["loop.latency"] for t in trials))
     texs = list(dict.fromkeys(t["loop.tex"] for t in trials))
     speeds = len({t["obstacles.O2.vy"] for t in trials})
-    text = "| rule | " + " | ".join(f"tex {tex} s" for tex in texs) + " | all |\n" + "|---" * (len(texs) + 2) + "|\n"
+    text = head(["rule", *(f"tex {tex} s" for tex in texs), "all"])
     for rule in rules:
         own = [t for t in trials if t["loop.latency"] == rule]
         passed = [sum(t["outcome"] == "goal" for t in own if t["loop.tex"] == tex) for tex in texs]
-        text += f"| `{rule}` | " + " | ".join(map(str, passed)) + f" | {sum(passed)} of {len(own)} |\n"
+        text += row([f"`{rule}`", *passed, f"{sum(passed)} of {len(own)}"])
     numbers = {"speeds": speeds, "recorded": settings["solve_times"], "spread": settings["latency_spread"]}
     options.out.write_text(HEAD.format(**numbers) + text + NOTES.format(**numbers))
 

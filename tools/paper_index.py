@@ -15,7 +15,8 @@ import subprocess
 import tempfile
 
 import results
-from verdict_data import ROOT, Sweep, fisher, paper_counts, passes
+from sweeps import fisher
+from verdict_data import ROOT, Sweep, paper_counts, passes
 
 ENVIRONMENTS = {"veh": ("E_A", "P_A"), "parama": ("E_A", "P_A"), "enva": ("E_A", "P_A"),
                 "envc": ("E_C", "P_D")}

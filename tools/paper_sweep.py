@@ -10,9 +10,9 @@ Sweeps go on where they stopped, in --work.
 import argparse
 import math
 import pathlib
-import subprocess
 
-from verdict_data import ROOT, Sweep, fisher, of, paper_counts, paper_points, passes
+from sweeps import fisher, head, row, setting, swept
+from verdict_data import ROOT, Sweep, of, paper_counts, paper_points, passes
 
 GRIDS = {"paper": ("study", -40), "paper-printed": ("printed", -20)}
 # One thing changed at a time, on the grid to -40 m/s: name, settings, what it asks.
@@ -34,14 +34,6 @@ paper's figures show, or to -20 m/s, as its text says ([formulation.md](formulat
 times are CPU time; failing solves count, the warm-up does not, and no deadline ends a solve.
 
 """
-
-
-def row(cells):
-    return "| " + " | ".join(map(str, cells)) + " |\n"
-
-
-def head(cells):
-    return row(cells) + "|---" * len(cells) + "|\n"
 
 
 def p_value(counts):
@@ -149,15 +141,14 @@ def reasons(base, variants):
 
 
 def sweep(program, study, out):
-    subprocess.run([program, "sweep", study, "--out", out], check=True)
+    swept(program, study, out)
     return Sweep(out)
 
 
 def variant(program, work, name, settings):
     study = work / f"{name}.yaml"
-    values = ", ".join(f"{key}: {value}" for key, value in settings.items())
     text = (ROOT / "config/studies/paper.yaml").read_text()
-    study.write_text(text.replace("title:", f"set: {{{values}}}\ntitle:", 1))
+    study.write_text(text.replace("title:", f"set: {setting(settings)}\ntitle:", 1))
     return sweep(program, study, work / name)
 
 

@@ -9,11 +9,11 @@ The sweep goes on where it stopped, in --work.
 
 import argparse
 import collections
-import csv
 import itertools
-import math
 import pathlib
 import subprocess
+
+from sweeps import head, interval, mcnemar, row, setting, swept
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 PLANNERS = ("P_A", "P_B", "P_C", "P_D")
@@ -48,40 +48,9 @@ around it: the solver goes downhill from the last plan, and has no other way to 
 def sweep(program, work, name, scenarios, planners, settings):
     """Runs or completes a sweep; its trials by scenario and planner."""
     study = work / f"{name}.yaml"
-    values = ", ".join(f"{key}: {value}" for key, value in settings.items())
     study.write_text(f"title: random scenarios, {name}\nscenarios: [{scenarios.resolve()}/*.yaml]\n"
-                     f"planners: [{', '.join(planners)}]\nset: {{{values}}}\n")
-    subprocess.run([program, "sweep", study, "--out", work / name], check=True)
-    with open(work / name / "trials.csv", newline="") as file:
-        return {(row["scenario"], row["planner"]): row["outcome"] for row in csv.DictReader(file)}
-
-
-def interval(k, n):
-    """Exact 95 % interval of a share (Clopper and Pearson), by bisection on the binomial sum."""
-    def tail(p, at_least):
-        return sum(math.comb(n, i) * p**i * (1 - p)**(n - i)
-                   for i in (range(k, n + 1) if at_least else range(k + 1)))
-
-    def solve(at_least):
-        lo, hi = 0.0, 1.0
-        for _ in range(60):
-            p = (lo + hi) / 2
-            if (tail(p, at_least) < 0.025) == at_least:
-                lo = p
-            else:
-                hi = p
-        return lo
-    return (solve(True) if k else 0.0), (solve(False) if k < n else 1.0)
-
-
-def mcnemar(b, c):
-    """Two-sided exact p of b and c discordant pairs."""
-    n = b + c
-    return min(1.0, 2 * sum(math.comb(n, i) for i in range(min(b, c) + 1)) / 2**n)
-
-
-def head(names):
-    return "| " + " | ".join(names) + " |\n" + "|---" * len(names) + "|\n"
+                     f"planners: [{', '.join(planners)}]\nset: {setting(settings)}\n")
+    return {(t["scenario"], t["planner"]): t["outcome"] for t in swept(program, study, work / name)}
 
 
 def by_family(columns, scenarios):
@@ -90,11 +59,11 @@ def by_family(columns, scenarios):
     for family in FAMILIES:
         own = [s for s in scenarios if s.rsplit("-", 1)[0] == family]
         passed = [sum(outcomes[s] == "goal" for s in own) for outcomes in columns.values()]
-        text += f"| {family} | " + " | ".join(f"{k}/{len(own)}" for k in passed) + " |\n"
+        text += row([family, *(f"{k}/{len(own)}" for k in passed)])
     passed = [sum(outcomes[s] == "goal" for s in scenarios) for outcomes in columns.values()]
-    text += "| all | " + " | ".join(f"{k}/{len(scenarios)}" for k in passed) + " |\n"
-    return text + "| 95 % of the share | " + " | ".join(
-        "{:.3f}–{:.3f}".format(*interval(k, len(scenarios))) for k in passed) + " |\n"
+    text += row(["all", *(f"{k}/{len(scenarios)}" for k in passed)])
+    return text + row(["95 % of the share",
+                       *("{:.3f}–{:.3f}".format(*interval(k, len(scenarios))) for k in passed)])
 
 
 def ends(columns):
@@ -102,7 +71,7 @@ def ends(columns):
     for name, outcomes in columns.items():
         count = collections.Counter(outcomes.values())
         named = [count.pop(kind, 0) for kind in ("goal", "crash", "not_optimal")]
-        text += f"| {name} | " + " | ".join(map(str, named)) + f" | {sum(count.values())} |\n"
+        text += row([name, *named, sum(count.values())])
     return text
 
 
@@ -114,7 +83,7 @@ def pairs(columns, wanted, scenarios):
         both = sum(a and b for a, b in zip(first, second))
         only1 = sum(a and not b for a, b in zip(first, second))
         only2 = sum(b and not a for a, b in zip(first, second))
-        text += f"| {one}, {two} | {both} | {only1} | {only2} | {mcnemar(only1, only2):.2g} |\n"
+        text += row([f"{one}, {two}", both, only1, only2, f"{mcnemar(only1, only2):.2g}"])
     return text
 
 

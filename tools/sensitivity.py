@@ -10,14 +10,12 @@ tools/sensitivity_notes.md; look at it again when they change.
 
 import argparse
 import collections
-import csv
 import itertools
 import json
 import pathlib
-import subprocess
 from typing import NamedTuple
 
-from random_scenarios import interval
+from sweeps import interval, swept
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 STARTS = {"E_B": (200, 0), "E_C": (6, 0)}  # [m]
@@ -76,10 +74,7 @@ def sweep(options, environment):
     options.work.mkdir(parents=True, exist_ok=True)
     file, folder = options.work / f"{environment}.yaml", options.work / environment
     file.write_text(study(environment))
-    subprocess.run([options.program, "sweep", file, "--out", folder, "--jobs", str(options.jobs)],
-                   check=True)
-    with open(folder / "trials.csv", newline="") as trials:
-        return list(csv.DictReader(trials))
+    return swept(options.program, file, folder, "--jobs", str(options.jobs))
 
 
 def point_of(trial):

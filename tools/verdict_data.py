@@ -9,6 +9,8 @@ import re
 import statistics
 import subprocess
 
+from sweeps import trials
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 
@@ -106,15 +108,6 @@ def paired(before, after):
     return median_interval([b / a for a, b in zip(before, after)])
 
 
-def fisher(pass1, fail1, pass2, fail2):
-    """Two-sided exact p of a fourfold table: the tables no more likely than this one."""
-    n1, n2, passed = pass1 + fail1, pass2 + fail2, pass1 + pass2
-    whole = math.comb(n1 + n2, passed)
-    weights = [math.comb(n1, k) * math.comb(n2, passed - k) if 0 <= passed - k <= n2 else 0
-               for k in range(min(n1, passed) + 1)]
-    return sum(w for w in weights if w <= weights[pass1]) / whole
-
-
 # --- sweeps ----------------------------------------------------------------------------------------
 
 
@@ -122,15 +115,14 @@ class Sweep:
     """The trials of a sweep over tex and the speed of O2."""
 
     def __init__(self, folder):
-        with open(pathlib.Path(folder) / "trials.csv", newline="") as file:
-            self.trials = [{
-                "planner": row["planner"], "tex": float(row["loop.tex"]),
-                "speed": abs(float(row["obstacles.O2.vy"])), "passed": row["outcome"] == "goal",
-                "outcome": row["outcome"], "hit": row["hit"],
-                "max": float(row["max_cpu_time_s"] or "nan"),
-                "max_wall": float(row["max_solve_time_s"] or "nan"),
-                "median": float(row["median_cpu_time_s"] or "nan"),
-            } for row in csv.DictReader(file)]
+        self.trials = [{
+            "planner": row["planner"], "tex": float(row["loop.tex"]),
+            "speed": abs(float(row["obstacles.O2.vy"])), "passed": row["outcome"] == "goal",
+            "outcome": row["outcome"], "hit": row["hit"],
+            "max": float(row["max_cpu_time_s"] or "nan"),
+            "max_wall": float(row["max_solve_time_s"] or "nan"),
+            "median": float(row["median_cpu_time_s"] or "nan"),
+        } for row in trials(folder)]
         self.texs = sorted({t["tex"] for t in self.trials})
         self.speeds = sorted({t["speed"] for t in self.trials})
 
@@ -156,17 +148,17 @@ class Sweep:
         return statistics.mean(longest) / tex, share(own)
 
 
-def passes(trials):
-    return sum(t["passed"] for t in trials)
+def passes(own):
+    return sum(t["passed"] for t in own)
 
 
-def share(trials):
-    return passes(trials) / len(trials) if trials else math.nan
+def share(own):
+    return passes(own) / len(own) if own else math.nan
 
 
-def of(trials):
+def of(own):
     """"k of n"."""
-    return f"{passes(trials)} of {len(trials)}"
+    return f"{passes(own)} of {len(own)}"
 
 
 def paper_points():

@@ -3,7 +3,8 @@
 import math
 import statistics
 
-from verdict_data import fisher, of, paper_counts, paper_points, passes, share
+from sweeps import fisher
+from verdict_data import of, paper_counts, paper_points, passes, share
 from verdict_drives import DEARER, verdict
 
 

@@ -12,8 +12,9 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import verdict_drives  # noqa: E402
 import verdict_sweep  # noqa: E402
+from sweeps import fisher  # noqa: E402
 from verdict_data import (  # noqa: E402
-    Sweep, fisher, median_interval, paired, paper_counts, paper_points, ratio_interval)
+    Sweep, median_interval, paired, paper_counts, paper_points, ratio_interval)
 
 
 def drive(outcome="goal", time=6.0, hit=None, solves=(0.001,) * 12, ux=20.0):

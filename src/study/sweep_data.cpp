@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "html.hpp"
+#include "sweep_axes.hpp"
 
 namespace slalom::study {
 namespace {
@@ -23,9 +24,8 @@ nlohmann::ordered_json facts(const SweepTable& sweep, const TrialRecord& record)
   if (sweep.scenarios.size() > 1) add("scenario", record.scenario);
   add("planner", record.planner);
   for (std::size_t i = 0; i < record.values.size(); ++i) {
-    char* end = nullptr;
-    const double value = std::strtod(record.values[i].c_str(), &end);
-    add(sweep.columns[i], *end == '\0' ? significant(value, 4) : record.values[i]);
+    const double value = number_at(record, i);
+    add(sweep.columns[i], std::isnan(value) ? record.values[i] : significant(value, 4));
   }
   add("outcome", record.hit.empty() ? record.outcome : record.outcome + ", " + record.hit);
   measured("end", record.time, " s");

@@ -88,13 +88,13 @@ bool Restoration::meet_rows() {
   return inner_.complete();
 }
 
-bool Restoration::accepted_by_main() {
+bool Restoration::accepted_by_main(double most_violation) {
   std::copy_n(inner_.point.at.w.begin(), main_.model.primal(), trial_.at.w.begin());
   trial_.have = {.values = true};
   if (!main_.model.evaluate(trial_.at, trial_.have, trial_.e)) return false;
   measure(main_.model, trial_);
   const Merit merit = main_.search.merit(trial_, main_.barrier.mu());
-  return trial_.local.violation <= most_violation_ && main_.search.filter().accepts(merit);
+  return trial_.local.violation <= most_violation && main_.search.filter().accepts(merit);
 }
 
 /// The primal point back to the main method, with multipliers of bounds mu / slack where the old
@@ -117,7 +117,6 @@ bool Restoration::update_barrier() {
 }
 
 Restoration::Outcome Restoration::run(Watch& watch, double most_violation, bool again) {
-  most_violation_ = most_violation;
   elastic_.rho = again ? kLaterWeight : kFirstWeight;
   begin();
   if (!inner_.complete()) return Outcome::failed;
@@ -134,7 +133,7 @@ Restoration::Outcome Restoration::run(Watch& watch, double most_violation, bool 
     if (!inner_.find_step()) return inner_.newton.gave_up() ? Outcome::stopped : Outcome::failed;
     if (!inner_.take_step() && !meet_rows()) return Outcome::failed;
     watch.iterated(inner_);
-    if (accepted_by_main()) {
+    if (accepted_by_main(most_violation)) {
       hand_back();
       return Outcome::restored;
     }

@@ -33,11 +33,10 @@ class Restoration {
   void set_elastic_parts(double mu);
   bool meet_rows();
   bool update_barrier();
-  bool accepted_by_main();
+  bool accepted_by_main(double most_violation);
   void hand_back();
 
   Descent& main_;
-  double most_violation_ = 0;  ///< to go on with
   Elastic elastic_;
   std::vector<double> misfits_;  ///< of the rows, elastic parts left out
   Descent inner_;

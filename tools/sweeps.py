@@ -1,0 +1,64 @@
+"""Sweeps for the tools that write pages: run, read, counted and set in tables. Standard library only."""
+
+import csv
+import math
+import pathlib
+import subprocess
+
+
+def trials(folder):
+    """The rows of a sweep's trials.csv."""
+    with open(pathlib.Path(folder) / "trials.csv", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def swept(program, study, out, *arguments):
+    """Runs a study, or what is left of it, into `out`; its trials."""
+    subprocess.run([program, "sweep", study, "--out", out, *arguments], check=True)
+    return trials(out)
+
+
+def setting(values):
+    """`values` as the map that stands behind `set:` in a study."""
+    return "{" + ", ".join(f"{key}: {value}" for key, value in values.items()) + "}"
+
+
+def interval(k, n):
+    """Exact 95 % interval of a share (Clopper and Pearson), by bisection on the binomial sum."""
+    def tail(p, at_least):
+        return sum(math.comb(n, i) * p**i * (1 - p)**(n - i)
+                   for i in (range(k, n + 1) if at_least else range(k + 1)))
+
+    def solve(at_least):
+        lo, hi = 0.0, 1.0
+        for _ in range(60):
+            p = (lo + hi) / 2
+            if (tail(p, at_least) < 0.025) == at_least:
+                lo = p
+            else:
+                hi = p
+        return lo
+    return (solve(True) if k else 0.0), (solve(False) if k < n else 1.0)
+
+
+def mcnemar(b, c):
+    """Two-sided exact p of b and c discordant pairs."""
+    n = b + c
+    return min(1.0, 2 * sum(math.comb(n, i) for i in range(min(b, c) + 1)) / 2**n)
+
+
+def fisher(pass1, fail1, pass2, fail2):
+    """Two-sided exact p of a fourfold table: the tables no more likely than this one."""
+    n1, n2, passed = pass1 + fail1, pass2 + fail2, pass1 + pass2
+    whole = math.comb(n1 + n2, passed)
+    weights = [math.comb(n1, k) * math.comb(n2, passed - k) if 0 <= passed - k <= n2 else 0
+               for k in range(min(n1, passed) + 1)]
+    return sum(w for w in weights if w <= weights[pass1]) / whole
+
+
+def row(cells):
+    return "| " + " | ".join(map(str, cells)) + " |\n"
+
+
+def head(cells):
+    return row(cells) + "|---" * len(cells) + "|\n"
