@@ -25,7 +25,7 @@ SweepProgress::~SweepProgress() {
   clear();
 }
 
-void SweepProgress::take(const io::SweepEvent& event) {
+void SweepProgress::take(const sweep::SweepEvent& event) {
   total_ = event.total;
   before_ = event.before;
   done_ = event.done;

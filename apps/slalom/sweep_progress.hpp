@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "slalom/io/sweep.hpp"
+#include "slalom/sweep/sweep.hpp"
 
 namespace slalom::app {
 
@@ -16,7 +16,7 @@ class SweepProgress {
   SweepProgress(const SweepProgress&) = delete;
   SweepProgress& operator=(const SweepProgress&) = delete;
 
-  void take(const io::SweepEvent& event);
+  void take(const sweep::SweepEvent& event);
   /// Redraws once in a while.
   void tick();
   /// Takes the line away.

@@ -28,8 +28,7 @@ struct ScenarioPlanner {
   planner::Planner planner;
   double tex;
 
-  explicit ScenarioPlanner(const Scenario& s)
-      : planner(s.planner, s.vehicle, s.goal, s.region, s.obstacles), tex(s.loop.tex) {}
+  explicit ScenarioPlanner(const Scenario& s) : planner(s), tex(s.loop.tex) {}
 };
 
 Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
@@ -37,7 +36,7 @@ Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
   planner::Request request;
   request.X0p = state_of(state, "plan: state");
   request.t0 = t0;
-  request.tex = tex.value_or(self.tex);
+  request.t_start = t0 + tex.value_or(self.tex);
   request.time_limit = time_limit;
   request.best_iterate_tol = best_iterate_tol;
   Released released;

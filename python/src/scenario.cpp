@@ -64,9 +64,9 @@ nb::any value(const Scenario& scenario, const std::string& key) {
 }
 
 void bind_parts(nb::module_& module) {
-  using planner::Goal;
-  using planner::Obstacle;
-  using planner::Region;
+  using world::Goal;
+  using world::Obstacle;
+  using world::Region;
   nb::class_<Goal>(module, "Goal", doc::planner_Goal)
       .def_ro("x", &Goal::x)
       .def_ro("y", &Goal::y)

@@ -167,7 +167,7 @@ class Loader {
     if (map.find("step") != nullptr && map.find("repeat") == nullptr)
       throw InvalidValue(map.place.to_string(), "an obstacle with step alone", "repeat beside it");
     for (int k = 0; k < entry.repeat; ++k) {
-      planner::Obstacle one = obstacle;
+      world::Obstacle one = obstacle;
       one.x += k * entry.step[0];
       one.y += k * entry.step[1];
       if (map.find("repeat") != nullptr) one.name += std::to_string(k + 1);
@@ -175,7 +175,7 @@ class Loader {
     }
   }
 
-  void add_obstacle(const planner::Obstacle& obstacle, const Place& place) {
+  void add_obstacle(const world::Obstacle& obstacle, const Place& place) {
     if (obstacle.name.empty())
       throw InvalidValue(place.to_string(), "an obstacle with an empty name", "a name");
     if (!names_.insert(obstacle.name).second)

@@ -75,7 +75,7 @@ std::string degrees_note(const char* keys) {
 }
 
 std::string obstacle_rows() {
-  planner::Obstacle obstacle;
+  world::Obstacle obstacle;
   const Section section = obstacle_section(obstacle, "obstacles");
   std::string text;
   for (const auto& field : section.fields()) {

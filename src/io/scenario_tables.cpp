@@ -35,8 +35,8 @@ const OptionTable<Start>& start_options() {
   return table;
 }
 
-const OptionTable<planner::Goal>& goal_options() {
-  using planner::Goal;
+const OptionTable<world::Goal>& goal_options() {
+  using world::Goal;
   static const auto table = [] {
     const auto any = OptionRange::any();
     OptionTable<Goal> t;
@@ -50,8 +50,8 @@ const OptionTable<planner::Goal>& goal_options() {
   return table;
 }
 
-const OptionTable<planner::Region>& region_options() {
-  using planner::Region;
+const OptionTable<world::Region>& region_options() {
+  using world::Region;
   static const auto table = [] {
     const auto any = OptionRange::any();
     OptionTable<Region> t;
@@ -65,8 +65,8 @@ const OptionTable<planner::Region>& region_options() {
   return table;
 }
 
-const OptionTable<planner::Obstacle>& obstacle_options() {
-  using planner::Obstacle;
+const OptionTable<world::Obstacle>& obstacle_options() {
+  using world::Obstacle;
   static const auto table = [] {
     const auto any = OptionRange::any();
     OptionTable<Obstacle> t;
@@ -101,19 +101,19 @@ Section start_section(Start& start) {
   return section;
 }
 
-Section goal_section(planner::Goal& goal) {
+Section goal_section(world::Goal& goal) {
   Section section("goal");
   section.add(goal_options(), goal).add_degrees("psi");
   return section;
 }
 
-Section region_section(planner::Region& region) {
+Section region_section(world::Region& region) {
   Section section("region");
   section.add(region_options(), region);
   return section;
 }
 
-Section obstacle_section(planner::Obstacle& obstacle, const std::string& path) {
+Section obstacle_section(world::Obstacle& obstacle, const std::string& path) {
   Section section(path);
   section.add(obstacle_options(), obstacle);
   OptionInfo radius;

@@ -15,24 +15,24 @@ struct Start {
 
 /// An obstacle as files write it: a circle or an ellipse, once or in a row.
 struct ObstacleEntry {
-  planner::Obstacle obstacle;
+  world::Obstacle obstacle;
   int repeat = 1;
   std::array<double, 2> step = {0, 0};  ///< from one to the next [m]
 };
 
 const OptionTable<Start>& start_options();
-const OptionTable<planner::Goal>& goal_options();
-const OptionTable<planner::Region>& region_options();
+const OptionTable<world::Goal>& goal_options();
+const OptionTable<world::Region>& region_options();
 /// name, x, y, a, b, vx, vy: what one obstacle is.
-const OptionTable<planner::Obstacle>& obstacle_options();
+const OptionTable<world::Obstacle>& obstacle_options();
 /// repeat, step: how a file writes many.
 const OptionTable<ObstacleEntry>& repeat_options();
 
 /// Sections bound to the parts of a scenario, with the keys that are not plain options (angles in
 /// degrees, an obstacle's radius).
 Section start_section(Start& start);
-Section goal_section(planner::Goal& goal);
-Section region_section(planner::Region& region);
-Section obstacle_section(planner::Obstacle& obstacle, const std::string& path);
+Section goal_section(world::Goal& goal);
+Section region_section(world::Region& region);
+Section obstacle_section(world::Obstacle& obstacle, const std::string& path);
 
 }  // namespace slalom::io

@@ -42,28 +42,26 @@ const ocp::Scheme& scheme_of(const Settings& settings) {
   }
 }
 
-TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters& vehicle,
-                                     const Goal& goal, const Region& region,
-                                     const std::vector<Obstacle>& obstacles, bool goal_in_range)
-    : settings_(settings),
-      vehicle_(vehicle),
-      goal_(goal),
+TrajectoryProblem::TrajectoryProblem(const Task& task, bool goal_in_range)
+    : settings_(task.planner),
+      vehicle_(task.vehicle),
+      goal_(task.goal),
       goal_in_range_(goal_in_range),
-      map_(vehicle, settings.model),
+      map_(task.vehicle, task.planner.model),
       problem_("trajectory") {
   const Model& model = map_.model();
-  add_variables(model, region);
+  add_variables(model, task.region);
   add_dynamics(model);
   add_cost(model);
   add_initial_state(model);
   add_vehicle_limits(model);
   add_obstacles();
-  set_obstacles(obstacles);
+  set_obstacles(task.obstacles);
   add_lidar_region();
   add_goal();
 }
 
-void TrajectoryProblem::add_variables(const Model& model, const Region& region) {
+void TrajectoryProblem::add_variables(const Model& model, const world::Region& region) {
   std::array<Bounds, kStates> bounds;
   bounds[X] = {region.x_min, region.x_max};
   bounds[Y] = {region.y_min, region.y_max};
@@ -184,7 +182,7 @@ void TrajectoryProblem::add_obstacles() {
     problem_.soften(obstacle_rows_, {ocp::Norm::l1, settings_.w_obstacle, 0});
 }
 
-void TrajectoryProblem::set_obstacles(const std::vector<Obstacle>& obstacles) {
+void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstacles) {
   std::vector<std::string> names;
   std::vector<std::vector<double>> numbers;
   for (const auto& o : obstacles) {
@@ -223,7 +221,7 @@ void TrajectoryProblem::add_goal() {
 void TrajectoryProblem::update(const Request& request) {
   for (std::size_t i = 0; i < kStates; ++i)
     if (map_.model().part[i] != Part::derived) problem_.set_parameter(X0p_[i], request.X0p[i]);
-  problem_.set_parameter(t_start_, request.t0 + request.tex);
+  problem_.set_parameter(t_start_, request.t_start);
   problem_.set_parameter(t_planning_, request.t0);
 }
 

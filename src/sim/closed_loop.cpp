@@ -131,7 +131,7 @@ class ClosedLoop {
     planner::Request request;
     request.X0p = cycle.X0p;
     request.t0 = t0;
-    request.tex = instant() ? 0 : loop_.tex;
+    request.t_start = instant() ? t0 : t0 + loop_.tex;
     request.obstacles = sensors_.believed(scenario_.obstacles, index, t0);
     // By a scripted rule the deadline is held against the time charged: see charge().
     request.time_limit = loop_.deadline == Deadline::tex && !latency_.scripted()
@@ -201,9 +201,7 @@ class ClosedLoop {
   }
 
   void check_goal() {
-    const double dx = std::abs(state_[vehicle::X] - scenario_.goal.x);
-    const double dy = std::abs(state_[vehicle::Y] - scenario_.goal.y);
-    if (dx > scenario_.goal.sigma || dy > scenario_.goal.sigma) return;
+    if (!scenario_.goal.contains(state_[vehicle::X], state_[vehicle::Y])) return;
     end(Outcome::goal, fmt::format("entered the goal's square at {:.6g} s, arrived at the check at "
                                    "{:.6g} s",
                                    watch_.goal_time().value_or(t_), t_));

@@ -5,8 +5,7 @@ namespace slalom::sim {
 
 Drive drive(const Scenario& scenario, const LoopHooks& hooks) {
   check(scenario, scenario.name.empty() ? "scenario" : scenario.name);
-  planner::Planner planner(scenario.planner, scenario.vehicle, scenario.goal, scenario.region,
-                           scenario.obstacles);
+  planner::Planner planner(scenario);
   if (hooks.record.take) planner.record(hooks.record);
   const PlanFunction plan = [&](const planner::Request& request) { return planner.plan(request); };
   return drive(scenario, plan, hooks);

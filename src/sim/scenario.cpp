@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "slalom/base/error.hpp"
-#include "slalom/sim/ellipse.hpp"
 #include "slalom/sim/latency.hpp"
 #include "slalom/vehicle/model.hpp"
 
@@ -88,9 +87,8 @@ void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
 
 void check_start_clear(const Scenario& s, const std::string& where) {
   for (const auto& obstacle : s.obstacles) {
-    const double clearance = signed_distance_to_ellipse(
-        s.start[vehicle::X] - obstacle.x, s.start[vehicle::Y] - obstacle.y,
-        obstacle.a + s.loop.sm_crash, obstacle.b + s.loop.sm_crash);
+    const double clearance = world::distance(obstacle.grown(s.loop.sm_crash), s.start[vehicle::X],
+                                             s.start[vehicle::Y], 0);
     if (!(clearance >= 0))
       throw InvalidValue(
           fmt::format("{}: start", where),

@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "slalom/sim/ellipse.hpp"
-
 namespace slalom::sim {
 namespace {
 
@@ -71,6 +69,14 @@ double speed_bound(const vehicle::Dynamics& dynamics, const Stretch& stretch) {
   return 1.1 * speed + 1;
 }
 
+double clearance_of(const world::Obstacle& grown, double t, const State& state) {
+  return world::distance(grown, state[vehicle::X], state[vehicle::Y], t);
+}
+
+double outside(const world::Goal& goal, const State& state) {
+  return goal.outside(state[vehicle::X], state[vehicle::Y]);
+}
+
 /// Loads change by less than this [N/s], five times what full steering and braking give.
 constexpr double kLoadRate = 1e5;
 
@@ -103,29 +109,15 @@ void for_each_low_load(const vehicle::Dynamics& dynamics, const Stretch& s, doub
 }  // namespace
 
 Watch::Watch(const Scenario& scenario, const Plant& plant)
-    : plant_(plant),
-      obstacles_(scenario.obstacles),
-      goal_(scenario.goal),
-      sm_crash_(scenario.loop.sm_crash),
-      Fz_failure_(scenario.loop.Fz_failure) {}
-
-double Watch::clearance_of(const planner::Obstacle& obstacle, double t, const State& state) const {
-  return signed_distance_to_ellipse(state[vehicle::X] - obstacle.x_at(t),
-                                    state[vehicle::Y] - obstacle.y_at(t), obstacle.a + sm_crash_,
-                                    obstacle.b + sm_crash_);
+    : plant_(plant), goal_(scenario.goal), Fz_failure_(scenario.loop.Fz_failure) {
+  for (const auto& obstacle : scenario.obstacles)
+    obstacles_.push_back(obstacle.grown(scenario.loop.sm_crash));
 }
 
 double Watch::clearance(double t, const State& state) const {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& obstacle : obstacles_) least = std::min(least, clearance_of(obstacle, t, state));
   return least;
-}
-
-/// How far outside the goal's square the state is, in the norm whose ball the square is [m];
-/// negative inside.
-double Watch::outside_goal(const State& state) const {
-  return std::max(std::abs(state[vehicle::X] - goal_.x), std::abs(state[vehicle::Y] - goal_.y)) -
-         goal_.sigma;
 }
 
 void Watch::begin(double t, const State& state) {
@@ -205,9 +197,9 @@ void Watch::note_wheel_loads(const Stretch& s) {
 
 void Watch::note_goal(const Stretch& s) {
   if (goal_time_) return;
-  const auto outside = [&](double t) { return outside_goal(s.at(s.t0 + t)); };
-  const auto entry = first_entry(outside, s.t1 - s.t0, outside_goal(s.state0),
-                                 outside_goal(s.state1), speed_bound(plant_.dynamics(), s));
+  const auto entry = first_entry([&](double t) { return outside(goal_, s.at(s.t0 + t)); },
+                                 s.t1 - s.t0, outside(goal_, s.state0), outside(goal_, s.state1),
+                                 speed_bound(plant_.dynamics(), s));
   if (entry) goal_time_ = s.t0 + *entry;
 }
 

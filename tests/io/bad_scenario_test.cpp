@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "files.hpp"
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 

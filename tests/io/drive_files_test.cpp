@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "files.hpp"
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "files.hpp"
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::io {

@@ -58,12 +58,12 @@ TEST(Models, APlanObeysItsOwnModelAndTheNextStartsFromIt) {
     for (const bool near : {false, true}) {
       SCOPED_TRACE(model_names()[static_cast<std::size_t>(kind)] + (near ? ", in range" : ""));
       Scene scene = E_B();
-      scene.settings.model = kind;
+      scene.planner.model = kind;
       if (near) {
         scene.first.X0p[Y] = 85;
         scene.obstacles.clear();
       }
-      Planner planner = scene.planner();
+      Planner planner = Planner(scene);
       const Plan first = planner.plan(scene.first);
       ASSERT_TRUE(first.report.solved) << first.report.status;
       EXPECT_LT(worst_defect(first, kind), 1e-5);
@@ -77,9 +77,9 @@ TEST(Models, APlanObeysItsOwnModelAndTheNextStartsFromIt) {
 
 TEST(Models, ConstantSpeedPlansSteeringAlone) {
   Scene scene = E_B();
-  scene.settings.model = ModelKind::constant_speed;
+  scene.planner.model = ModelKind::constant_speed;
   scene.first.X0p[UX] = 16.25;
-  const Plan plan = scene.planner().plan(scene.first);
+  const Plan plan = Planner(scene).plan(scene.first);
   ASSERT_TRUE(plan.report.solved);
   for (std::size_t k = 0; k < plan.t.size(); ++k) {
     EXPECT_EQ(plan.states[k][UX], 16.25);
@@ -90,8 +90,8 @@ TEST(Models, ConstantSpeedPlansSteeringAlone) {
 
 TEST(Models, TheKinematicBicycleDoesNotSlip) {
   Scene scene = E_B();
-  scene.settings.model = ModelKind::kinematic;
-  const Plan plan = scene.planner().plan(scene.first);
+  scene.planner.model = ModelKind::kinematic;
+  const Plan plan = Planner(scene).plan(scene.first);
   ASSERT_TRUE(plan.report.solved);
   const Parameters p;
   double steered = 0;

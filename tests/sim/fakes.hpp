@@ -22,8 +22,8 @@ inline Scenario open_field() {
   return s;
 }
 
-inline planner::Obstacle circle(const char* name, double x, double y, double r, double vx = 0,
-                                double vy = 0) {
+inline world::Obstacle circle(const char* name, double x, double y, double r, double vx = 0,
+                              double vy = 0) {
   return {name, x, y, r, r, vx, vy};
 }
 

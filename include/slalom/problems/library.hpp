@@ -79,9 +79,9 @@ struct Entry {
   double tolerance() const;
 };
 
-/// All problems, in the order of the documentation.
+/// All published problems, in the order of the documentation.
 const std::vector<Entry>& library();
-/// By name; throws InvalidValue that names the nearest.
-const Entry& find(const std::string& name);
+/// The one of `entries` with this name; throws InvalidValue that names the nearest.
+const Entry& find(const std::vector<Entry>& entries, const std::string& name);
 
 }  // namespace slalom::problems

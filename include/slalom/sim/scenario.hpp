@@ -4,12 +4,9 @@
 #include <vector>
 
 #include "slalom/base/options.hpp"
-#include "slalom/planner/goal.hpp"
-#include "slalom/planner/obstacle.hpp"
-#include "slalom/planner/settings.hpp"
+#include "slalom/planner/task.hpp"
 #include "slalom/sim/plant_settings.hpp"
 #include "slalom/sim/sensing.hpp"
-#include "slalom/vehicle/parameters.hpp"
 #include "slalom/vehicle/state.hpp"
 
 namespace slalom::sim {
@@ -52,17 +49,12 @@ struct LoopSettings {
 
 const OptionTable<LoopSettings>& loop_options();
 
-/// Everything a drive needs. Obstacles are what they are; `vehicle` is what the planner believes,
-/// and what is driven but for `plant`.
-struct Scenario {
+/// Everything a drive needs: a planner's task, a start, and the loop around them. Obstacles are
+/// what they are; `vehicle` is what the planner believes, and what is driven but for `plant`.
+struct Scenario : planner::Task {
   std::string name;
   std::string title;
   vehicle::State start = {0, 0, 0, 0, 1.5707963267948966, 0, 17, 0};
-  planner::Goal goal;
-  planner::Region region;
-  std::vector<planner::Obstacle> obstacles;
-  vehicle::Parameters vehicle;
-  planner::Settings planner;
   LoopSettings loop;
   PlantSettings plant;
   SensingSettings sensing;

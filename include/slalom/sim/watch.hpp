@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "slalom/planner/goal.hpp"
-#include "slalom/planner/obstacle.hpp"
 #include "slalom/sim/drive.hpp"
 #include "slalom/sim/plant.hpp"
 #include "slalom/sim/scenario.hpp"
+#include "slalom/world/goal.hpp"
+#include "slalom/world/obstacle.hpp"
 
 namespace slalom::sim {
 
@@ -55,9 +55,6 @@ class Watch {
   double least_wheel_load() const { return least_wheel_load_; }  ///< [N]
 
  private:
-  double clearance_of(const planner::Obstacle& obstacle, double t,
-                      const vehicle::State& state) const;
-  double outside_goal(const vehicle::State& state) const;
   std::optional<Event> first_crash(const Stretch& stretch) const;
   std::optional<Event> first_wheel_lift(const Stretch& stretch) const;
   void note_clearance(const Stretch& stretch);
@@ -65,9 +62,9 @@ class Watch {
   void note_goal(const Stretch& stretch);
 
   const Plant& plant_;
-  std::vector<planner::Obstacle> obstacles_;
-  planner::Goal goal_;
-  double sm_crash_, Fz_failure_;
+  std::vector<world::Obstacle> obstacles_;  ///< grown by sm_crash
+  world::Goal goal_;
+  double Fz_failure_;
   std::optional<double> goal_time_;
   double least_clearance_ = std::numeric_limits<double>::infinity();
   double least_clearance_t_ = 0;
