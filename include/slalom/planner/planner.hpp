@@ -30,8 +30,8 @@ struct Request {
 };
 
 /// Plans one trajectory in each cycle by solving the OCP of section 3. The solve starts warm from
-/// the last plan that was solved, that was to be driven although unsolved, or whose solve a
-/// deadline cut short. Not thread-safe; use one planner for each thread.
+/// the last plan that was solved, that was to be driven although unsolved, or whose solve was
+/// cut short (by the deadline or an interrupt). Not thread-safe; use one planner for each thread.
 class Planner {
  public:
   Planner(const Settings& settings, const vehicle::Parameters& vehicle, const Goal& goal,
