@@ -35,7 +35,7 @@ struct OptionRange {
   std::string to_string() const;
 };
 
-/// Everything about one option but how to reach it in its struct.
+/// Everything about one option except how to reach it in its struct.
 struct OptionInfo {
   std::string name;  ///< key in files and on the command line
   OptionKind kind = OptionKind::real;
@@ -54,8 +54,8 @@ struct OptionInfo {
 /// Text of a value as files have it: 0.5, true, [1, 2].
 std::string to_string(const OptionValue& value);
 
-/// The options of a settings struct S: one registration gives name, kind, bounds, unit, reason and
-/// access; files, command line and documentation all read this table.
+/// The options of a settings struct S. Each is registered once, with name, kind, bounds, unit,
+/// reason and access; files, command line and documentation all read this table.
 template <class S>
 class OptionTable {
  public:
@@ -181,8 +181,8 @@ class OptionTable {
   std::vector<Entry> entries_;
 };
 
-/// The candidate nearest to `word` by edit distance; empty when none is near (distance above a
-/// third of the length, at least 2, or nothing of `word` left).
+/// The candidate nearest to `word` by edit distance. Empty when none is near: when the distance is
+/// more than 2 and more than a third of the length, or nothing of `word` is left.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace slalom

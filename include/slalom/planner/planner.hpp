@@ -26,9 +26,9 @@ struct Request {
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
 
-/// Plans one trajectory a cycle by solving the OCP of section 3, warm-started from the last plan
-/// that was solved, or was to be driven without, or that was cut short. Not thread-safe;
-/// use one planner a thread.
+/// Plans one trajectory in each cycle by solving the OCP of section 3. The solve starts warm from
+/// the last plan that was solved, that was to be driven although unsolved, or whose solve was
+/// cut short (by the deadline or an interrupt). Not thread-safe; use one planner for each thread.
 class Planner {
  public:
   explicit Planner(const Task& task);

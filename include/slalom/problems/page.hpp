@@ -7,7 +7,7 @@
 
 namespace slalom::problems {
 
-/// The entry's tags in words of files, separated by commas.
+/// The entry's tags, as files name them, separated by commas.
 std::string tags_of(const Entry& entry);
 
 /// docs/problems.md: the entries as Markdown.
