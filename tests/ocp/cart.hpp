@@ -24,4 +24,17 @@ struct Cart {
   }
 };
 
+/// A plant with drag and an actuator that lags, by names of its own order.
+inline System lagging_cart() {
+  return {
+      "lagging cart",
+      {"thrust", "v", "x"},
+      {"u"},
+      [](double, std::span<const double> x, std::span<const double> u, std::span<double> rates) {
+        rates[0] = (u[0] - x[0]) / 0.05;
+        rates[1] = x[0] - 0.1 * x[1];
+        rates[2] = x[1];
+      }};
+}
+
 }  // namespace slalom::ocp

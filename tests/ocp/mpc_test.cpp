@@ -10,9 +10,12 @@
 
 #include "ocp/cart.hpp"
 #include "ocp/closed_forms.hpp"
+#include "ocp/messages.hpp"
 
 namespace slalom::ocp {
 namespace {
+
+using test::refusal;
 
 int iterations(const MpcResult& result) {
   return std::accumulate(result.cycles.begin(), result.cycles.end(), 0,
@@ -136,19 +139,6 @@ TEST(Mpc, JudgesTheGoalWhereAPlanShorterThanACycleEnds) {
   const auto missed = run(0.1, 0.001);
   EXPECT_EQ(missed.status, MpcStatus::goal_missed) << missed.message;
   EXPECT_NE(missed.message.find("tolerances from the goal"), std::string::npos);
-}
-
-/// A plant with drag and an actuator that lags, by names of its own order.
-System lagging_cart() {
-  return {
-      "lagging cart",
-      {"thrust", "v", "x"},
-      {"u"},
-      [](double, std::span<const double> x, std::span<const double> u, std::span<double> rates) {
-        rates[0] = (u[0] - x[0]) / 0.05;
-        rates[1] = x[0] - 0.1 * x[1];
-        rates[2] = x[1];
-      }};
 }
 
 TEST(Mpc, DrivesAPlantOtherThanTheModel) {
