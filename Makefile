@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed solver-profile docs-measured wheel docs sweep-scale format clean build
+.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed solver-profile docs-measured wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -55,7 +55,7 @@ study: ## the paper's sweep of 800 drives into run/study/, with its page; goes o
 	build/slalom sweep paper --out run/study
 	build/slalom study-report run/study
 
-sweep-scale: ## 100,000 very short trials: rate, memory, and how soon a sweep goes on (takes half an hour)
+sweep-scale: ## 100,000 very short trials: rate, memory, how soon a sweep goes on, into docs/measured/sweep-scale.md (takes half an hour)
 	tools/setup.sh bench
 	$(MAKE) --no-print-directory build
 	python3 benchmarks/sweep_scale.py --program build/slalom
@@ -102,6 +102,11 @@ obstacle-choice: ## what leaving out obstacles does, into docs/measured/obstacle
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/obstacle_choice.py --program build/slalom
+
+model-choice: ## how P_D drives with each model it may have in mind, into docs/measured/model-choice.md
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/model_choice.py --program build/slalom
 
 sensitivity: ## how far plant and sensors may be from what is believed, into docs/measured/sensitivity.md (takes minutes)
 	tools/setup.sh results

@@ -5,15 +5,10 @@ Standard library only.
     tools/obstacle_choice.py [--program build/slalom]
 """
 
-import csv
-import json
-import pathlib
 import statistics
-import subprocess
-import tempfile
 
-import sweeps
 from measured import page_parser, stamp, write
+from sweeps import driven, ended, head, row
 
 GAP = 4.5  # of groups [m]
 ENVIRONMENTS = ("E_B", "E_C")
@@ -47,29 +42,20 @@ cycle, transcription included; iterations are of the whole drive.
 
 class Drive:
     def __init__(self, program, environment, settings):
-        with tempfile.TemporaryDirectory() as folder:
-            command = [program, "simulate", environment, "--planner", "P_D", "--out", folder, "--force",
-                       "--quiet"]
-            for key, value in settings.items():
-                command += ["--set", f"planner.{key}={value}"]
-            subprocess.run(command, check=True)
-            out = pathlib.Path(folder)
-            self.summary = json.loads((out / "summary.json").read_text())
-            with open(out / "cycles.csv", newline="") as file:
-                cycles = list(csv.DictReader(file))
+        self.summary, cycles = driven(program, environment, "P_D",
+                                      {f"planner.{key}": value for key, value in settings.items()})  # fmt: skip
+        self.end = ended(self.summary)
         self.iterations = sum(int(c["iterations"]) for c in cycles)
         self.times = [1e3 * float(c["planning_cpu_s"]) for c in cycles[1:]]  # the first is the warm-up
-        self.end = self.summary["outcome"] + (f" {self.summary['hit']}" if self.summary["hit"] else "")
-        self.median = statistics.median(self.times)
 
 
 def table(drives):
-    text = sweeps.head(["environment", "choice", "ends", "least clearance [m]", "iterations", "median [ms]",
-                        "greatest [ms]"])
+    text = head(["environment", "choice", "ends", "least clearance [m]", "iterations", "median [ms]",
+                 "greatest [ms]"])
     for (environment, name), d in drives.items():
-        text += sweeps.row([environment, name, f"{d.end}, {d.summary['time_s']:.2f} s",
-                            f"{max(0, d.summary['least_clearance_m']):.2f}", d.iterations, f"{d.median:.2f}",
-                            f"{max(d.times):.2f}"])
+        text += row([environment, name, f"{d.end}, {d.summary['time_s']:.2f} s",
+                     f"{max(0, d.summary['least_clearance_m']):.2f}", d.iterations,
+                     f"{statistics.median(d.times):.2f}", f"{max(d.times):.2f}"])
     return text
 
 
