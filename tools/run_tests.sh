@@ -62,6 +62,7 @@ fi
 if step "release build" release; then run_ctest release "tests and checks of the release build"; fi
 
 echo
+python3 tools/measured.py --check
 echo "took $(((SECONDS - start) / 60)) min $(((SECONDS - start) % 60)) s"
 for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
 if [ "$skipped" -gt 0 ]; then echo "$skipped skipped"; fi

@@ -39,6 +39,7 @@ python3             | bench | cmd:python3               | runs the benchmarks
 python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
 gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
 make                | bench | cmd:make                  | builds acados' generated solver
+linux-perf          | bench | cmd:perf                  | samples the profile of a solve
 TABLE
 }
 
