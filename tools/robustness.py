@@ -9,6 +9,7 @@ import collections
 import csv
 import io
 import json
+import textwrap
 
 from measured import page_parser, stamp, write
 from sweeps import swept
@@ -85,10 +86,10 @@ def text_at(x, y, words, anchor="middle", size=12, weight="normal"):
             f'font-weight="{weight}">{words}</text>')
 
 
-def legend(x, y):
+def legend(x, y, kinds):
     parts = []
-    for words, colour in KINDS.items():
-        parts.append(f'<rect x="{x}" y="{y - 11}" width="13" height="13" fill="{colour}" stroke="#666"/>')
+    for words in kinds:
+        parts.append(f'<rect x="{x}" y="{y - 11}" width="13" height="13" fill="{KINDS[words]}" stroke="#666"/>')
         parts.append(text_at(x + 18, y, words, "start"))
         x += 34 + 7 * len(words)
     return parts
@@ -108,7 +109,7 @@ def figure(drives):
     for row, floor in enumerate(FLOORS):
         bold = "bold" if floor == DEFAULT else "normal"
         parts.append(text_at(LEFT - 6, TOP + (row + 0.7) * height, f"{floor:g}", "end", weight=bold))
-    parts.append(text_at(LEFT - 6, TOP - 8, "floor", "end"))
+    parts.append(text_at(LEFT - 6, TOP - 5, "floor", "end"))
     parts.append(text_at(LEFT - 6, TOP - 20, "paper:", "end", size=11))
     for number, (environment, planner) in enumerate(PAPER):
         x = LEFT + number * block
@@ -118,15 +119,17 @@ def figure(drives):
         parts.append(text_at(middle, TOP - 20, PAPER[environment, planner], size=11))
         for k, tex in enumerate(TEXES):
             parts.append(text_at(x + k * half + (half - HALF_GAP) / 2, bottom + 16, f"{tex:g}", size=11))
+    cells = {}
     for drive in drives:
         x = (LEFT + list(PAPER).index(drive.key) * block + TEXES.index(drive.tex) * half
              + SHIFTS.index(drive.shift) * width)
         y = TOP + FLOORS.index(drive.floor) * height
-        parts.append(f'<rect x="{x}" y="{y}" width="{width}" height="{height}" fill="{KINDS[kind(drive)]}" '
-                     'stroke="#fff"/>')  # fmt: skip
+        cells.setdefault(kind(drive), []).append(f"M{x} {y}h{width}v{height}h-{width}z")
+    kinds = [name for name in KINDS if name in cells]
+    parts += [f'<path fill="{KINDS[name]}" stroke="#fff" d="{"".join(cells[name])}"/>' for name in kinds]
     shifts = ", ".join(f"{shift:+g}" if shift else "0" for shift in SHIFTS)
     parts.append(text_at(LEFT, bottom + 36, f"tex [s]; in each, the start at x {shifts} m", "start"))
-    return "\n".join([*parts, *legend(LEFT, bottom + 64), "</svg>"]) + "\n"
+    return "\n".join([*parts, *legend(LEFT, bottom + 64, kinds), "</svg>"]) + "\n"
 
 
 # --- the page -----------------------------------------------------------------------------------
@@ -161,18 +164,14 @@ def others(drives):
 def page(drives, stamped):
     default = [d for d in drives if d.floor == DEFAULT]
     bands = " and ".join(band(drives, tex) for tex in TEXES)
-    return f"""# Robustness of the outcomes
-
-{stamped}
-Every drive of the paper's figures at {len(FLOORS)} barrier floors, {len(TEXES)} execution horizons and
+    text = f"""Every drive of the paper's figures at {len(FLOORS)} barrier floors, {len(TEXES)} execution horizons and
 {len(SHIFTS)} starts; all else is by default. A drive counts as the paper's if outcome and obstacle are the
 same; times and positions are not compared here. {of(drives)} drives end as the paper's, {of(default)}
 at the default floor of {DEFAULT:g}. About that floor, every drive does so {bands}.
 Those that end otherwise, with their number: {others(drives) or "none"}. Each drive, with its time and
-its least clearance to an obstacle grown by the crash margin: [robustness.csv](robustness.csv).
-
-![Outcomes over floors, horizons and starts](robustness.svg)
-"""
+its least clearance to an obstacle grown by the crash margin: [robustness.csv](robustness.csv)."""
+    return "\n".join(["# Robustness of the outcomes", "", stamped, *textwrap.wrap(text, 110), "",
+                      "![Outcomes over floors, horizons and starts](robustness.svg)", ""])  # fmt: skip
 
 
 def main():
