@@ -40,13 +40,13 @@ std::string plan_text(const sim::Scenario& scenario, const First& first) {
   const auto& report = plan.report;
   auto text = fmt::format(
       "{} with {}: {} after {} iterations, {:.3f} s; from {:g} s on, {:.3f} s long, cost {:.4f}\n",
-      scenario.name, scenario.planner.name, report.status, report.iterations, report.wall_s,
+      scenario.name, scenario.planner.name, report.status_text(), report.iterations, report.wall_s,
       plan.t_start, plan.tf, report.cost);
   if (first.warm_up) {
     const auto& before = first.warm_up->plan.report;
     text += fmt::format(
         "  after a warm-up solve of the same problem: {} after {} iterations, {:.3f} s\n",
-        before.status, before.iterations, before.wall_s);
+        before.status_text(), before.iterations, before.wall_s);
   }
   for (const auto& [name, value] : report.cost_terms)
     text += fmt::format("  {:<12} {:>12.4f}\n", name, value);

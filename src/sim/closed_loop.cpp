@@ -91,7 +91,7 @@ class ClosedLoop {
       cycle.charged = loop_.tex;
       solve_time_ = loop_.tex;
       cycle.plan.report.solved = cycle.plan.report.best_iterate = false;
-      cycle.plan.report.status = "time_limit";
+      cycle.plan.report.status = planner::PlanStatus::time_limit;
     }
     const double ready = cycle.t0 + cycle.charged;
     cycle.t_swap = instant() ? cycle.t0 : due;
@@ -125,7 +125,8 @@ class ClosedLoop {
                       : believed_.predict(measured, actuator_.commanded(), t0, t0 + loop_.tex);
     } catch (const PlantError& error) {
       cycle.X0p.fill(std::nan(""));
-      cycle.plan.report.status = fmt::format("no prediction: {}", error.what());
+      cycle.plan.report.status = planner::PlanStatus::no_prediction;
+      cycle.plan.report.detail = error.what();
       return cycle;
     }
     planner::Request request;
@@ -172,7 +173,7 @@ class ClosedLoop {
     end(Outcome::not_optimal,
         fmt::format("the NLP of cycle {} was not solved: {}", cycle.index,
                     cycle.plan.report.solved ? "the plan has no usable controls"
-                                             : cycle.plan.report.status));
+                                             : cycle.plan.report.status_text()));
   }
 
   /// Lets the plant drive until `t_end` or the first event, on the signals that reach it.

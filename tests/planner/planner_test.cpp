@@ -13,7 +13,8 @@ namespace {
 using namespace vehicle;
 
 void expect_solved(const Plan& plan) {
-  EXPECT_TRUE(plan.report.solved) << plan.report.status << ", " << plan.report.worst_constraint;
+  EXPECT_TRUE(plan.report.solved) << plan.report.status_text() << ", "
+                                  << plan.report.worst_constraint;
   // Section 3, "Solved": what the checker recomputed from the answer.
   EXPECT_LE(plan.report.worst_violation, 1e-6) << plan.report.worst_constraint;
   EXPECT_LE(plan.report.stationarity, 1e-3);
@@ -310,9 +311,9 @@ TEST(Planner, AnImpossiblePlanIsNotSolvedAndSaysWhy) {
     Scene scene = ring();
     scene.planner.solver = solver;
     const Plan plan = Planner(scene).plan(scene.first);
-    SCOPED_TRACE(plan.report.backend + ": " + plan.report.status);
+    SCOPED_TRACE(plan.report.backend + ": " + plan.report.status_text());
     EXPECT_FALSE(plan.report.solved);
-    EXPECT_NE(plan.report.status, "solved");
+    EXPECT_NE(plan.report.status, PlanStatus::solved);
     EXPECT_GT(plan.report.worst_violation, 1e-3);
     EXPECT_FALSE(plan.report.worst_constraint.empty());
     EXPECT_EQ(plan.states.size(), 11u) << "the last iterate is returned";
@@ -348,7 +349,7 @@ TEST(Planner, ABestIterateWithinTheToleranceIsAStartForTheNext) {
     const int needed = Planner(scene).plan(scene.first).report.iterations;
     cut.planner.max_iterations = needed - 1;
     const Plan refused = Planner(cut).plan(cut.first);
-    ASSERT_EQ(refused.report.status, "iteration_limit");
+    ASSERT_EQ(refused.report.status, PlanStatus::iteration_limit);
     EXPECT_FALSE(refused.report.best_iterate) << "none is asked for";
 
     const double violation = refused.report.worst_violation;
@@ -357,7 +358,7 @@ TEST(Planner, ABestIterateWithinTheToleranceIsAStartForTheNext) {
       cut.first.best_iterate_tol = good_enough ? violation : violation / 2 - 1e-12;
       auto planner = Planner(cut), fresh = Planner(cut);
       const Plan plan = planner.plan(cut.first);
-      EXPECT_EQ(plan.report.status, "iteration_limit");
+      EXPECT_EQ(plan.report.status, PlanStatus::iteration_limit);
       EXPECT_FALSE(plan.report.solved);
       EXPECT_EQ(plan.report.best_iterate, good_enough);
       const Plan next = planner.plan(cut.first), from_nothing = fresh.plan(cut.first);
@@ -377,7 +378,7 @@ TEST(Planner, ASolveCutShortGoesOnInTheNextCycle) {
     int left = needed * 4 / 5;
     cut.interrupted = [&left] { return --left < 0; };
     auto planner = Planner(scene);
-    EXPECT_EQ(planner.plan(cut).report.status, "interrupted");
+    EXPECT_EQ(planner.plan(cut).report.status, PlanStatus::interrupted);
     const Plan next = planner.plan(scene.first);
     expect_solved(next);
     EXPECT_LT(next.report.iterations, needed * 3 / 4);
@@ -399,7 +400,7 @@ TEST(Planner, TimeLimitEndsASolve) {
     scene.first.time_limit = 1e-6;
     const Plan plan = Planner(scene).plan(scene.first);
     EXPECT_FALSE(plan.report.solved);
-    EXPECT_EQ(plan.report.status, "time_limit");
+    EXPECT_EQ(plan.report.status, PlanStatus::time_limit);
     EXPECT_GE(plan.report.planning_cpu_s, plan.report.cpu_s);
   }
 }
@@ -414,7 +415,7 @@ TEST(Planner, WithoutAFloorItSolvesToTheOptimum) {
   Scene scene = E_A();
   scene.planner.floor = 0;
   const Plan plan = Planner(scene).plan(scene.first);
-  EXPECT_TRUE(plan.report.solved) << plan.report.status;
+  EXPECT_TRUE(plan.report.solved) << plan.report.status_text();
   EXPECT_LT(plan.report.cost, 271.6379 - 1) << "the barrier's distance from the limits is gone";
   EXPECT_LE(plan.report.worst_violation, 1e-6);
 }
@@ -429,7 +430,7 @@ TEST(Planner, WithoutAFloorAWarmSolveTakesFewIterations) {
   std::vector<int> iterations;
   for (int cycle = 0; cycle < 12; ++cycle) {
     const Plan plan = planner.plan(request);
-    ASSERT_TRUE(plan.report.solved) << plan.report.status;
+    ASSERT_TRUE(plan.report.solved) << plan.report.status_text();
     if (cycle > 0) iterations.push_back(plan.report.iterations);
     request = next_cycle(request, plan);
   }

@@ -164,7 +164,7 @@ TEST(ClosedLoop, UnsolvedStopsWhenThePlanIsDue) {
   ASSERT_EQ(d.cycles.size(), 4u);
   EXPECT_FALSE(d.cycles.back().used);
   EXPECT_NE(d.message.find("cycle 4"), std::string::npos);
-  EXPECT_NE(d.message.find("iteration limit"), std::string::npos);
+  EXPECT_NE(d.message.find("iteration_limit"), std::string::npos);
 }
 
 TEST(ClosedLoop, CrashBeforeThePlanIsDueBeatsTheFailureToPlan) {
@@ -251,7 +251,7 @@ TEST(ClosedLoop, BestIterateIsAskedForAndDrivenOnlyWhereItIsGoodEnough) {
     auto p = plan_of(r, [&](double) { return Control{0, .1 * static_cast<double>(cycle)}; });
     p.report.solved = violation[cycle - 1] == 0;
     p.report.best_iterate = !p.report.solved && violation[cycle - 1] <= r.best_iterate_tol;
-    if (!p.report.solved) p.report.status = "time_limit";
+    if (!p.report.solved) p.report.status = planner::PlanStatus::time_limit;
     return p;
   });
   const Drive d = drive(s, plan);
@@ -260,7 +260,8 @@ TEST(ClosedLoop, BestIterateIsAskedForAndDrivenOnlyWhereItIsGoodEnough) {
   for (const auto& request : requests.all) EXPECT_EQ(request.best_iterate_tol, .01);
   const bool driven[] = {true, true, false, true, false};  // the drive ended before the last one
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(d.cycles[i].used, driven[i]) << i;
-  EXPECT_EQ(d.cycles[1].plan.report.status, "time_limit") << "driven, and yet not called solved";
+  EXPECT_EQ(d.cycles[1].plan.report.status, planner::PlanStatus::time_limit)
+      << "driven, and yet not called solved";
   for (const auto& p : d.plant) {
     const double plan_of_horizon[] = {0, 1, 2, 2, 4, 4};  // the third goes on with the second's
     EXPECT_NEAR(p.control[vehicle::JX], .1 * plan_of_horizon[static_cast<int>(p.t / .5)], 1e-12);

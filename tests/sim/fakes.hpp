@@ -41,7 +41,7 @@ inline planner::Plan plan_of(const planner::Request& request,
     plan.controls.push_back(control(plan.t.back()));
   }
   plan.report.solved = true;
-  plan.report.status = "solved";
+  plan.report.status = planner::PlanStatus::solved;
   return plan;
 }
 
@@ -52,7 +52,7 @@ inline planner::Plan straight_on(const planner::Request& request) {
 inline planner::Plan unsolved(const planner::Request& request) {
   auto plan = straight_on(request);
   plan.report.solved = false;
-  plan.report.status = "iteration limit";
+  plan.report.status = planner::PlanStatus::iteration_limit;
   return plan;
 }
 
