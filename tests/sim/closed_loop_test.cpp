@@ -43,7 +43,7 @@ TEST(ClosedLoop, OneRequestACycleWithThePredictedState) {
   ASSERT_EQ(d.cycles.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(requests.all[i].t0, .5 * static_cast<double>(i));
-    EXPECT_EQ(requests.all[i].tex, .5);
+    EXPECT_EQ(requests.all[i].t_start, requests.all[i].t0 + .5);
     EXPECT_EQ(requests.all[i].time_limit, 7);
     EXPECT_EQ(d.cycles[i].index, static_cast<int>(i) + 1);
     EXPECT_EQ(d.cycles[i].t0, requests.all[i].t0);

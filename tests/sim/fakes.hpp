@@ -33,7 +33,7 @@ inline planner::Plan plan_of(const planner::Request& request,
                              const std::function<vehicle::Control(double)>& control, double tf = 2,
                              int intervals = 10) {
   planner::Plan plan;
-  plan.t_start = request.t0 + request.tex;
+  plan.t_start = request.t_start;
   plan.tf = tf;
   for (int k = 0; k <= intervals; ++k) {
     plan.t.push_back(tf * k / intervals);
