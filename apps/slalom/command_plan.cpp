@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
 #include "commands.hpp"
 #include "exit_code.hpp"
@@ -14,27 +13,7 @@ namespace {
 
 const std::vector<std::string> kOutcomes = {"solved", "not_optimal", "interrupted"};
 
-/// The first cycle of the closed loop, predicted from the start and solved, and the warm-up solve
-/// before it.
-struct First {
-  std::optional<sim::Cycle> cycle;
-  std::optional<sim::Cycle> warm_up;
-
-  const sim::Cycle* warm_up_or_null() const { return warm_up ? &*warm_up : nullptr; }
-};
-
-First first_cycle(const sim::Scenario& scenario) {
-  First first;
-  sim::LoopHooks hooks;
-  hooks.on_cycle = [&](const sim::Cycle& cycle) {
-    (cycle.index > 0 ? first.cycle : first.warm_up) = cycle;
-  };
-  hooks.interrupted = [&] { return first.cycle.has_value() || interrupted(); };
-  (void)sim::drive(scenario, hooks);
-  return first;
-}
-
-std::string plan_text(const sim::Scenario& scenario, const First& first) {
+std::string plan_text(const sim::Scenario& scenario, const sim::FirstPlan& first) {
   const auto& cycle = *first.cycle;
   const auto& plan = cycle.plan;
   const auto& report = plan.report;
@@ -66,14 +45,15 @@ int plan(const CommonOptions& options) {
   check_expectations(options.expect, kOutcomes);
   const auto scenario = io::load_scenario(options.request);
   if (options.writes()) write_or_fail([&] { io::prepare_folder(options.out, options.force); });
-  const auto first = first_cycle(scenario);
+  const auto first = sim::first_plan(scenario, interrupted);
   const auto& cycle = first.cycle;
+  const auto* warm_up = first.warm_up ? &*first.warm_up : nullptr;
   if (!cycle || (interrupted() && !cycle->plan.report.solved))
     return exit_code_for("interrupted", options.expect);
   if (options.writes())
-    write_or_fail([&] { io::write_plan(options.out, scenario, *cycle, first.warm_up_or_null()); });
+    write_or_fail([&] { io::write_plan(options.out, scenario, *cycle, warm_up); });
   if (options.json) {
-    print(io::plan_json(scenario, *cycle, first.warm_up_or_null()));
+    print(io::plan_json(scenario, *cycle, warm_up));
   } else if (!options.quiet) {
     print(plan_text(scenario, first));
   }
