@@ -1,17 +1,14 @@
-// How the loop takes turns, and every way a drive can end.
+// How the loop takes turns.
 
 #include "slalom/sim/closed_loop.hpp"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <set>
-#include <thread>
 
 #include "sim/fakes.hpp"
 #include "sim/reintegrate.hpp"
-#include "slalom/base/error.hpp"
 #include "slalom/sim/solve_times.hpp"
 
 namespace slalom::sim {
@@ -19,19 +16,9 @@ namespace {
 
 using testing::open_field;
 using testing::plan_of;
+using testing::Requests;
 using testing::straight_on;
 using vehicle::Control;
-
-/// What a fake planner was asked.
-struct Requests {
-  std::vector<planner::Request> all;
-  PlanFunction answering(const PlanFunction& plan) {
-    return [this, plan](const planner::Request& request) {
-      all.push_back(request);
-      return plan(request);
-    };
-  }
-};
 
 TEST(ClosedLoop, OneRequestACycleWithThePredictedState) {
   auto s = open_field();
@@ -146,77 +133,6 @@ TEST(ClosedLoop, SamplesAreCloseUniqueAndIncludeEveryHorizonsEnd) {
   for (int n = 1; n <= 6; ++n) EXPECT_EQ(times.count(n * .3), 1u) << n;
 }
 
-TEST(ClosedLoop, TimeoutEndsTheDrive) {
-  auto s = open_field();
-  s.loop.timeout = 1.2;
-  const Drive d = drive(s, straight_on);
-  EXPECT_EQ(d.outcome, Outcome::timeout);
-  EXPECT_EQ(d.time, 1.2);
-  EXPECT_FALSE(d.goal_time);
-}
-
-TEST(ClosedLoop, GoalAtTheLastCheckBeatsTheTimeout) {
-  auto s = open_field();
-  s.loop.timeout = 2;
-  s.goal = {0, 34, 1.5, 1};
-  EXPECT_EQ(drive(s, straight_on).outcome, Outcome::goal);
-  s.loop.timeout = 1.95;  // within the square, but not at the end of an execution horizon
-  EXPECT_EQ(drive(s, straight_on).outcome, Outcome::timeout);
-}
-
-TEST(ClosedLoop, UnsolvedStopsWhenThePlanIsDue) {
-  auto s = open_field();
-  int calls = 0;
-  const Drive d =
-      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : testing::unsolved(r); });
-  EXPECT_EQ(d.outcome, Outcome::not_optimal);
-  EXPECT_EQ(d.time, 2);
-  EXPECT_EQ(d.plant.back().t, 2);
-  ASSERT_EQ(d.cycles.size(), 4u);
-  EXPECT_FALSE(d.cycles.back().used);
-  EXPECT_NE(d.message.find("cycle 4"), std::string::npos);
-  EXPECT_NE(d.message.find("iteration_limit"), std::string::npos);
-}
-
-TEST(ClosedLoop, CrashBeforeThePlanIsDueBeatsTheFailureToPlan) {
-  auto s = open_field();
-  s.obstacles = {testing::circle("rock", 0, 25, 1)};  // touched at 22/17 s
-  int calls = 0;
-  const auto fails_at = [&](int call) {
-    calls = 0;
-    return drive(s, [&calls, call](const auto& r) {
-      return ++calls < call ? straight_on(r) : testing::unsolved(r);
-    });
-  };
-  const Drive crashed = fails_at(3);  // planned from 1 s, due at 1.5 s
-  EXPECT_EQ(crashed.outcome, Outcome::crash) << crashed.message;
-  EXPECT_NEAR(crashed.time, 22. / 17, 1e-6);
-  EXPECT_EQ(crashed.cycles.size(), 3u);
-  const Drive stopped = fails_at(2);  // due at 1 s
-  EXPECT_EQ(stopped.outcome, Outcome::not_optimal) << stopped.message;
-  EXPECT_EQ(stopped.time, 1);
-}
-
-TEST(ClosedLoop, FailureToPlanBeatsTheGoal) {
-  auto s = open_field();
-  s.goal = {0, 34, 1.5, 1};
-  int calls = 0;
-  const Drive d =
-      drive(s, [&](const auto& r) { return ++calls < 4 ? straight_on(r) : testing::unsolved(r); });
-  EXPECT_EQ(d.time, 2);
-  EXPECT_EQ(d.outcome, Outcome::not_optimal);
-}
-
-TEST(ClosedLoop, SolvedPlanWithoutUsableControlsCountsAsUnsolved) {
-  const Drive d = drive(open_field(), [](const auto& r) {
-    auto plan = straight_on(r);
-    plan.controls[2][0] = std::nan("");
-    return plan;
-  });
-  EXPECT_EQ(d.outcome, Outcome::not_optimal);
-  EXPECT_NE(d.message.find("no usable controls"), std::string::npos);
-}
-
 TEST(ClosedLoop, LastPlanGoesOnAndHoldsItsLastControl) {
   auto s = open_field();
   s.loop.on_failure = OnFailure::last_plan;
@@ -307,67 +223,6 @@ TEST(ClosedLoop, DeadlineGivesThePlannerTheHorizonsTime) {
   EXPECT_EQ(requests.all[0].time_limit, .2) << "the tighter one";
 }
 
-TEST(ClosedLoop, SolveTimeOverTheLimitEndsTheDriveEvenIfSolved) {
-  auto s = open_field();
-  s.loop.on_failure = OnFailure::last_plan;  // the limit is a failure of its own
-  int calls = 0;
-  const Drive d = drive(s, [&](const auto& r) {
-    auto plan = straight_on(r);
-    plan.report.wall_s = ++calls < 3 ? 299 : 301;
-    return plan;
-  });
-  EXPECT_EQ(d.outcome, Outcome::solve_time);
-  EXPECT_EQ(d.time, 1.5);
-}
-
-TEST(ClosedLoop, SolveCutOffByItsTimeLimitIsSolveTime) {
-  auto s = open_field();
-  s.loop.solve_time_limit = .05;
-  const Drive d = drive(s, [](const planner::Request& r) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(r.time_limit));
-    return testing::unsolved(r);
-  });
-  EXPECT_EQ(d.outcome, Outcome::solve_time);
-  EXPECT_EQ(d.time, .5);
-}
-
-TEST(ClosedLoop, InterruptedBetweenCyclesWhilePlanningAndWhileDriving) {
-  const auto s = open_field();
-  // At once: nothing is planned.
-  Requests requests;
-  LoopHooks hooks;
-  hooks.interrupted = [] { return true; };
-  Drive d = drive(s, requests.answering(straight_on), hooks);
-  EXPECT_EQ(d.outcome, Outcome::interrupted);
-  EXPECT_EQ(d.time, 0);
-  EXPECT_TRUE(requests.all.empty());
-  EXPECT_EQ(d.plant.size(), 1u);
-
-  // While planning: the solver is handed the hook; its unsolved answer does not hide the reason.
-  bool pressed = false;
-  hooks.interrupted = [&] { return pressed; };
-  d = drive(
-      s,
-      [&](const planner::Request& r) {
-        if (r.t0 < 1) return straight_on(r);
-        pressed = true;
-        EXPECT_TRUE(r.interrupted && r.interrupted());
-        return testing::unsolved(r);
-      },
-      hooks);
-  EXPECT_EQ(d.outcome, Outcome::interrupted);
-  EXPECT_EQ(d.time, 1);
-
-  // While driving: within the horizon, at a sample.
-  int polls_after_plan = 0;
-  hooks.interrupted = [&] { return !requests.all.empty() && ++polls_after_plan > 10; };
-  d = drive(s, requests.answering(straight_on), hooks);
-  EXPECT_EQ(d.outcome, Outcome::interrupted);
-  EXPECT_GT(d.time, .1);
-  EXPECT_LT(d.time, .3);
-  EXPECT_EQ(d.plant.back().t, d.time);
-}
-
 TEST(ClosedLoop, OnCycleIsCalledOncePerCycle) {
   auto s = open_field();
   s.loop.warm_up = true;
@@ -377,22 +232,6 @@ TEST(ClosedLoop, OnCycleIsCalledOncePerCycle) {
   hooks.on_cycle = [&](const Cycle& cycle) { seen.push_back(cycle.index); };
   (void)drive(s, straight_on, hooks);
   EXPECT_EQ(seen, (std::vector<int>{0, 1, 2}));
-}
-
-TEST(ClosedLoop, LostPlantIsAnOutcomeNotAnException) {
-  auto s = open_field();
-  s.loop.on_failure = OnFailure::last_plan;
-  s.loop.timeout = 60;
-  int calls = 0;
-  const Drive d = drive(s, [&](const planner::Request& r) {
-    if (++calls > 1) return testing::unsolved(r);
-    return plan_of(r, [](double) { return Control{.5, 1e200}; });
-  });
-  EXPECT_EQ(d.outcome, Outcome::not_optimal) << d.message;
-  EXPECT_NE(d.message.find("no usable plan was left"), std::string::npos) << d.message;
-  const auto& report = d.cycles.back().plan.report;
-  EXPECT_EQ(report.status, planner::PlanStatus::no_prediction);
-  EXPECT_EQ(report.status_text().rfind("no prediction: the plant cannot be integrated", 0), 0u);
 }
 
 // A drive's controls, re-integrated by another method, step and model, give its states.
@@ -441,14 +280,6 @@ TEST(ClosedLoop, ReintegratedSamplesGiveTheDrive) {
     EXPECT_NEAR(b.state[vehicle::Y], x[vehicle::Y], 1e-4 / 100);
     EXPECT_NEAR(b.state[vehicle::PSI], x[vehicle::PSI], 1e-5 / 100);
   }
-}
-
-TEST(ClosedLoop, OutcomesHaveTheNamesFilesUse) {
-  EXPECT_STREQ(to_string(Outcome::goal), "goal");
-  EXPECT_STREQ(to_string(Outcome::wheel_lift), "wheel_lift");
-  EXPECT_STREQ(to_string(Outcome::not_optimal), "not_optimal");
-  EXPECT_STREQ(to_string(Outcome::interrupted), "interrupted");
-  EXPECT_EQ(outcome_names().size(), 7u);
 }
 
 }  // namespace

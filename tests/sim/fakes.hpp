@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include "slalom/sim/closed_loop.hpp"
 #include "slalom/sim/control_signal.hpp"
@@ -67,5 +68,16 @@ inline planner::Plan wavy(const planner::Request& request) {
       },
       2.3, 9);
 }
+
+/// What a fake planner was asked.
+struct Requests {
+  std::vector<planner::Request> all;
+  PlanFunction answering(const PlanFunction& plan) {
+    return [this, plan](const planner::Request& request) {
+      all.push_back(request);
+      return plan(request);
+    };
+  }
+};
 
 }  // namespace slalom::sim::testing
