@@ -10,7 +10,7 @@
 namespace slalom::paper {
 namespace {
 
-using namespace testing;
+using namespace report::testing;
 
 ReproducedDrive reproduced(const std::string& environment, const std::string& planner,
                            sim::Drive drive = synthetic_drive()) {
