@@ -65,7 +65,7 @@ TEST(Models, APlanObeysItsOwnModelAndTheNextStartsFromIt) {
       }
       Planner planner = Planner(scene);
       const Plan first = planner.plan(scene.first);
-      ASSERT_TRUE(first.report.solved) << first.report.status;
+      ASSERT_TRUE(first.report.solved) << first.report.status_text();
       EXPECT_LT(worst_defect(first, kind), 1e-5);
       const Plan again = planner.plan(scene.first);
       ASSERT_TRUE(again.report.solved);
