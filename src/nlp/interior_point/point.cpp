@@ -16,8 +16,15 @@ Point::Point(SlackForm& form) : form_(&form) {
   over_upper_.resize(form.primal());
 }
 
-void Point::forget_slacks() {
+void Point::forget_slacks() const {
   residuals_known_ = logs_known_ = reciprocals_known_ = false;
+}
+
+/// Where the form has taken other limits or scales since.
+void Point::forget_old_slacks() const {
+  if (slacks_revision_ == form_->revision().functions) return;
+  forget_slacks();
+  slacks_revision_ = form_->revision().functions;
 }
 
 std::span<double> Point::change_w() {
@@ -59,7 +66,6 @@ Parts Point::known() const {
 
 bool Point::evaluate(Parts parts) {
   const Parts before = known();
-  if (revision_.functions != form_->revision().functions) forget_slacks();
   evaluated_ = {};
   if (!form_->evaluate(at_, parts, e_)) return false;
   evaluated_ = {.values = before.values || parts.values,
@@ -79,6 +85,7 @@ bool Point::complete(Parts wanted) {
 }
 
 void Point::find_residuals() const {
+  forget_old_slacks();
   if (residuals_known_) return;
   assert(evaluated_.values);
   violation_ = form_->residuals(e_, at_.w, residuals_);
@@ -96,6 +103,7 @@ double Point::violation() const {
 }
 
 double Point::log_slacks() const {
+  forget_old_slacks();
   if (!logs_known_)
     logs_ = vector_kernels().log_slacks(form_->segments(), bounded_with(over_lower_, over_upper_));
   logs_known_ = true;
@@ -103,6 +111,7 @@ double Point::log_slacks() const {
 }
 
 BoundedVector Point::bounded() const {
+  forget_old_slacks();
   const BoundedVector v = bounded_with(over_lower_, over_upper_);
   if (!reciprocals_known_)
     vector_kernels().reciprocals(form_->segments(), v, over_lower_.data(), over_upper_.data());

@@ -21,7 +21,7 @@ class Point {
   std::span<double> change_slacks();
   /// For writing the rows' multipliers; the Hessian is known no more.
   std::span<double> change_y();
-  /// For writing the bounds' multipliers, of which nothing here depends.
+  /// For writing the bounds' multipliers, on which nothing here depends.
   std::span<double> change_zl() { return at_.zl; }
   std::span<double> change_zu() { return at_.zu; }
   /// Becomes w and y of `from` and so much of the step; multipliers of bounds stay.
@@ -49,7 +49,8 @@ class Point {
   Parts known() const;
   BoundedVector bounded_with(const std::vector<double>& over_lower,
                              const std::vector<double>& over_upper) const;
-  void forget_slacks();
+  void forget_slacks() const;
+  void forget_old_slacks() const;
   void find_residuals() const;
 
   SlackForm* form_;
@@ -58,6 +59,7 @@ class Point {
   Parts evaluated_;  ///< of at_, at revision_ of the form
   SlackForm::Revision revision_;
 
+  mutable std::uint64_t slacks_revision_ = 0;  ///< of the form, for what stands below
   mutable bool residuals_known_ = false, logs_known_ = false, reciprocals_known_ = false;
   mutable std::vector<double> residuals_;
   mutable double violation_ = 0, logs_ = 0;
