@@ -113,7 +113,6 @@ class Run final : public Restoration::Watch {
     if (violation <= kNoViolation * options_->constraint_tol)
       return descent_.last().faulted ? Status::invalid_number : Status::numerical_failure;
     descent_.bar();
-    restoration_.refresh();
     const double most = std::max(std::min(kSufficient * violation, kStricter * handed_back_),
                                  options_->constraint_tol);
     const auto outcome = restoration_.run(*this, most, std::isfinite(handed_back_));

@@ -25,7 +25,8 @@ void copy_primal(const Point& elastic, Point& point) {
 Restoration::Restoration(SlackForm& form, Descent& main)
     : main_(main), form_(form.problem()), inner_(form_), misfits_(form.rows()), trial_(form) {}
 
-void Restoration::refresh() {
+/// With its limits and scales, which may be others than at the last run.
+void Restoration::take_over_problem() {
   form_.set_room(main_.form().room());
   form_.refresh(main_.form().problem());
   form_.set_scale(1, main_.form().row_scale());
@@ -113,6 +114,7 @@ bool Restoration::at_least_violation() const {
 }
 
 Restoration::Outcome Restoration::run(Watch& watch, double most_violation, bool again) {
+  take_over_problem();
   form_.set_violation_weight(again ? kLaterWeight : kFirstWeight);
   if (!begin()) return Outcome::failed;
   for (;;) {

@@ -28,10 +28,9 @@ class Restoration {
   /// solve.
   Outcome run(Watch& watch, double most_violation, bool again);
   void give_up_at(Deadline* deadline) { inner_.give_up_at(deadline); }
-  /// Takes over problem, scales and limits of the main form: before each run.
-  void refresh();
 
  private:
+  void take_over_problem();
   [[nodiscard]] bool begin();
   void set_elastic_parts(double mu);
   [[nodiscard]] bool meet_rows();
