@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run test bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed solver-profile docs-measured wheel docs sweep-scale format clean build
+.PHONY: help run quick test tidy bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed solver-profile docs-measured wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -23,9 +23,16 @@ run: ## set up, build, and drive the paper's environments E_B and E_C into run/
 	@echo "  $(CURDIR)/run/E_B/report.html"
 	@echo "  $(CURDIR)/run/E_C/report.html"
 
+quick: ## build and run the unit tests of what changed, with format and layers (a minute)
+	tools/quick.py
+
 test: ## set up, build, and run every test and check, with sanitizers too
 	tools/setup.sh test
 	tools/run_tests.sh
+
+tidy: ## clang-tidy on every source by itself; `make test` looks at them in batches
+	cmake --preset release -DSLALOM_TESTS=ON
+	tools/tidy.py --build build --alone --jobs $(JOBS)
 
 bench: ## set up, and time the planner's solver beside its peers into docs/measured/benchmarks.md (takes hours)
 	tools/setup.sh bench
@@ -140,4 +147,4 @@ format: ## format the C++ sources
 	tools/format.sh
 
 clean: ## remove the build trees and what `make run` wrote
-	rm -rf build build-python dist build-debug build-asan run tests/browser/node_modules
+	rm -rf build build-python dist build-debug build-asan build-tsan run tests/browser/node_modules
