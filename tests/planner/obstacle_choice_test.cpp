@@ -47,7 +47,8 @@ TEST(ObstacleChoice, NearestCountsFromTheEdgeAtTheStartOfThePlanAndKeepsTheOrder
   Request request;
   EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
             (Names{"a", "d"}));
-  request.t0 = 9;  // b stands at 300 - 30 * 9.5 = 15
+  request.t0 = 9;
+  request.t_start = 9.5;  // b stands at 300 - 30 * 9.5 = 15
   EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
             (Names{"b", "d"}));
   EXPECT_EQ(choose_obstacles(choosing(ObstacleChoice::nearest, 9), request, kRow).size(), 4u);

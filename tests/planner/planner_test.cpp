@@ -130,6 +130,7 @@ TEST(Planner, HeldObstaclesStandWhereTheyAreAtPlanning) {
   Scene held = E_B();
   held.planner.moving_avoidance = false;
   held.first.t0 = 0.75;
+  held.first.t_start = 1.25;
   const Plan plan = Planner(held).plan(held.first);
   expect_solved(plan);
   EXPECT_EQ(plan.obstacle_time_held, 0.75);
@@ -151,6 +152,7 @@ TEST(Planner, HeldObstaclesStandWhereTheyAreAtPlanning) {
 TEST(Planner, MovingObstaclesAreMetInAbsoluteTime) {
   Scene early = E_B(), late = E_B();
   late.first.t0 = 20;
+  late.first.t_start = 20.5;
   for (auto& o : late.obstacles) {
     o.x -= 20 * o.vx;
     o.y -= 20 * o.vy;

@@ -48,7 +48,9 @@ TEST(Unsolved, AFailedPlanIsNoStartForTheNext) {
     scene.planner.solver = solver;
     Request away = scene.first, later = scene.first;
     away.t0 = 100;  // the ring has gone
+    away.t_start = 100.5;
     later.t0 = 100.5;
+    later.t_start = 101;
     auto failed_first = Planner(scene), fresh = Planner(scene);
     ASSERT_FALSE(failed_first.plan(scene.first).report.solved);
     const Plan expected = fresh.plan(away);
