@@ -75,14 +75,9 @@ std::vector<Result> run_trials(const Orders& orders, const std::vector<std::stri
 }
 
 void require_kernels(const std::string& name) {
-  for (const auto set : {KernelSet::baseline, KernelSet::avx2})
-    if (name == to_string(set)) {
-      const auto before = current_kernels();
-      select_kernels(set);  // throws where the processor lacks it
-      select_kernels(before);
-      return;
-    }
-  throw Error("no instruction set '" + name + "'");
+  const auto before = current_kernels();
+  select_kernels(kernel_set(name));  // throws where the processor lacks it
+  select_kernels(before);
 }
 
 void bind_open_sweep(nb::module_& module) {

@@ -174,10 +174,7 @@ Scenario make_scenario(const std::string& family, const Draw& draw) {
   if (maker == list.end()) {
     std::vector<std::string> names;
     for (const auto& m : list) names.push_back(m.family.name);
-    const auto near = nearest_name(family, names);
-    throw InvalidValue("FAMILY", fmt::format("'{}'", family),
-                       fmt::format("one of {}{}", fmt::join(names, ", "),
-                                   near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
+    throw InvalidValue("FAMILY", fmt::format("'{}'", family), one_of(family, names));
   }
   if (!(draw.difficulty >= 0 && draw.difficulty <= 1))
     throw InvalidValue("difficulty", fmt::format("{}", draw.difficulty), "a number from 0 to 1");

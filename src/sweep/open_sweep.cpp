@@ -14,18 +14,25 @@ namespace slalom::sweep {
 namespace fs = std::filesystem;
 namespace {
 
-report::SweepTable table_of(const Study& study) {
+/// What a store says of its study, and the bases it keeps.
+struct Stated {
   report::SweepTable table;
+  std::vector<std::string> bases;
+};
+
+Stated stated(const Study& study) {
+  Stated result{{}, study.resolved_bases()};
+  auto& table = result.table;
   table.name = study.name;
   table.title = study.title;
-  table.identity = study.identity();
+  table.identity = study.identity(result.bases);
   table.kernels = study.kernels;
   table.scenarios = study.scenarios;
   table.planners = study.planners();
   table.columns = study.columns();
   table.repeats = study.settings.repeats;
   table.size = study.size();
-  return table;
+  return result;
 }
 
 /// The folder, made ready for a study.
@@ -46,7 +53,7 @@ class OpenSweep::Impl {
  public:
   Impl(const Study& study, const SweepRequest& request,
        std::function<void(const SweepEvent&)> on_event)
-      : Impl(study, request, std::move(on_event), table_of(study)) {}
+      : Impl(study, request, std::move(on_event), stated(study)) {}
 
   std::optional<TrialJob> next() {
     for (; next_ <= study_.size(); next_ += request_.shards) {
@@ -106,17 +113,15 @@ class OpenSweep::Impl {
 
  private:
   Impl(const Study& study, const SweepRequest& request,
-       std::function<void(const SweepEvent&)> on_event, const report::SweepTable& table)
+       std::function<void(const SweepEvent&)> on_event, const Stated& stated)
       : study_(study),
         request_(request),
         on_event_(std::move(on_event)),
-        file_(prepared(request, table)),
+        file_(prepared(request, stated.table)),
         lock_(file_),
-        store_(cleared(request, file_), table),
+        store_(cleared(request, file_), stated.table),
         next_(request.shard) {
-    std::vector<std::string> bases;
-    for (const auto& base : study.bases) bases.push_back(io::to_yaml(base));
-    store_.keep_bases(bases);
+    store_.keep_bases(stated.bases);
     find_done();
     report({});
   }

@@ -8,13 +8,13 @@
 #include "../io/config_dir.hpp"
 #include "../io/overrides.hpp"
 #include "../io/section.hpp"
+#include "../io/semantic_check.hpp"
 #include "digest.hpp"
 #include "slalom/base/kernels.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/io/version.hpp"
 #include "study_axes.hpp"
 #include "study_bases.hpp"
-#include "study_tables.hpp"
 
 namespace slalom::sweep {
 namespace fs = std::filesystem;
@@ -128,27 +128,6 @@ class StudyLoader {
 
 }  // namespace
 
-const OptionTable<StudySettings>& study_options() {
-  static const auto table = [] {
-    using S = StudySettings;
-    OptionTable<S> t;
-    t.integer("repeats", &S::repeats, OptionRange::closed(1, kMaxTrials), "1",
-              "How often each trial is run; the drives are the same, the solve times are not.")
-        .choice("keep", &S::keep, {"figures", "drives"},
-                "figures: a row a trial; drives: the folder of each drive too.")
-        .integer("seed", &S::seed, OptionRange::closed(0, 2147483647), "1",
-                 "Of the random draws; the same seed gives the same trials.")
-        .real("time_limit", &S::time_limit, OptionRange::positive(), "s",
-              "Wall clock of one trial; beyond it the trial counts as hung.")
-        .integer("retries", &S::retries, OptionRange::closed(0, 10), "1",
-                 "How often a trial is tried again whose worker died or hung.")
-        .choice("kernels", &S::kernels, {"best", "baseline", "avx2"},
-                "Instruction set all trials run on; best is the best this processor has.");
-    return t;
-  }();
-  return table;
-}
-
 std::int64_t Study::size() const {
   auto size = static_cast<std::int64_t>(bases.size()) * settings.repeats;
   for (const auto& axis : axes) size *= static_cast<std::int64_t>(axis.points.size());
@@ -196,18 +175,25 @@ sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& 
                             const std::vector<std::string>& values, std::int64_t number) {
   const auto where = fmt::format("trial {}", number);
   io::Places places;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    io::apply_setting(keys[i], {where, 0, 0}, io::parse_argument(values.at(i), where), base,
-                      places);
-  sim::check(base, where);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const io::Place place{where + ": " + keys[i], 0, 0};
+    io::apply_setting(keys[i], place, io::parse_argument(values.at(i), place.source), base, places);
+  }
+  io::check_scenario(base, {where, 0, 0}, places);
   return base;
 }
 
-std::string Study::identity() const {
+std::vector<std::string> Study::resolved_bases() const {
+  std::vector<std::string> resolved;
+  for (const auto& base : bases) resolved.push_back(io::to_yaml(base));
+  return resolved;
+}
+
+std::string Study::identity(const std::vector<std::string>& resolved) const {
   Digest digest;
   digest.add("slalom study 1").add(io::kVersion).add(kernels);
   digest.add(std::to_string(settings.repeats)).add(settings.keep == Keep::drives ? "d" : "f");
-  for (const auto& one : bases) digest.add(io::to_yaml(one));
+  for (const auto& base : resolved) digest.add(base);
   for (const auto& axis : axes) {
     digest.add("axis");
     for (const auto& key : axis.keys) digest.add(key);

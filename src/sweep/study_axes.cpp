@@ -35,20 +35,12 @@ std::string text_of(const io::Value& value) {
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
-const io::Value& required(const io::Value& map, const std::string& key, const std::string& what) {
-  const io::Value* value = map.find(key);
-  if (value == nullptr)
-    throw InvalidValue(map.place.to_string(), fmt::format("{} without '{}'", what, key),
-                       fmt::format("the key '{}'", key));
-  return *value;
-}
-
 /// {from, to, count}: evenly spaced, both ends included and met exactly.
 void read_range(const io::Value& map, PlacedAxis& axis) {
   only(map, "range", {"from", "to", "count"});
-  const double from = finite(required(map, "from", "a range"));
-  const double to = finite(required(map, "to", "a range"));
-  const int count = count_of(required(map, "count", "a range"), 1);
+  const double from = finite(io::require_key(map, "a range", "from"));
+  const double to = finite(io::require_key(map, "a range", "to"));
+  const int count = count_of(io::require_key(map, "a range", "count"), 1);
   if (count == 1 && from != to)
     throw InvalidValue(map.place.to_string(), "a range of one value with two ends",
                        "count >= 2, or from = to");
@@ -63,25 +55,22 @@ Sampling read_sampling(const io::Value& map) {
   static const std::vector<std::string> names = {"random", "latin_hypercube", "sobol"};
   const auto& name = io::to_text(*method, "the name of a method");
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    const auto nearest = nearest_name(name, names);
-    throw InvalidValue(
-        method->place.to_string(), fmt::format("method '{}'", name),
-        fmt::format("one of {}{}", fmt::join(names, ", "),
-                    nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));
-  }
+  if (found == names.end())
+    throw InvalidValue(method->place.to_string(), fmt::format("method '{}'", name),
+                       one_of(name, names));
   return static_cast<Sampling>(found - names.begin());
 }
 
 /// {count, of: [...], method}: points drawn from the distributions of all keys together.
 void read_draw(const io::Value& map, int seed, std::size_t stream, PlacedAxis& axis) {
   only(map, "draw", {"count", "of", "method"});
-  const int count = count_of(required(map, "count", "a draw"), 1);
-  const auto& of = some_items(required(map, "of", "a draw"), "a list of keys and distributions");
+  const int count = count_of(io::require_key(map, "a draw", "count"), 1);
+  const auto& of =
+      some_items(io::require_key(map, "a draw", "of"), "a list of keys and distributions");
   std::vector<Quantile> quantiles;
   for (const auto& item : of) {
     quantiles.push_back(read_distribution(item));
-    const io::Value& key = required(item, "key", "a draw");
+    const io::Value& key = io::require_key(item, "a draw", "key");
     axis.axis.keys.push_back(io::to_text(key, "a key path"));
     axis.keys.push_back(key.place);
   }

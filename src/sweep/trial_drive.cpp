@@ -35,10 +35,8 @@ Found find(const fs::path& folder, const report::SweepTable& study, std::int64_t
 /// The resolved scenario of a trial, made certain of by its identity.
 std::string resolved(const Found& found, const report::SweepTable& study) {
   const auto& record = found.record;
-  const auto bases = stored_bases(found.store);
-  const auto each = study.size / static_cast<std::int64_t>(bases.size());
-  const auto base = io::parse_scenario(
-      bases.at(static_cast<std::size_t>((record.trial - 1) / each)), found.store.string());
+  const auto base =
+      io::parse_scenario(stored_base(found.store, record.trial), found.store.string());
   auto text = io::to_yaml(resolve_trial(base, study.columns, record.values, record.trial));
   if (trial_identity(text, study.kernels, record.repeat) != record.identity)
     throw Error(fmt::format("{}: trial {} was recorded by another version of Slalom",

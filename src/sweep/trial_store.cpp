@@ -247,6 +247,17 @@ std::vector<std::string> stored_bases(const fs::path& file) {
   return bases;
 }
 
+std::string stored_base(const fs::path& file, std::int64_t number) {
+  const Database database(file, Database::Mode::read);
+  // Bases vary slowest: each has as many trials as the others, one after the other.
+  Statement row(database,
+                "SELECT resolved FROM bases WHERE number ="
+                " (? - 1) / ((SELECT size FROM study) / (SELECT COUNT(*) FROM bases))");
+  row.bind(1, number);
+  if (!row.step()) throw Error(fmt::format("{}: has no scenario of its trials", file.string()));
+  return row.text(0);
+}
+
 std::optional<TrialRecord> stored_trial(const fs::path& file, std::int64_t number) {
   const Database database(file, Database::Mode::read);
   if (read_study(database, file).identity.empty()) return std::nullopt;

@@ -60,6 +60,8 @@ report::SweepTable stored_study(const std::filesystem::path& file);
 
 /// What keep_bases() recorded.
 std::vector<std::string> stored_bases(const std::filesystem::path& file);
+/// The one of them of which trial `number` is made. Throws Error where the store has none.
+std::string stored_base(const std::filesystem::path& file, std::int64_t number);
 
 /// The trial of this number, if the store holds it.
 std::optional<report::TrialRecord> stored_trial(const std::filesystem::path& file,

@@ -29,7 +29,7 @@ void write_line(int descriptor, std::string line) {
 }  // namespace
 
 TrialAnswer run_trial(const TrialOrder& order) {
-  select_kernels(order.kernels == "avx2" ? KernelSet::avx2 : KernelSet::baseline);
+  select_kernels(kernel_set(order.kernels));
   const auto scenario = io::parse_scenario(order.resolved, "trial");
   const auto drive = sim::drive(scenario);
   TrialAnswer answer;

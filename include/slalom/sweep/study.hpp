@@ -26,6 +26,9 @@ struct StudySettings {
   KernelChoice kernels = KernelChoice::best;
 };
 
+/// The plain keys of a study file.
+const OptionTable<StudySettings>& study_options();
+
 /// One direction of the study's grid: key paths and the values they take together, as text.
 struct Axis {
   std::vector<std::string> keys;                 ///< as --set takes them
@@ -59,12 +62,15 @@ struct Study {
   std::vector<std::string> columns() const;
   /// 1 <= number <= size().
   Trial trial(std::int64_t number) const;
-  /// The trial's own scenario. Throws InvalidValue, naming the trial, for values that contradict
-  /// each other.
+  /// The trial's own scenario. Throws InvalidValue, naming the trial and the key at fault, for
+  /// values that contradict each other.
   sim::Scenario resolve(const Trial& trial) const;
+  /// Each base as a resolved file, which states it to the bit.
+  std::vector<std::string> resolved_bases() const;
   /// A hash of all that determines the trials and their order: two studies are the same when theirs
-  /// are.
-  std::string identity() const;
+  /// are. `resolved` is resolved_bases(), where that is known already.
+  std::string identity(const std::vector<std::string>& resolved) const;
+  std::string identity() const { return identity(resolved_bases()); }
 };
 
 /// Reads a built-in study ("paper") or a file. `overrides` ("key.path=value") hold for every trial.
@@ -73,8 +79,8 @@ struct Study {
 /// trial.
 Study load_study(const std::string& name_or_file, const std::vector<std::string>& overrides = {});
 
-/// `base` with a trial's values in the place of its own. Throws InvalidValue, naming the trial, for
-/// values that contradict each other.
+/// `base` with a trial's values in the place of its own. Throws InvalidValue, naming the trial and
+/// the key at fault, for values that contradict each other.
 sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& keys,
                             const std::vector<std::string>& values, std::int64_t number);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slalom/base/options.hpp"
+
 namespace slalom::world {
 
 /// Goal position [m], direction through it psi [rad] and half-width sigma [m] of the square within
@@ -21,5 +23,8 @@ struct Goal {
     return std::abs(px - x) <= sigma && std::abs(py - y) <= sigma;
   }
 };
+
+/// The registered options of Goal, with unit, range and meaning.
+const OptionTable<Goal>& goal_options();
 
 }  // namespace slalom::world

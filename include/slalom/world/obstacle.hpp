@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "slalom/base/options.hpp"
+
 namespace slalom::world {
 
 /// An axis-aligned ellipse moving at constant velocity: centre (x + vx t, y + vy t) at absolute
@@ -23,6 +25,9 @@ struct Obstacle {
     return result;
   }
 };
+
+/// The registered options of Obstacle, with unit, range and meaning.
+const OptionTable<Obstacle>& obstacle_options();
 
 /// Signed Euclidean distance [m] from the point (x, y) to the obstacle's edge at absolute time t
 /// [s], negative inside; as exact as signed_distance_to_ellipse.

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "slalom/base/options.hpp"
+
 namespace slalom::world {
 
 /// Box in which every node of a plan must lie [m]; infinite sides are absent.
@@ -15,5 +17,8 @@ struct Region {
     return x >= x_min && x <= x_max && y >= y_min && y <= y_max;
   }
 };
+
+/// The registered options of Region. Their range is that of sides that are there: finite.
+const OptionTable<Region>& region_options();
 
 }  // namespace slalom::world
