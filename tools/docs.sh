@@ -19,7 +19,7 @@ trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/venv"
 "$work/venv/bin/python" -m pip --disable-pip-version-check install -q "$(realpath "$wheel")[docs]"
 mkdir "$work/pages"
-cp -r docs/*.md docs/figures docs/schemes docs/site/* "$work/pages/"
+cp -r docs/*.md docs/measured docs/schemes docs/site/* "$work/pages/"
 "$work/venv/bin/python" tools/cpp_reference.py --out "$work/pages/cpp" include/slalom
 "$work/venv/bin/python" -m sphinx -q -W --keep-going -b html "$work/pages" "$work/site"
 mkdir -p "$(dirname "$2")"
