@@ -49,7 +49,7 @@ std::string claims_table(const std::vector<Judged>& claims) {
     const bool part = claim.verdict == Verdict::in_part;
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td><td class=\"paper\">{}</td><td>{}</td></tr>\n",
-        part ? "<span class=\"muted\">◐ in part</span>" : mark(claim.verdict == Verdict::holds),
+        part ? "<span class=\"muted\">◐&nbsp;in&nbsp;part</span>" : mark(claim.verdict == Verdict::holds),
         report::escape(claim.says), report::escape(claim.printed), report::escape(claim.ours));
   }
   return report::table(

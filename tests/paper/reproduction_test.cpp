@@ -161,7 +161,7 @@ TEST(ReproductionPage, ShowsVerdicts) {
                                       {"c", "not", "", "1", "2", Verdict::fails}};
   const auto page = reproduction_page(all_drives(), paper_data(), {}, claims);
   EXPECT_EQ(count(page, "✓ yes</span></td><td>it &lt;is&gt; so"), 1);
-  EXPECT_EQ(count(page, "in part</span></td><td>partly"), 1);
+  EXPECT_EQ(count(page, "in&nbsp;part</span></td><td>partly"), 1);
   EXPECT_EQ(count(page, "✕ no</span></td><td>not"), 1);
   EXPECT_EQ(count(page, "Claims that hold</dt><dd class=\"bad\">1 <small>of 3"), 1);
 }
