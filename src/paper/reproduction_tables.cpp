@@ -47,10 +47,11 @@ std::string claims_table(const std::vector<Judged>& claims) {
   std::string rows;
   for (const auto& claim : claims) {
     const bool part = claim.verdict == Verdict::in_part;
-    rows += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td class=\"paper\">{}</td><td>{}</td></tr>\n",
-        part ? "<span class=\"muted\">◐&nbsp;in&nbsp;part</span>" : mark(claim.verdict == Verdict::holds),
-        report::escape(claim.says), report::escape(claim.printed), report::escape(claim.ours));
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"paper\">{}</td><td>{}</td></tr>\n",
+                        part ? "<span class=\"muted\">◐&nbsp;in&nbsp;part</span>"
+                             : mark(claim.verdict == Verdict::holds),
+                        report::escape(claim.says), report::escape(claim.printed),
+                        report::escape(claim.ours));
   }
   return report::table(
       "<tr><th scope=\"col\">Holds</th><th scope=\"col\">The paper says</th>"

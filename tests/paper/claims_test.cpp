@@ -143,6 +143,35 @@ TEST_F(ClaimRules, MinimumTime) {
   EXPECT_EQ(drives("minimum_time_speeds"), "does not hold") << "P_A's gains speed";
 }
 
+TEST_F(ClaimRules, SpeedsAndAreasOfTheFigures) {
+  for (const char* environment : {"E_A", "E_A-figure"})
+    for (auto& sample : drives_[std::string(environment) + "/P_A"].drive.plant)
+      sample.state[vehicle::UX] = 20 - sample.t;
+  EXPECT_EQ(drives("minimum_time_speeds"), "holds");
+  EXPECT_EQ(drives("less_area"), "does not hold") << "as large";
+  for (const char* planner : {"P_B", "P_C"})
+    for (auto& sample : drives_[std::string("E_A-figure/") + planner].drive.plant)
+      sample.state[vehicle::X] = 203;
+  EXPECT_EQ(drives("less_area"), "holds");
+}
+
+TEST_F(ClaimRules, SolveTimesOfMovingObstacles) {
+  EXPECT_EQ(drives("moving_is_free") + ", " + drives("dearer_to_avoid"), "holds, holds");
+  EXPECT_EQ(drives("more_obstacles") + ", " + drives("danger"), "does not hold, does not hold");
+  auto& cycles = drives_["E_C/P_D"].drive.cycles;  // it is nearest to O2 at the end, at 6 s
+  for (std::size_t i = 8; i < cycles.size(); ++i) cycles[i].plan.report.cpu_s = 0.01;
+  EXPECT_EQ(drives("danger"), "holds");
+  for (auto& cycle : cycles) cycle.plan.report.cpu_s = 0.002;
+  EXPECT_EQ(drives("danger"), "does not hold");
+  EXPECT_EQ(drives("dearer_to_avoid"), "does not hold");
+  EXPECT_EQ(drives("moving_is_free"), "holds in part");
+  drives_["E_B/P_D"].drive = made(Outcome::goal, 6, 0.002);
+  EXPECT_EQ(drives("moving_is_free"), "does not hold");
+  drives_["E_B/P_D"].drive = made();
+  drives_["E_C/P_C"].drive = made(Outcome::goal, 6, 0.002);
+  EXPECT_EQ(drives("more_obstacles"), "holds");
+}
+
 TEST_F(ClaimRules, WhenSolvesAreLong) {
   auto& cycles = drives_["E_A-figure/P_A"].drive.cycles;
   cycles[11].plan.report.cpu_s = 0.1;  // planned at 5.5 s
@@ -272,6 +301,23 @@ TEST_F(ClaimRules, SolveTimesOfPairs) {
   for (auto& trial : trials_)
     if (trial.planner == "P_D") trial.median = 0.002;
   EXPECT_EQ(by_sweep("solve_times"), "holds in part");
+  for (auto& trial : trials_)
+    if (trial.planner == "P_D") trial.longest = 0.01;
+  EXPECT_EQ(by_sweep("solve_times"), "does not hold");
+}
+
+TEST_F(ClaimRules, SafetyByHorizonAndSpeed) {
+  EXPECT_EQ(by_sweep("safety_by_tex"), "holds in part") << "P_C arrives in 2 of 5 at small tex";
+  EXPECT_EQ(by_sweep("slower_is_safer"), "holds");
+  trials_ = sweep(unlike);
+  EXPECT_EQ(by_sweep("safety_by_tex"), "does not hold");
+  EXPECT_EQ(by_sweep("slower_is_safer"), "does not hold");
+  trials_ = sweep([](const std::string& planner, double tex, double speed) {
+    return planner == "P_D" ? like(planner, tex, speed) : speed == 0;
+  });
+  EXPECT_EQ(by_sweep("safety_by_tex"), "holds");
+  for (auto& trial : trials_) trial.longest = trial.outcome == "goal" ? 0.01 : 0.001;
+  EXPECT_EQ(by_sweep("danger"), "does not hold");
 }
 
 TEST_F(ClaimRules, TooFastAsksForFastTrials) {
