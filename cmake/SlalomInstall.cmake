@@ -16,6 +16,7 @@ install(DIRECTORY config/ DESTINATION ${SLALOM_INSTALL_CONFIG_DIR})
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 install(EXPORT slalomTargets NAMESPACE slalom:: DESTINATION ${package_dir})
+export(EXPORT slalomTargets NAMESPACE slalom:: FILE ${PROJECT_BINARY_DIR}/slalomTargets.cmake)
 configure_package_config_file(cmake/slalomConfig.cmake.in
   ${PROJECT_BINARY_DIR}/slalomConfig.cmake INSTALL_DESTINATION ${package_dir}
   PATH_VARS SLALOM_INSTALL_CONFIG_DIR)

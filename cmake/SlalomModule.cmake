@@ -7,6 +7,35 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   list(APPEND SLALOM_WARNINGS -Wno-restrict)
 endif()
 
+# Half of a build is reading headers, so sources are compiled in batches (tools/batches.py says which
+# go together). Without Python, or with SLALOM_BATCHES off, each is compiled alone.
+find_package(Python3 QUIET COMPONENTS Interpreter)
+option(SLALOM_BATCHES "Compile sources in batches" ${Python3_Interpreter_FOUND})
+
+# slalom_batches(TARGET): puts the target's sources into batches.
+function(slalom_batches target)
+  if(NOT SLALOM_BATCHES)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/batches.py ${sources}
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}
+    OUTPUT_VARIABLE lines OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  string(REPLACE "\n" ";" batches "${lines}")
+  foreach(batch IN LISTS batches)
+    string(REPLACE "|" ";" files "${batch}")
+    list(LENGTH files count)
+    if(count GREATER 1)
+      list(GET files 0 first)
+      string(REPLACE ${PROJECT_SOURCE_DIR}/ "" name ${first})
+      string(MAKE_C_IDENTIFIER ${name} name)
+      set_source_files_properties(${files} PROPERTIES UNITY_GROUP ${name})
+    endif()
+  endforeach()
+endfunction()
+
 # slalom_module(NAME DEPENDS ...): a static library of the .cpp files under src/NAME. Each may
 # link only modules above it; tools/check_layers.py holds the includes to the same order.
 # A folder without sources becomes an interface library.
@@ -29,6 +58,7 @@ function(slalom_module name)
     set(avx2 ${sources})
     list(FILTER avx2 INCLUDE REGEX "_avx2\\.cpp$")
     set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    slalom_batches(slalom_${name})
     set_property(GLOBAL APPEND PROPERTY SLALOM_MODULES_WITH_SOURCES ${name})
   else()
     add_library(slalom_${name} INTERFACE)
@@ -78,6 +108,7 @@ function(slalom_test_module name)
   if(support)
     add_library(test_${name}_support STATIC EXCLUDE_FROM_ALL ${support})
     target_compile_options(test_${name}_support PRIVATE ${SLALOM_WARNINGS})
+    slalom_batches(test_${name}_support)
     target_include_directories(test_${name}_support PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(test_${name}_support PUBLIC ${libraries})
     list(PREPEND libraries test_${name}_support)
@@ -95,10 +126,19 @@ function(slalom_test_program target libraries label)
     return()
   endif()
   add_executable(${target} EXCLUDE_FROM_ALL ${ARGN})
+  slalom_batches(${target})
   target_link_libraries(${target} PRIVATE ${libraries} GTest::gtest GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE SLALOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # Compiled once and run once: to optimise the tests themselves takes longer than it saves.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   add_dependencies(${label}_tests ${target})
+  if(SLALOM_SANITIZE)
+    # Whole, for with sanitizers the start of a program takes longer than most tests.
+    add_test(NAME ${target} COMMAND ${target} --gtest_brief=1)
+    set_tests_properties(${target} PROPERTIES LABELS ${label} TIMEOUT 1800)
+    return()
+  endif()
   # Listed when ctest runs, so that a build of the unit tests alone needs no slow test.
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${label} TIMEOUT 600)

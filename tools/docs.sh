@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # docs.sh DIST SITE: makes the documentation's site in SITE, of docs/, the wheel in DIST and the public
-# headers; a warning is an error. Sphinx comes from PyPI, in an environment of its own.
+# headers; a warning is an error. Sphinx is that of DIST/venv, where `python.sh test` put it, or comes
+# from PyPI into an environment of its own.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -16,12 +17,16 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-python3 -m venv "$work/venv"
-"$work/venv/bin/python" -m pip --disable-pip-version-check install -q "$(realpath "$wheel")[docs]"
+python=$(realpath "$1")/venv/bin/python
+if [ ! -x "$python" ]; then
+  python3 -m venv "$work/venv"
+  python=$work/venv/bin/python
+  "$python" -m pip --disable-pip-version-check install -q "$(realpath "$wheel")[docs]"
+fi
 mkdir "$work/pages"
 cp -r docs/*.md docs/measured docs/schemes docs/site/* "$work/pages/"
-"$work/venv/bin/python" tools/cpp_reference.py --out "$work/pages/cpp" include/slalom
-"$work/venv/bin/python" -m sphinx -q -W --keep-going -b html "$work/pages" "$work/site"
+"$python" tools/cpp_reference.py --out "$work/pages/cpp" include/slalom
+"$python" -m sphinx -q -W --keep-going -b html "$work/pages" "$work/site"
 mkdir -p "$(dirname "$2")"
 rm -rf "$2"
 mv "$work/site" "$2"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# format.sh: formats all C++ sources by .clang-format; format.sh --check: lists those that differ
-# and fails if there are any.
+# format.sh: formats all C++ sources by .clang-format; format.sh --check [FILE...]: lists those that
+# differ, of all or of these, and fails if there are any.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,6 +14,7 @@ mapfile -t files < <(find "${folders[@]}" \( -name node_modules -o -name .venv \
 case ${1:-} in
   "") clang-format -i "${files[@]}" ;;
   --check)
+    if [ $# -gt 1 ]; then files=("${@:2}"); fi
     clang-format --dry-run --Werror "${files[@]}" || {
       echo "format: 'make format' mends this"
       exit 1
@@ -21,7 +22,7 @@ case ${1:-} in
     echo "format: ${#files[@]} files as .clang-format has them"
     ;;
   *)
-    echo "usage: tools/format.sh [--check]" >&2
+    echo "usage: tools/format.sh [--check [FILE...]]" >&2
     exit 2
     ;;
 esac

@@ -16,7 +16,7 @@ import subprocess
 import tempfile
 
 from measured import stamp
-from sweeps import head, row, setting, swept
+from sweeps import ended, head, row, setting, swept
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 GRIDS = {"paper": "study", "paper-printed": "printed"}  # study, its folder
@@ -50,10 +50,6 @@ def table(columns, rows):
 
 def digits(value, form):
     return "–" if value is None else f"{value:{form}}"
-
-
-def ended(one):
-    return one["outcome"] + (f" {one['hit']}" if one["hit"] else "")
 
 
 # --- results ------------------------------------------------------------------------------------

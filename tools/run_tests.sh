@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds and runs every test: the unit tests with sanitizers, those of threads with the thread
-# sanitizer, then the release build with all checks. Goes on after a failure, sums up, and fails if anything did. A build that fails
-# counts as one failure.
+# sanitizer, then the release build with all checks. Goes on after a failure, sums up what failed and
+# how long each part took, and fails if anything did. A build that fails counts as one failure.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,6 +10,7 @@ passed=0
 failed=0
 skipped=0
 failures=()
+parts=()
 
 note_failure() {
   failures+=("$1")
@@ -19,11 +20,21 @@ note_failure() {
 # The count `name` (tests, failures, ...) of a JUnit file's <testsuite>.
 count() { grep -o "\b$2=\"[0-9]*\"" "$1" | head -1 | grep -o '[0-9]*'; }
 
+# timed TITLE COMMAND...: notes seconds of the clock and of the processors.
+timed() {
+  local TIMEFORMAT="%0R s, %0U + %0S s of processors" code
+  echo "== $1"
+  # What the command itself writes goes past the note that `time` writes.
+  { time "${@:2}" >&3 2>&4; } 3>&1 4>&2 2>"$notes"
+  code=$?
+  parts+=("$1: $(tail -1 "$notes")")
+  return "$code"
+}
+
 run_ctest() { # PRESET TITLE
   local file=$PWD/build/tests-$1.xml tests bad out
   rm -f "$file"
-  echo "== $2"
-  ctest --preset "$1" -j "$jobs" --output-junit "$file"
+  timed "$2" ctest --preset "$1" -j "$jobs" --output-junit "$file"
   local code=$?
   if [ ! -f "$file" ]; then
     note_failure "$2: ctest did not run"
@@ -43,8 +54,7 @@ run_ctest() { # PRESET TITLE
 }
 
 step() { # TITLE COMMAND...
-  echo "== $1"
-  "${@:2}" && return 0
+  timed "$@" && return 0
   note_failure "$1"
   return 1
 }
@@ -54,6 +64,8 @@ asan() { cmake --preset asan -DSLALOM_TESTS=ON && cmake --build --preset asan -j
 tsan() { cmake --preset tsan -DSLALOM_TESTS=ON && cmake --build --preset tsan -j "$jobs"; }
 
 mkdir -p build
+notes=$(mktemp)
+trap 'rm -f "$notes"' EXIT
 start=$SECONDS
 if step "build with sanitizers" asan; then run_ctest asan "unit tests with sanitizers"; fi
 if step "build with the thread sanitizer" tsan; then
@@ -62,6 +74,8 @@ fi
 if step "release build" release; then run_ctest release "tests and checks of the release build"; fi
 
 echo
+printf '%s\n' "${parts[@]}"
+python3 tools/measured.py --check
 echo "took $(((SECONDS - start) / 60)) min $(((SECONDS - start) % 60)) s"
 for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
 if [ "$skipped" -gt 0 ]; then echo "$skipped skipped"; fi

@@ -4,6 +4,7 @@
 # saying which package and why. Where apt cannot do it, this says what to install and goes on: the
 # build then tells whether it was there after all.
 set -euo pipefail
+trap 'echo "setup: took $SECONDS s"' EXIT
 
 # package | needed for | how to see that it is there (any one) | why
 #   cmd:X a program on the path; inc:X a header the compiler finds; pc:X known to pkg-config;
@@ -27,18 +28,16 @@ libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests
 libamplsolver-dev   | test  | inc:ampl-netlib-solvers/asl_pfgh.h | reads .nl files, in the tests' own solver
 clang-format        | test  | cmd:clang-format          | checks the format of the source
 clang-tidy          | test  | cmd:clang-tidy            | checks the source for mistakes
-python3             | test  | cmd:python3               | runs the checks of the source and of the command line
+python3             | run   | cmd:python3               | finds which sources to compile together
 chromium            | test  | cmd:chromium cmd:chromium-browser cmd:google-chrome | drives the report's page
 nodejs              | test  | cmd:node                  | runs the test of the page
 npm                 | test  | cmd:npm                   | installs playwright-core for the test of the page
-python3             | wheel | cmd:python3               | runs the build of the Python package
 python3-venv        | wheel | py:ensurepip              | keeps the tools of that build to a folder of their own
 python3-dev         | wheel | pc:python3                | compiles the Python extension
-python3             | results | cmd:python3               | tabulates drives
-python3             | bench | cmd:python3               | runs the benchmarks
 python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
 gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
 make                | bench | cmd:make                  | builds acados' generated solver
+linux-perf          | bench | cmd:perf                  | samples the profile of a solve
 TABLE
 }
 

@@ -25,7 +25,7 @@ Json text_or_null(const std::string& text) {
 
 Json warm_up_json(const sim::Cycle& cycle) {
   const auto& report = cycle.plan.report;
-  return {{"status", report.status},
+  return {{"status", report.status_text()},
           {"iterations", report.iterations},
           {"solve_time_s", number(report.wall_s)},
           {"cpu_time_s", number(report.cpu_s)}};
@@ -91,7 +91,7 @@ std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle,
   json["planner"] = scenario.planner.name;
   json["vehicle"] = scenario.vehicle.name;
   json["solved"] = report.solved;
-  json["status"] = report.status;
+  json["status"] = report.status_text();
   json["backend"] = report.backend;
   json["iterations"] = report.iterations;
   json["solve_time_s"] = number(report.wall_s);

@@ -136,7 +136,7 @@ std::string Template::fill(const Context& context) const {
   return text;
 }
 
-const char* to_string(Verdict verdict) {
+const char* verdict_words(Verdict verdict) {
   switch (verdict) {
     case Verdict::holds:
       return "holds";

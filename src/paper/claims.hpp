@@ -31,7 +31,7 @@ class Template {
 };
 
 enum class Verdict { holds, in_part, fails };
-const char* to_string(Verdict verdict);  ///< "holds", "holds in part", "does not hold"
+const char* verdict_words(Verdict verdict);  ///< "holds", "holds in part", "does not hold"
 
 /// A claim of the paper and the rule by which it is judged; config/paper/claims.yaml.
 struct Claim {

@@ -42,7 +42,7 @@ Json claims_json(const std::vector<Judged>& claims) {
                     {"at", claim.at},
                     {"printed", claim.printed},
                     {"ours", claim.ours},
-                    {"verdict", to_string(claim.verdict)}});
+                    {"verdict", verdict_words(claim.verdict)}});
   return list;
 }
 

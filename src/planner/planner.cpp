@@ -196,7 +196,8 @@ class Planner::Impl {
     SolveReport report;
     const bool claimed = answer_.status == nlp::Status::solved;
     report.solved = claimed && residuals.solved(options);
-    report.status = claimed && !report.solved ? "not_confirmed" : nlp::to_string(answer_.status);
+    report.status =
+        claimed && !report.solved ? PlanStatus::not_confirmed : plan_status(answer_.status);
     report.best_iterate = !report.solved && residuals.violation <= request.best_iterate_tol;
     report.backend = answer_.backend;
     report.iterations = answer_.iterations;

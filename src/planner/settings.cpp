@@ -48,7 +48,7 @@ void add_what_tells_planners_apart(Table& table) {
               "The obstacles a plan knows of. in_reach: those that can come, grown by sm_end, into "
               "the LiDAR's range about the start within tf_max; no plan can touch the others. "
               "nearest: the obstacle_count nearest ones at the moment the plan begins. See "
-              "docs/obstacle-choice.md.")
+              "docs/measured/obstacle-choice.md.")
       .integer("obstacle_count", &S::obstacle_count, Range::closed(1, 1000), "1",
                "How many obstacles `nearest` keeps.")
       .real("obstacle_group_gap", &S::obstacle_group_gap, Range::non_negative(), "m",

@@ -121,7 +121,7 @@ Json cycle_data(const sim::Cycle& cycle) {
   json["tex"] = rounded(cycle.tex, kTimeDigits);
   json["used"] = cycle.used;
   json["solved"] = report.solved;
-  json["status"] = report.status;
+  json["status"] = report.status_text();
   json["iterations"] = report.iterations;
   json["wall"] = rounded(report.wall_s, 6);
   json["cpu"] = rounded(report.cpu_s, 6);

@@ -88,21 +88,22 @@ std::string joined(const std::vector<Point>& points) {
   return text;
 }
 
-/// The document from its root on, and its size.
-struct Part {
+/// A document from its root on, and its size.
+struct Drawing {
   std::string_view text;
   double width = 0, height = 0;
 };
 
-Part part_of(std::string_view document) {
-  Part part{document.substr(std::min(document.find("<svg"), document.size()))};
+Drawing drawing_of(std::string_view document) {
+  Drawing drawing{document.substr(std::min(document.find("<svg"), document.size()))};
   const auto number_after = [&](std::string_view key) {
-    const auto at = part.text.find(key);
-    return at == part.text.npos ? 0 : std::strtod(part.text.data() + at + key.size(), nullptr);
+    const auto at = drawing.text.find(key);
+    return at == drawing.text.npos ? 0
+                                   : std::strtod(drawing.text.data() + at + key.size(), nullptr);
   };
-  part.width = number_after(" width=\"");
-  part.height = number_after(" height=\"");
-  return part;
+  drawing.width = number_after(" width=\"");
+  drawing.height = number_after(" height=\"");
+  return drawing;
 }
 
 std::string document(double width, double height, const std::string& title,
@@ -123,16 +124,16 @@ std::string side_by_side(const std::string& title, const std::vector<std::string
   double width = 0, height = 0;
   std::string body;
   for (const auto& one : documents) {
-    const auto part = part_of(one);
-    if (part.text.empty()) continue;
+    const auto drawing = drawing_of(one);
+    if (drawing.text.empty()) continue;
     if (!body.empty()) width += gap;
     // Inside a picture, a length in points would be one of 4/3 of its units.
     body += fmt::format("<svg x=\"{}\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">{}",
-                        coordinate(width), coordinate(part.width), coordinate(part.height),
-                        coordinate(part.width), coordinate(part.height),
-                        part.text.substr(part.text.find('>') + 1));
-    width += part.width;
-    height = std::max(height, part.height);
+                        coordinate(width), coordinate(drawing.width), coordinate(drawing.height),
+                        coordinate(drawing.width), coordinate(drawing.height),
+                        drawing.text.substr(drawing.text.find('>') + 1));
+    width += drawing.width;
+    height = std::max(height, drawing.height);
   }
   const auto ground = fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n",
                                   coordinate(width), coordinate(height));

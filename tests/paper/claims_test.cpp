@@ -96,11 +96,11 @@ class ClaimRules : public ::testing::Test {
   Judged of_drives(const std::string& id) const {
     return find(judge(claims_.drives, evidence()), id);
   }
-  std::string drives(const std::string& id) const { return to_string(of_drives(id).verdict); }
+  std::string drives(const std::string& id) const { return verdict_words(of_drives(id).verdict); }
   Judged of_sweep(const std::string& id) const {
     return find(judge(claims_.sweep, evidence()), id);
   }
-  std::string by_sweep(const std::string& id) const { return to_string(of_sweep(id).verdict); }
+  std::string by_sweep(const std::string& id) const { return verdict_words(of_sweep(id).verdict); }
 
   PaperData paper_ = load_paper_data();
   report::PublishedSweep published_ = published_sweep();

@@ -46,7 +46,7 @@ double worst_defect(const Plan& plan, ModelKind kind) {
     const State a = numbers.rate(plan.states[k], plan.controls[k]);
     const State b = numbers.rate(plan.states[k + 1], plan.controls[k + 1]);
     for (std::size_t i = 0; i < kStates; ++i)
-      if (model.part[i] == Part::state)
+      if (model.role[i] == Role::state)
         worst = std::max(worst, std::fabs(plan.states[k + 1][i] - plan.states[k][i] -
                                           (plan.t[k + 1] - plan.t[k]) / 2 * (a[i] + b[i])));
   }
@@ -65,7 +65,7 @@ TEST(Models, APlanObeysItsOwnModelAndTheNextStartsFromIt) {
       }
       Planner planner = Planner(scene);
       const Plan first = planner.plan(scene.first);
-      ASSERT_TRUE(first.report.solved) << first.report.status;
+      ASSERT_TRUE(first.report.solved) << first.report.status_text();
       EXPECT_LT(worst_defect(first, kind), 1e-5);
       const Plan again = planner.plan(scene.first);
       ASSERT_TRUE(again.report.solved);

@@ -103,7 +103,7 @@ TEST(ObstacleChoice, AChosenProblemHasTheChosenRowsAndPlansGoOnAsTheChoiceChange
     Request request = scene.first;
     for (int cycle = 0; cycle < 8; ++cycle) {
       const Plan plan = planner.plan(request);
-      ASSERT_TRUE(plan.report.solved) << cycle << ": " << plan.report.status;
+      ASSERT_TRUE(plan.report.solved) << cycle << ": " << plan.report.status_text();
       if (choice == ObstacleChoice::in_reach) EXPECT_GE(least_obstacle_row(scene, plan), -1e-6);
       request = next_cycle(request, plan);
     }

@@ -5,27 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/expect_plan.hpp"
 #include "planner/scenes.hpp"
 
 namespace slalom::planner {
 namespace {
 
 using namespace vehicle;
-
-void expect_solved(const Plan& plan) {
-  EXPECT_TRUE(plan.report.solved) << plan.report.status << ", " << plan.report.worst_constraint;
-  // Section 3, "Solved": what the checker recomputed from the answer.
-  EXPECT_LE(plan.report.worst_violation, 1e-6) << plan.report.worst_constraint;
-  EXPECT_LE(plan.report.stationarity, 1e-3);
-  EXPECT_LE(plan.report.complementarity, 0.01);
-}
-
-void expect_same(const Plan& a, const Plan& b) {
-  EXPECT_EQ(a.tf, b.tf);
-  EXPECT_EQ(a.states, b.states);
-  EXPECT_EQ(a.controls, b.controls);
-  EXPECT_EQ(a.report.iterations, b.report.iterations);
-}
 
 TEST(Planner, FirstPlansAreSolvedByEveryBackEnd) {
   for (const auto solver : solvers())
@@ -292,118 +278,6 @@ TEST(Planner, ResetForgetsTheLastPlan) {
   expect_same(planner.plan(scene.first), first);
 }
 
-/// A ring of obstacles too thick to be stepped over between two nodes, that drives off at once.
-Scene ring() {
-  Scene scene = E_A();
-  scene.planner.max_iterations = 120;
-  scene.obstacles.clear();
-  for (int i = 0; i < 16; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 16;
-    scene.obstacles.push_back({"R" + std::to_string(i), 200 + 30 * std::cos(angle),
-                               8.5 + 30 * std::sin(angle), 16, 16, 1000, 0});
-  }
-  return scene;
-}
-
-TEST(Planner, AnImpossiblePlanIsNotSolvedAndSaysWhy) {
-  for (const auto solver : solvers()) {
-    Scene scene = ring();
-    scene.planner.solver = solver;
-    const Plan plan = Planner(scene).plan(scene.first);
-    SCOPED_TRACE(plan.report.backend + ": " + plan.report.status);
-    EXPECT_FALSE(plan.report.solved);
-    EXPECT_NE(plan.report.status, "solved");
-    EXPECT_GT(plan.report.worst_violation, 1e-3);
-    EXPECT_FALSE(plan.report.worst_constraint.empty());
-    EXPECT_EQ(plan.states.size(), 11u) << "the last iterate is returned";
-  }
-}
-
-TEST(Planner, AFailedPlanIsNoStartForTheNext) {
-  for (const auto solver : solvers()) {
-    SCOPED_TRACE(to_string(solver));
-    Scene scene = ring();
-    scene.planner.solver = solver;
-    Request away = scene.first, later = scene.first;
-    away.t0 = 100;  // the ring has gone
-    later.t0 = 100.5;
-    auto failed_first = Planner(scene), fresh = Planner(scene);
-    ASSERT_FALSE(failed_first.plan(scene.first).report.solved);
-    const Plan expected = fresh.plan(away);
-    expect_solved(expected);
-    expect_same(failed_first.plan(away), expected);
-
-    ASSERT_FALSE(failed_first.plan(scene.first).report.solved);
-    expect_same(failed_first.plan(later), fresh.plan(later));
-  }
-}
-
-/// The solver met a point that meets all rows before it was cut off; a plan within the tolerance is
-/// one to be driven, and the next solve starts from it.
-TEST(Planner, ABestIterateWithinTheToleranceIsAStartForTheNext) {
-  for (const auto solver : solvers()) {
-    SCOPED_TRACE(to_string(solver));
-    Scene scene = E_A(), cut = scene;
-    scene.planner.solver = cut.planner.solver = solver;
-    const int needed = Planner(scene).plan(scene.first).report.iterations;
-    cut.planner.max_iterations = needed - 1;
-    const Plan refused = Planner(cut).plan(cut.first);
-    ASSERT_EQ(refused.report.status, "iteration_limit");
-    EXPECT_FALSE(refused.report.best_iterate) << "none is asked for";
-
-    const double violation = refused.report.worst_violation;
-    ASSERT_LT(violation, 0.1);
-    for (const bool good_enough : {true, false}) {
-      cut.first.best_iterate_tol = good_enough ? violation : violation / 2 - 1e-12;
-      auto planner = Planner(cut), fresh = Planner(cut);
-      const Plan plan = planner.plan(cut.first);
-      EXPECT_EQ(plan.report.status, "iteration_limit");
-      EXPECT_FALSE(plan.report.solved);
-      EXPECT_EQ(plan.report.best_iterate, good_enough);
-      const Plan next = planner.plan(cut.first), from_nothing = fresh.plan(cut.first);
-      EXPECT_EQ(next.report.solved, good_enough) << "a start within the few iterations left";
-      EXPECT_EQ(from_nothing.report.solved, false);
-    }
-  }
-}
-
-TEST(Planner, ASolveCutShortGoesOnInTheNextCycle) {
-  for (const auto solver : solvers()) {
-    SCOPED_TRACE(to_string(solver));
-    Scene scene = E_A();
-    scene.planner.solver = solver;
-    const int needed = Planner(scene).plan(scene.first).report.iterations;
-    Request cut = scene.first;
-    int left = needed * 4 / 5;
-    cut.interrupted = [&left] { return --left < 0; };
-    auto planner = Planner(scene);
-    EXPECT_EQ(planner.plan(cut).report.status, "interrupted");
-    const Plan next = planner.plan(scene.first);
-    expect_solved(next);
-    EXPECT_LT(next.report.iterations, needed * 3 / 4);
-  }
-}
-
-TEST(Planner, AnImpossiblePlanIsNotDriven) {
-  Scene scene = ring();
-  scene.first.best_iterate_tol = 1e-3;
-  const Plan plan = Planner(scene).plan(scene.first);
-  EXPECT_FALSE(plan.report.solved);
-  EXPECT_FALSE(plan.report.best_iterate);
-}
-
-TEST(Planner, TimeLimitEndsASolve) {
-  for (const auto solver : solvers()) {
-    Scene scene = E_C();
-    scene.planner.solver = solver;
-    scene.first.time_limit = 1e-6;
-    const Plan plan = Planner(scene).plan(scene.first);
-    EXPECT_FALSE(plan.report.solved);
-    EXPECT_EQ(plan.report.status, "time_limit");
-    EXPECT_GE(plan.report.planning_cpu_s, plan.report.cpu_s);
-  }
-}
-
 TEST(Planner, NoObstacles) {
   Scene scene = E_A();
   scene.obstacles.clear();
@@ -414,7 +288,7 @@ TEST(Planner, WithoutAFloorItSolvesToTheOptimum) {
   Scene scene = E_A();
   scene.planner.floor = 0;
   const Plan plan = Planner(scene).plan(scene.first);
-  EXPECT_TRUE(plan.report.solved) << plan.report.status;
+  EXPECT_TRUE(plan.report.solved) << plan.report.status_text();
   EXPECT_LT(plan.report.cost, 271.6379 - 1) << "the barrier's distance from the limits is gone";
   EXPECT_LE(plan.report.worst_violation, 1e-6);
 }
@@ -429,7 +303,7 @@ TEST(Planner, WithoutAFloorAWarmSolveTakesFewIterations) {
   std::vector<int> iterations;
   for (int cycle = 0; cycle < 12; ++cycle) {
     const Plan plan = planner.plan(request);
-    ASSERT_TRUE(plan.report.solved) << plan.report.status;
+    ASSERT_TRUE(plan.report.solved) << plan.report.status_text();
     if (cycle > 0) iterations.push_back(plan.report.iterations);
     request = next_cycle(request, plan);
   }

@@ -57,7 +57,7 @@ inline sim::Drive synthetic_drive(double seconds = 4) {
       cycle.plan.controls.push_back({0.01, 0.1});
     }
     cycle.plan.report.solved = true;
-    cycle.plan.report.status = "solved";
+    cycle.plan.report.status = planner::PlanStatus::solved;
     cycle.plan.report.wall_s = 0.05 + 0.01 * i;
     cycle.plan.report.cpu_s = 0.04;
     cycle.plan.report.cost_terms = {{"final_time", 200}};

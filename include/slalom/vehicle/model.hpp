@@ -20,14 +20,14 @@ enum class ModelKind { pacejka, linear_tyre, constant_speed, kinematic };
 
 /// What an entry of the state is in a model: a state with a derivative of its own, a number held
 /// over the horizon, or a function of the states.
-enum class Part { state, held, derived };
+enum class Role { state, held, derived };
 
 /// A vehicle as expressions, which OCP, prediction and plant evaluate.
 struct Model {
   std::array<expr::Expr, kStates> state;       ///< symbols
   std::array<expr::Expr, kControls> control;   ///< symbols
   std::array<expr::Expr, kStates> derivative;  ///< state'; 0 for entries held or derived
-  std::array<Part, kStates> part{};            ///< what each entry of the state is
+  std::array<Role, kStates> role{};            ///< what each entry of the state is
   std::array<expr::Expr, kStates> value;       ///< of derived entries, in the states' symbols
   std::array<bool, kControls> used{};          ///< controls that the model lacks are zero
   /// Lateral axle forces [N], left positive; a kinematic model has none.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,28 +9,24 @@
 #include "slalom/kkt/row_blocks.hpp"
 #include "slalom/kkt/system.hpp"
 #include "slalom/nlp/problem.hpp"
-#include "slalom/nlp/solver.hpp"
 #include "vector_kernels.hpp"
 
 namespace slalom::nlp::ipm {
 
-/// What the restoration phase minimises in place of f (Waechter & Biegler 2006, eq. 30):
-///   rho sum(p + n) + zeta/2 sum (D_i (x_i - reference_i))^2, rows relaxed by -p + n.
-struct Elastic {
-  double rho = 1000, zeta = 0;
-  std::vector<double> reference, weight;  ///< weight: D_i^2
-};
+class RowElimination;
 
-/// The problem as the method sees it,
+/// The problem as the method sees it, in slack form,
 ///
-///   min f(x)   s.t.   g(x) - s = 0,   wl <= w <= wu,   w = (x, s) or (x, s, p, n),
+///   min f(x)   s.t.   g(x) - s = 0,   wl <= w <= wu,   w = (x, s),
 ///
-/// the slack of an equation being its constant, with its barrier function (Waechter & Biegler
-/// 2006, eq. 3) and the residuals of its primal-dual equations (eq. 4, 5). With elastic rows,
-/// g(x) - s - p + n = 0.
-class Model {
+/// the slack of an equation being its constant (Waechter & Biegler 2006, eq. 2 and section 3.4).
+/// ElasticForm adds elastic parts of the rows to w.
+class SlackForm {
  public:
-  explicit Model(Problem& problem, const Elastic* elastic = nullptr);
+  explicit SlackForm(Problem& problem) : SlackForm(problem, 0) {}
+  virtual ~SlackForm() = default;
+  SlackForm(const SlackForm&) = delete;
+
   /// Takes the problem's limits anew, and another problem of the same structure if given one.
   void refresh(Problem& problem);
   /// Scales objective and rows (Waechter & Biegler 2006, section 3.8); all 1 by default.
@@ -41,15 +38,12 @@ class Model {
   double room() const { return room_; }
   std::span<const double> row_scale() const { return row_scale_; }
 
-  Problem& problem() { return *problem_; }
+  Problem& problem() const { return *problem_; }
   const Structure& shape() const { return *shape_; }
-  const Elastic* elastic() const { return elastic_; }
   std::size_t variables() const { return shape_->variables; }
   std::size_t rows() const { return shape_->rows; }
   std::size_t primal() const { return lower_.size(); }  ///< entries of w
   std::size_t slack(std::size_t r) const { return variables() + r; }
-  std::size_t p(std::size_t r) const { return variables() + rows() + r; }
-  std::size_t n(std::size_t r) const { return variables() + 2 * rows() + r; }
   bool equation(std::size_t r) const { return equation_[r] != 0; }
   bool fixed(std::size_t i) const { return fixed_[i] != 0; }
   std::span<const char> fixed() const { return fixed_; }
@@ -65,29 +59,46 @@ class Model {
   /// Number of each equation among the equations, and their rows.
   const std::vector<std::uint32_t>& equations() const { return equations_; }
   kkt::Pattern pattern() const;
-  /// Second derivative of the proximity term, 0 unless elastic.
-  double proximity(std::size_t i) const {
-    return elastic_ ? elastic_->zeta * elastic_->weight[i] : 0;
-  }
+  /// How the Newton step leaves out the rows' slacks.
+  virtual std::unique_ptr<RowElimination> elimination() const;
 
   /// Evaluates at (w, y); false when a function gave a number that is not finite (see fault()).
-  bool evaluate(const Iterate& at, Parts parts, Evaluation& out);
+  [[nodiscard]] virtual bool evaluate(const Iterate& at, Parts parts, Evaluation& out);
   const Fault& fault() const { return fault_; }
+  /// Counts how often what evaluate() gives at the same (w, y) has changed: all of it, or no more
+  /// than the objective and its gradient.
+  struct Revision {
+    std::uint64_t functions = 1, objective = 1;
+  };
+  const Revision& revision() const { return revision_; }
 
-  /// Row residuals g - s - p + n; returns their 1-norm.
-  double residuals(const Evaluation& e, std::span<const double> w, std::span<double> out) const;
+  /// Row residuals g - s; returns their 1-norm.
+  virtual double residuals(const Evaluation& e, std::span<const double> w,
+                           std::span<double> out) const;
+  /// Gradient of f + y' (g - s), one an entry of w.
+  virtual void lagrangian_gradient(const Evaluation& e, std::span<const double> y,
+                                   std::span<double> out) const;
+  /// Change of f + slope' w along dw.
+  virtual double derivative_along(const Evaluation& e, std::span<const double> slope,
+                                  std::span<const double> dw) const;
   /// Largest violation of a row in the user's units, and the row where it stands.
   double violation(const Evaluation& e) const;
   std::size_t worst_row(const Evaluation& e) const;
 
+ protected:
+  /// With `more` entries of w after the slacks, each >= 0.
+  SlackForm(Problem& problem, std::size_t more);
+  /// Evaluates with the Hessian of objective_factor f + y' g.
+  [[nodiscard]] bool evaluate_functions(double objective_factor, const Iterate& at, Parts parts,
+                                        Evaluation& out);
+  void objective_changed() { ++revision_.objective; }
+
  private:
   void find_segments();
   void scale(Parts parts, Evaluation& out) const;
-  void replace_objective(const Iterate& at, Parts parts, Evaluation& out) const;
 
   Problem* problem_;
   const Structure* shape_;
-  const Elastic* elastic_;
   std::vector<char> equation_, fixed_;
   std::vector<std::uint32_t> equations_, constant_;  ///< rows; entries of w that do not move
   std::vector<double> lower_, upper_, constants_;
@@ -100,6 +111,7 @@ class Model {
   std::vector<double> scaled_y_;
   bool scaled_ = false;
   Fault fault_;
+  Revision revision_;
 };
 
 }  // namespace slalom::nlp::ipm

@@ -1,8 +1,10 @@
-#include "model.hpp"
+#include "slack_form.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "row_elimination.hpp"
 
 namespace slalom::nlp::ipm {
 namespace {
@@ -22,10 +24,9 @@ std::vector<char> opposite(std::vector<char> flags) {
 
 }  // namespace
 
-Model::Model(Problem& problem, const Elastic* elastic)
+SlackForm::SlackForm(Problem& problem, std::size_t more)
     : problem_(&problem),
       shape_(&problem.structure()),
-      elastic_(elastic),
       equation_(equal(problem.limits().gl, problem.limits().gu)),
       fixed_(equal(problem.limits().xl, problem.limits().xu)),
       row_blocks_(shape_->rows, shape_->jacobian_row, shape_->jacobian_col, equation_),
@@ -39,15 +40,16 @@ Model::Model(Problem& problem, const Elastic* elastic)
   for (std::size_t i = 0; i < variables(); ++i)
     if (fixed_[i]) constant_.push_back(static_cast<std::uint32_t>(i));
   for (const auto r : equations_) constant_.push_back(static_cast<std::uint32_t>(slack(r)));
-  const std::size_t size = variables() + (elastic ? 3 : 1) * rows();
-  lower_.assign(size, 0.0);  // of the elastic parts
+  const std::size_t size = variables() + rows() + more;
+  lower_.assign(size, 0.0);
   upper_.assign(size, kInfinity);
   constants_.assign(size, 0.0);
   refresh(problem);
   find_segments();
 }
 
-void Model::refresh(Problem& problem) {
+void SlackForm::refresh(Problem& problem) {
+  ++revision_.functions;
   problem_ = &problem;
   shape_ = &problem.structure();
   const Limits& limits = problem.limits();
@@ -67,8 +69,9 @@ void Model::refresh(Problem& problem) {
   }
 }
 
-void Model::set_scale(double objective, std::span<const double> rows) {
+void SlackForm::set_scale(double objective, std::span<const double> rows) {
   const bool same = std::equal(rows.begin(), rows.end(), row_scale_.begin());
+  if (objective != objective_scale_) ++revision_.functions;
   objective_scale_ = objective;
   scaled_ =
       objective != 1 || std::any_of(rows.begin(), rows.end(), [](double s) { return s != 1; });
@@ -77,7 +80,7 @@ void Model::set_scale(double objective, std::span<const double> rows) {
   refresh(*problem_);
 }
 
-void Model::find_segments() {
+void SlackForm::find_segments() {
   const auto lower = [&](std::size_t i) { return std::isfinite(lower_[i]); };
   const auto upper = [&](std::size_t i) { return std::isfinite(upper_[i]); };
   for (std::size_t i = 0; i < primal();) {
@@ -90,7 +93,7 @@ void Model::find_segments() {
   }
 }
 
-kkt::Pattern Model::pattern() const {
+kkt::Pattern SlackForm::pattern() const {
   kkt::Pattern pattern;
   pattern.variables = variables();
   pattern.equations = equations_.size();
@@ -113,21 +116,29 @@ kkt::Pattern Model::pattern() const {
   return pattern;
 }
 
-bool Model::evaluate(const Iterate& at, Parts parts, Evaluation& out) {
+std::unique_ptr<RowElimination> SlackForm::elimination() const {
+  return std::make_unique<SlackElimination>(*this);
+}
+
+bool SlackForm::evaluate(const Iterate& at, Parts parts, Evaluation& out) {
+  return evaluate_functions(objective_scale_, at, parts, out);
+}
+
+bool SlackForm::evaluate_functions(double objective_factor, const Iterate& at, Parts parts,
+                                   Evaluation& out) {
   const std::span x(at.w.data(), variables());
   std::span<const double> y = at.y;
   if (scaled_) {
     for (std::size_t r = 0; r < rows(); ++r) scaled_y_[r] = at.y[r] * row_scale_[r];
     y = scaled_y_;
   }
-  fault_ = problem_->evaluate(x, elastic_ ? 0 : objective_scale_, y, parts, out);
+  fault_ = problem_->evaluate(x, objective_factor, y, parts, out);
   if (fault_) return false;
   if (scaled_) scale(parts, out);
-  if (elastic_) replace_objective(at, parts, out);
   return true;
 }
 
-void Model::scale(Parts parts, Evaluation& out) const {
+void SlackForm::scale(Parts parts, Evaluation& out) const {
   if (parts.values) {
     out.objective *= objective_scale_;
     for (std::size_t r = 0; r < rows(); ++r) out.rows[r] *= row_scale_[r];
@@ -139,36 +150,34 @@ void Model::scale(Parts parts, Evaluation& out) const {
   }
 }
 
-void Model::replace_objective(const Iterate& at, Parts parts, Evaluation& out) const {
-  if (parts.values) {
-    out.objective = 0;
-    for (std::size_t i = p(0); i < primal(); ++i) out.objective += elastic_->rho * at.w[i];
-    for (std::size_t i = 0; i < variables(); ++i) {
-      const double away = at.w[i] - elastic_->reference[i];
-      out.objective += 0.5 * proximity(i) * away * away;
-    }
-  }
-  if (parts.derivatives)
-    for (std::size_t i = 0; i < variables(); ++i)
-      out.gradient[i] = proximity(i) * (at.w[i] - elastic_->reference[i]);
-}
-
-double Model::residuals(const Evaluation& e, std::span<const double> w,
-                        std::span<double> out) const {
+double SlackForm::residuals(const Evaluation& e, std::span<const double> w,
+                            std::span<double> out) const {
   const auto& kernels = vector_kernels();
   kernels.combine(rows(), e.rows.data(), -1, w.data() + variables(), out.data());
-  if (elastic_)
-    for (std::size_t r = 0; r < rows(); ++r) out[r] -= w[p(r)] - w[n(r)];
   return kernels.sum_magnitudes(rows(), out.data());
 }
 
-double Model::violation(const Evaluation& e) const {
+void SlackForm::lagrangian_gradient(const Evaluation& e, std::span<const double> y,
+                                    std::span<double> out) const {
+  std::copy(e.gradient.begin(), e.gradient.end(), out.begin());
+  row_blocks_.add_transposed(e.jacobian, y, out.first(variables()));
+  for (std::size_t r = 0; r < rows(); ++r) out[slack(r)] = -y[r];
+}
+
+double SlackForm::derivative_along(const Evaluation& e, std::span<const double> slope,
+                                   std::span<const double> dw) const {
+  const auto& kernels = vector_kernels();
+  return kernels.dot(variables(), e.gradient.data(), dw.data()) +
+         kernels.dot(primal(), slope.data(), dw.data());
+}
+
+double SlackForm::violation(const Evaluation& e) const {
   const Limits& limits = problem_->limits();
   return vector_kernels().most_outside(rows(), e.rows.data(), limits.gl.data(), limits.gu.data(),
                                        row_scale_.data(), users_unit_.data());
 }
 
-std::size_t Model::worst_row(const Evaluation& e) const {
+std::size_t SlackForm::worst_row(const Evaluation& e) const {
   const Limits& limits = problem_->limits();
   std::size_t worst = 0;
   double largest = 0;

@@ -12,7 +12,7 @@ namespace slalom::ocp {
 
 /// A problem's functions of one point in time, all that a trajectory fixes (t0, tf, parameters, end
 /// values) put in as numbers.
-class Model {
+class PointFunctions {
  public:
   /// A path row, bounds of states and controls among them.
   struct Row {
@@ -21,7 +21,7 @@ class Model {
     Points points;
   };
 
-  Model(const Problem& problem, const Trajectory& at);
+  PointFunctions(const Problem& problem, const Trajectory& at);
 
   /// States' rates at time t; sizes are the problem's.
   void rates(double t, std::span<const double> x, std::span<const double> u,

@@ -1,4 +1,4 @@
-#include "model.hpp"
+#include "point_functions.hpp"
 
 #include <algorithm>
 
@@ -36,7 +36,8 @@ Given given(const Problem& problem, const Trajectory& at) {
 
 }  // namespace
 
-Model::Model(const Problem& problem, const Trajectory& at) : t0_(at.t0), tf_(at.tf) {
+PointFunctions::PointFunctions(const Problem& problem, const Trajectory& at)
+    : t0_(at.t0), tf_(at.tf) {
   std::vector<Expr> inputs;
   for (const auto& state : problem.states()) inputs.push_back(state.symbol);
   for (const auto& control : problem.controls()) inputs.push_back(control.symbol);
@@ -79,8 +80,8 @@ Model::Model(const Problem& problem, const Trajectory& at) : t0_(at.t0), tf_(at.
   row_functions_ = compile(values);
 }
 
-void Model::call(const expr::Function& f, double t, std::span<const double> x,
-                 std::span<const double> u, std::span<double> out) const {
+void PointFunctions::call(const expr::Function& f, double t, std::span<const double> x,
+                          std::span<const double> u, std::span<double> out) const {
   auto next = std::copy(x.begin(), x.end(), inputs_.begin());
   next = std::copy(u.begin(), u.end(), next);
   *next++ = t;
@@ -88,24 +89,25 @@ void Model::call(const expr::Function& f, double t, std::span<const double> x,
   f(inputs_, {}, out);
 }
 
-void Model::rates(double t, std::span<const double> x, std::span<const double> u,
-                  std::span<double> out) const {
+void PointFunctions::rates(double t, std::span<const double> x, std::span<const double> u,
+                           std::span<double> out) const {
   call(rates_, t, x, u, out);
 }
 
-double Model::integrand(double t, std::span<const double> x, std::span<const double> u) const {
+double PointFunctions::integrand(double t, std::span<const double> x,
+                                 std::span<const double> u) const {
   std::vector<double> values(integrands());
   call(integrand_, t, x, u, values);
   return values.front();
 }
 
-void Model::integrands(double t, std::span<const double> x, std::span<const double> u,
-                       std::span<double> out) const {
+void PointFunctions::integrands(double t, std::span<const double> x, std::span<const double> u,
+                                std::span<double> out) const {
   call(integrand_, t, x, u, out);
 }
 
-void Model::row_values(double t, std::span<const double> x, std::span<const double> u,
-                       std::span<double> out) const {
+void PointFunctions::row_values(double t, std::span<const double> x, std::span<const double> u,
+                                std::span<double> out) const {
   if (!rows_.empty()) call(row_functions_, t, x, u, out);
 }
 

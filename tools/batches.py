@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Puts sources into batches that compile as one: headers are then read once a batch, not once a file.
+
+Names of an unnamed namespace are a file's own. Two files share a batch only if neither mentions,
+in any sense, a name the other keeps to itself; so a batch means what its files mean alone. What is
+compiled with options of its own (*_avx2.cpp, *_baseline.cpp) stays by itself.
+
+usage: batches.py FILE...     one batch a line, its files with '|' between them
+"""
+
+import pathlib
+import re
+import sys
+
+MOST_FILES = 8
+ALONE = re.compile(r"_(avx2|baseline)\.cpp$")
+COMMENTS_AND_STRINGS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+WORD = re.compile(r"[A-Za-z_]\w*")
+TYPE = re.compile(r"^(?:template <.*> )?(?:struct|class|union|enum class|enum) (?:\[\[.*\]\] )?(\w+)")
+ALIAS = re.compile(r"^(?:using|namespace) (\w+) =|^using .*::(\w+);")
+VARIABLE = re.compile(r"(\w+)(?:\[[^\]]*\])* ?(?:=|\{|;|,)")
+MACROS = ("TEST", "INSTANTIATE_TEST_SUITE_P")
+FUNCTION = re.compile(r"(\w*[a-z]\w*)\(")  # but no macro
+
+
+class Source:
+    """What a file mentions, and what it keeps to itself: names, and aliases with their lines."""
+
+    def __init__(self, path):
+        self.path = path
+        text = COMMENTS_AND_STRINGS.sub('""', pathlib.Path(path).read_text(encoding="utf-8"))
+        self.alone = bool(ALONE.search(str(path))) or "using namespace " in text
+        self.words = set(WORD.findall(text))
+        self.own = set(re.findall(r"^#\s*define (\w+)", text, re.MULTILINE))
+        self.aliases = {}
+        unnamed = False
+        # The format puts what stands in a namespace, and nothing else, at the start of a line.
+        for line in text.splitlines():
+            if line == "namespace {":
+                unnamed = True
+            elif line.startswith('}  ""'):  # the comment that names the namespace
+                unnamed = False
+            elif alias := ALIAS.match(line):
+                self.aliases[alias[1] or alias[2]] = line
+            elif WORD.match(line) and (unnamed or line.startswith(("static ", "inline "))):
+                self.own.update(declared(line))
+
+    def clashes(self, other):
+        return bool(self.own & other.words or other.own & self.words or any(
+            name in other.words and other.aliases.get(name) != line
+            for name, line in self.aliases.items()) or any(
+            name in self.words and self.aliases.get(name) != line
+            for name, line in other.aliases.items()))
+
+
+def declared(line):
+    """The names that a declaration's first line declares."""
+    if match := TYPE.match(line):
+        return [match[1]]
+    if line.startswith(MACROS):
+        return []
+    if (match := FUNCTION.search(line)) and "=" not in line[:match.start()]:
+        return [match[1]]
+    return VARIABLE.findall(line)
+
+
+def batches(paths):
+    """Lists of paths; each file goes into the first batch with room where nothing clashes."""
+    made = []
+    for source in map(Source, paths):
+        fitting = (batch for batch in made if len(batch) < MOST_FILES and
+                   not any(source.alone or file.alone or source.clashes(file) for file in batch))
+        batch = next(fitting, None)
+        if batch is None:
+            made.append(batch := [])
+        batch.append(source)
+    return [[source.path for source in batch] for batch in made]
+
+
+if __name__ == "__main__":
+    for files in batches(sys.argv[1:]):
+        print("|".join(files))
