@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test tidy bench reproduce study results robustness realtime obstacle-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts wheel docs sweep-scale format clean build
+.PHONY: help run quick test tidy bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed solver-profile docs-measured wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -34,14 +34,22 @@ tidy: ## clang-tidy on every source by itself; `make test` looks at them in batc
 	cmake --preset release -DSLALOM_TESTS=ON
 	tools/tidy.py --build build --alone --jobs $(JOBS)
 
-bench: ## set up, and time the planner's solver beside its peers into docs/benchmarks.md (takes hours)
+bench: ## set up, and time the planner's solver beside its peers into docs/measured/benchmarks.md (takes hours)
 	tools/setup.sh bench
 	python3 benchmarks/run.py
 
-peers: ## time tools for optimal control on the same problems into docs/peers.md (takes an hour)
+peers: ## time tools for optimal control on the same problems into docs/measured/peers.md (takes an hour)
 	tools/setup.sh bench
 	tools/setup.sh wheel
 	python3 benchmarks/ocp/peers.py
+
+perturbed: ## thousands of perturbed cycles by ours and by Ipopt, into docs/measured/perturbed.md (takes half an hour)
+	tools/setup.sh bench
+	python3 benchmarks/perturb.py
+
+solver-profile: ## where a solve's time goes, by perf, into docs/measured/solver-profile.md (takes minutes)
+	tools/setup.sh bench
+	python3 benchmarks/profile.py
 
 reproduce: ## all drives of the paper's figures into run/reproduce/, ours beside the paper's
 	tools/setup.sh run
@@ -54,7 +62,7 @@ study: ## the paper's sweep of 800 drives into run/study/, with its page; goes o
 	build/slalom sweep paper --out run/study
 	build/slalom study-report run/study
 
-sweep-scale: ## 100,000 very short trials: rate, memory, and how soon a sweep goes on (takes half an hour)
+sweep-scale: ## 100,000 very short trials: rate, memory, how soon a sweep goes on, into docs/measured/sweep-scale.md (takes half an hour)
 	tools/setup.sh bench
 	$(MAKE) --no-print-directory build
 	python3 benchmarks/sweep_scale.py --program build/slalom
@@ -70,7 +78,7 @@ paper-sweep: ## the paper's sweep on both grids and with one thing changed, into
 	$(MAKE) --no-print-directory build
 	python3 tools/paper_sweep.py --program build/slalom
 
-latency: ## what each latency rule does to the pass rate, into docs/latency.md
+latency: ## what each latency rule does to the pass rate, into docs/measured/latency.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/latency.py --program build/slalom
@@ -82,30 +90,41 @@ verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/
 	build/slalom sweep paper-printed --out run/printed
 	python3 tools/verdicts.py --program build/slalom
 
-long-solves: ## long cold plans beside CasADi with Ipopt, into docs/long-solves.md (takes a quarter of an hour)
+long-solves: ## long cold plans beside CasADi with Ipopt, into docs/measured/long-solves.md (takes a quarter of an hour)
 	tools/setup.sh bench
 	$(MAKE) --no-print-directory build
 	python3 benchmarks/long_solves.py --program build/slalom
 
-robustness: ## outcomes over floors, starts and horizons into docs/robustness.md (takes minutes)
+robustness: ## outcomes over floors, starts and horizons into docs/measured/robustness.csv, .svg and .md (takes minutes)
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
-	python3 tools/robustness.py --program build/slalom --out docs/robustness.md
+	python3 tools/robustness.py --program build/slalom
 
-realtime: ## planning times beside the execution horizon into docs/realtime.md
+realtime: ## planning times beside the execution horizon into docs/measured/realtime.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/realtime.py --program build/slalom
 
-obstacle-choice: ## what leaving out obstacles does, into docs/obstacle-choice.md
+obstacle-choice: ## what leaving out obstacles does, into docs/measured/obstacle-choice.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/obstacle_choice.py --program build/slalom
 
-sensitivity: ## how far plant and sensors may be from what is believed, into docs/sensitivity.md (takes minutes)
+model-choice: ## how P_D drives with each model it may have in mind, into docs/measured/model-choice.md
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/model_choice.py --program build/slalom
+
+sensitivity: ## how far plant and sensors may be from what is believed, into docs/measured/sensitivity.md (takes minutes)
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/sensitivity.py --program build/slalom
+
+docs-measured: ## every page of docs/measured/ anew, the quickest first (takes hours)
+	@failed=; for target in $$(python3 tools/measured.py --targets); do \
+	  $(MAKE) --no-print-directory $$target || failed="$$failed $$target"; done; \
+	if [ -n "$$failed" ]; then echo "docs-measured: failed:$$failed"; exit 1; fi
+	python3 tools/measured.py --check
 
 problems: ## every problem of the library by two schemes, beside its known value
 	tools/setup.sh run
@@ -119,7 +138,7 @@ wheel: ## set up, and build the Python package into dist/
 docs: wheel ## the documentation's site into build/docs/
 	tools/docs.sh dist build/docs
 
-random-scenarios: ## P_A to P_D on 1000 random scenarios, into docs/random-scenarios.md (takes minutes)
+random-scenarios: ## P_A to P_D on 1000 random scenarios, into docs/measured/random-scenarios.md (takes minutes)
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/random_scenarios.py --program build/slalom

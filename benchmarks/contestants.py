@@ -12,6 +12,7 @@ from levels import LEVELS
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
+sys.path.insert(0, str(ROOT / "tools"))  # for measured.py
 BUILD = Path(os.environ.get("SLALOM_BENCH_BUILD", ROOT / "build" / "bench"))
 PEERS = BUILD / "peers"  # a virtual environment with CasADi, and the unpacked acados wheel
 WHEEL = PEERS / "acados"
@@ -64,6 +65,12 @@ def run_command(command, limit=1200):
     if done.returncode != 0:
         raise RuntimeError((done.stderr.strip().splitlines() or ["failed"])[-1])
     return done.stdout
+
+
+def record_cycles(environment, out, cycles, perturbed, seed):
+    """The cycles of closed-loop drives from seeded starts, into the file `out`."""
+    run_command([program("bench_record"), "--environment", environment, "--cycles", str(cycles),
+                 "--perturbed", str(perturbed), "--seed", str(seed), "--out", str(out)])  # fmt: skip
 
 
 def job_arguments(job, cycles):

@@ -17,7 +17,7 @@ using vehicle::kStates;
 enum Field : std::size_t { META, X0P, LAST_X0P, LAST_PLAN, LAST_SLACKS, Y, ZL, ZU, WARM, COLD };
 const std::vector<std::string> kFields = {"meta", "X0p", "last_X0p", "last_plan", "last_slacks",
                                           "y",    "zl",  "zu",       "warm_x",    "cold_x"};
-const std::vector<std::string> kMeta = {"t0",       "tex",           "in_range",
+const std::vector<std::string> kMeta = {"t0",       "t_start",       "in_range",
                                         "solved",   "drive",         "perturbed",
                                         "has_last", "last_in_range", "last_t_start"};
 using Record = std::vector<std::vector<double>>;  // by Field
@@ -70,7 +70,7 @@ Record record_of(const Cycle& cycle, PlannerCycle& planner) {
   Record record(kFields.size());
   const auto& r = cycle.request;
   record[META] = {r.t0,
-                  r.tex,
+                  r.t_start,
                   double(cycle.in_range),
                   double(cycle.solved),
                   double(cycle.drive),
@@ -100,7 +100,7 @@ Cycle cycle_of(const Record& record, PlannerCycle& planner) {
   const auto& meta = record[META];
   Cycle cycle;
   cycle.request.t0 = meta[0];
-  cycle.request.tex = meta[1];
+  cycle.request.t_start = meta[1];
   cycle.in_range = meta[2] != 0;
   cycle.solved = meta[3] != 0;
   cycle.drive = static_cast<int>(meta[4]);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""One long cold solve each, by ours and by CasADi with Ipopt, into docs/long-solves.md.
+"""One long cold solve each, by ours and by CasADi with Ipopt, into docs/measured/long-solves.md.
 
-    long_solves.py [--program build/slalom] [--python PYTHON] [--out docs/long-solves.md] [--folder DIR]
+    long_solves.py [--program build/slalom] [--python PYTHON] [--folder DIR]
 
 The paper's table of long solve times: obstacle constraints hard or soft, 3 or 17 moving obstacles, the
 goal in range, one plan from a cold start by backward Euler. The three obstacles are E_B's; the 17 are
@@ -9,11 +9,9 @@ drawn, one field a seed. --python takes an interpreter that has CasADi; else one
 requirements.txt. Standard library only.
 """
 
-import argparse
 import json
 import math
 import os
-import platform
 import random
 import re
 import statistics
@@ -24,10 +22,14 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from measured import page_parser, stamp, write  # noqa: E402
+
 PAPER = {("hard", 3): 44.4, ("hard", 17): 193.0, ("soft", 3): 110.0, ("soft", 17): 2190.0}
 INTERVALS = (60, 200)
 SEEDS = (1, 2, 3)
 RUNS = 9  # of ours; medians
+THREE = [[205, 57, 5, -2, 0], [180, 75, 4, -1, 1], [200, 63, 2, -0.5, 6]]  # E_B's: x, y, r, vx, vy
 REACH, SM_END, SM_CRASH = 200, 4.0, 2.0
 MODES = ("vm", "c")
 RULES = ("adaptive", "monotone")
@@ -56,13 +58,6 @@ def scenario_text(obstacles):
     for x, y, r, vx, vy in obstacles:
         lines.append(f"  - {{x: {x}, y: {y}, r: {r}, vx: {vx}, vy: {vy}}}")
     return "\n".join(lines) + "\n"
-
-
-def three():
-    """E_B's obstacles, from its file."""
-    text = (ROOT / "config/scenarios/E_B.yaml").read_text()
-    rows = [dict(re.findall(r"(\w+): (-?[\d.]+)", line)) for line in re.findall(r"- \{name.*\}", text)]
-    return [[float(row[k]) for k in ("x", "y", "r", "vx", "vy")] for row in rows]
 
 
 def ours(program, scenario, N, constraint):
@@ -112,7 +107,7 @@ def casadi(python, folder, name, case, mode, rule, limit):
 
 def measure(args, folder):
     """A row for each mesh, constraint and field: ours, and CasADi's ways."""
-    fields = [("3 (E_B)", 3, three())] + [(f"17, seed {s}", 17, field(s)) for s in args.seeds]
+    fields = [("3 (E_B)", 3, THREE)] + [(f"17, seed {s}", 17, field(s)) for s in args.seeds]
     rows = []
     for N in args.intervals:
         for constraint in ("hard", "soft"):
@@ -231,29 +226,21 @@ def setup_line(rows):
             f"derivatives, transcription, printing); CasADi {vm}, with C {c}.")  # fmt: skip
 
 
-def cpu_model():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.processor() or "unknown"
-
-
 def page(rows, args):
     version = next((a["casadi"] for r in rows for a in r["casadi"].values() if "casadi" in a), "?")
     return "\n".join([
-        "<!-- Written by benchmarks/long_solves.py (`make long-solves`). -->",
-        "# Long cold solves", "",
+        "# Long cold solves", "", stamp("make long-solves", args.program),
         "The paper's table of long solve times (MATLAB with IPOPT, of earlier work on a simpler problem) and",
         "ours: one plan from a cold start, the goal in range, backward Euler on N intervals, moving obstacles,",
         "obstacle rows hard or soft (l1). The paper states neither N nor its field of 17; ours are E_B's three",
         f"obstacles and {len(args.seeds)} drawn fields of 17. Solved to 1e-8 without barrier floor. Times are CPU",
         "time of the solve, medians.", "",
         *summary(rows), "",
-        f"Machine: {cpu_model()}; one thread. Where the table has 17 obstacles, the median is over the fields.",
+        "One thread. Where the table has 17 obstacles, the median is over the fields.",
         "The paper's is an Intel i7-4910MQ, and its problem and N are not ours: the ratio of the times is not one of",
         "solvers alone. CasADi's, here, is.", "",
         "## Beside CasADi with Ipopt", "",
-        f"CasADi {version} (wheel): the same problem, stated anew from [formulation.md](formulation.md)",
+        f"CasADi {version} (wheel): the same problem, stated anew from [formulation.md](../formulation.md)",
         "(`benchmarks/long_casadi.py`), exact Hessian, MUMPS, tol 1e-8, the same straight start. Of the",
         "ways tried (barrier rule adaptive or monotone by the virtual machine, and compiled C, -O3",
         "-march=native, with the better rule) the fastest stands here, of those that ended in our optimum or, where",
@@ -275,11 +262,9 @@ def casadi_python(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--program", default=str(ROOT / "build/slalom"))
+    parser = page_parser("long-solves", __doc__, keeps=False)
     parser.add_argument("--python", help="an interpreter that has CasADi")
-    parser.add_argument("--folder", default=str(ROOT / "build/long_solves"), help="what was measured")
-    parser.add_argument("--out", default=str(ROOT / "docs/long-solves.md"))
+    parser.add_argument("--folder", default=str(ROOT / "build/long_solves"), help="what was measured of CasADi")
     parser.add_argument("--limit", type=float, default=600, help="of one solve of CasADi's [s]")
     parser.add_argument("--intervals", type=int, nargs="+", default=list(INTERVALS))
     parser.add_argument("--seeds", type=int, nargs="+", default=list(SEEDS))
@@ -287,7 +272,7 @@ def main():
     folder = Path(args.folder).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     args.python = args.python or casadi_python(folder)
-    Path(args.out).write_text(page(measure(args, folder), args))
+    write(args.out, page(measure(args, folder), args))
 
 
 if __name__ == "__main__":

@@ -1,28 +1,13 @@
-"""The machine, and the versions and kernel sets of everything that is timed on it."""
+"""What is timed beside ours, by versions and kernel sets; the stamp of a page has the processor."""
 
 import os
 import platform
 import re
-import subprocess
 from pathlib import Path
 
 from compiled import COMPILER
-from contestants import BUILD, PEERS, ROOT, WHEEL, python
-
-
-def output_of(*command, default="unknown"):
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=True)
-        return done.stdout.strip() or default
-    except (OSError, subprocess.CalledProcessError):
-        return default
-
-
-def cpu_model():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.processor() or "unknown"
+from contestants import BUILD, PEERS, WHEEL, python
+from measured import output_of
 
 
 def wheel_version(library):
@@ -52,14 +37,9 @@ def acados_version():
     return "unknown"
 
 
-def slalom_version():
-    return output_of("git", "-C", str(ROOT), "describe", "--always", "--dirty")
-
-
 def describe():
     casadi_folder = next(PEERS.glob("lib/python*/site-packages/casadi"), BUILD)
     return {
-        "CPU": f"{cpu_model()}, {os.cpu_count()} cores",
         "system": output_of("sh", "-c", ". /etc/os-release && echo $PRETTY_NAME")
         + f", Linux {platform.release().split('-')[0]}",
         "load before the run": f"{os.getloadavg()[0]:.2f}",

@@ -12,8 +12,7 @@ namespace slalom::bench {
 using namespace vehicle;
 
 Form::Form(const sim::Scenario& scenario, bool goal_in_range)
-    : problem(scenario.planner, scenario.vehicle, scenario.goal, scenario.region,
-              scenario.obstacles, goal_in_range),
+    : problem(scenario, goal_in_range),
       transcription(
           [&]() -> const ocp::Problem& {
             problem.update({});
@@ -27,7 +26,7 @@ void Form::update(const planner::Request& request) {
 }
 
 PlannerCycle::PlannerCycle(sim::Scenario scenario)
-    : scenario_(std::move(scenario)), guess_(scenario_.planner, scenario_.goal) {}
+    : scenario_(std::move(scenario)), guess_(scenario_) {}
 
 bool PlannerCycle::goal_in_range(const State& X0p) const {
   return std::hypot(X0p[X] - scenario_.goal.x, X0p[Y] - scenario_.goal.y) <

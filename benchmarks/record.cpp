@@ -114,7 +114,7 @@ class Recorder {
 
   static planner::Plan plan_of(const Cycle& cycle, const ocp::Trajectory& trajectory) {
     planner::Plan plan;
-    plan.t_start = cycle.request.t0 + cycle.request.tex;
+    plan.t_start = cycle.request.t_start;
     plan.tf = trajectory.tf;
     plan.goal_in_range = cycle.in_range;
     plan.report.solved = cycle.solved;

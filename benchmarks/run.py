@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times the planner's solver beside its peers on recorded cycles; writes docs/benchmarks.md.
+"""Times the planner's solver beside its peers on recorded cycles; writes docs/measured/benchmarks.md.
 
 Steps, all of them by default, each of which may be run by itself:
   setup      build our programs, install the peers, generate and compile their C
@@ -7,7 +7,7 @@ Steps, all of them by default, each of which may be run by itself:
   measure    each contestant on each environment, level and start, chunk by chunk, in turn
   growth     other meshes, schemes, numbers of obstacles and of phases
   functions  one evaluation of the functions beside CasADi's
-  report     tables of the run, on standard output and in docs/benchmarks.md
+  report     tables of the run, on standard output and in docs/measured/benchmarks.md
 
 A run is a folder build/bench/runs/ID with its cycles and one JSON file a contestant and chunk:
 `measure` leaves alone what is there, so a stopped run goes on where it was (--minutes stops it in
@@ -20,13 +20,13 @@ import os
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import machine
 from contestants import (
     BUILD, CONTESTANTS, DEFAULT, ENVIRONMENTS, GENERATED, HERE, PEERS, ROOT, WHEEL, Job, program,
-    python, run_command)  # fmt: skip
+    python, record_cycles, run_command)  # fmt: skip
 from levels import LEVELS
+from measured import FOLDER, commit, write
 from summary import summarise
 from tables import markdown
 
@@ -103,10 +103,8 @@ def record(args):
     cycles, perturbed = (48, 12) if args.quick else (1000, 250)
     for environment in ENVIRONMENTS:
         say(f"recording {cycles} + {perturbed} cycles in {environment}")
-        run_command([program("bench_record"), "--environment", environment, "--cycles", str(cycles),
-                     "--perturbed", str(perturbed), "--seed", str(args.seed), "--out",
-                     str(folder / f"{environment}.cycles")])  # fmt: skip
-    about = {"run": name, "quick": args.quick, "seed": args.seed, "recorded": cycles,
+        record_cycles(environment, folder / f"{environment}.cycles", cycles, perturbed, args.seed)
+    about = {"run": name, "commit": commit(), "quick": args.quick, "seed": args.seed, "recorded": cycles,
              "perturbed": perturbed, "machine": machine.describe()}  # fmt: skip
     (folder / "about.json").write_text(json.dumps(about, indent=1))
     (RUNS / "latest").write_text(name)
@@ -120,7 +118,7 @@ def write_result(folder, name, key, call):
     except (RuntimeError, OSError, ValueError) as error:
         result = {"error": str(error)}
         say(f"  {name}: {error}")
-    result |= key | {"run": folder.name, "version": machine.slalom_version(),
+    result |= key | {"run": folder.name, "version": commit(),
                      "took_s": time.time() - began, "load": os.getloadavg()[0]}  # fmt: skip
     (folder / "results" / f"{name}.json").write_text(json.dumps(result))
 
@@ -185,10 +183,10 @@ def report(args):
         sys.exit(f"results of another run in {folder}: {', '.join(foreign)}")
     summary = summarise(load(folder / "about.json"), results)
     (folder / "summary.json").write_text(json.dumps(summary, indent=1))
-    text = markdown(summary)
+    text = markdown(summary, program("bench_solve"))
     print(text)
     if args.docs:
-        (ROOT / "docs" / "benchmarks.md").write_text(text)
+        write(FOLDER / "benchmarks.md", text)
 
 
 def main():
@@ -205,7 +203,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=300, help="calls of a function")
     parser.add_argument("--core", type=int, default=os.cpu_count() - 1, help="to measure on")
     parser.add_argument("--no-docs", dest="docs", action="store_false",
-                        help="leave docs/benchmarks.md alone")  # fmt: skip
+                        help="leave docs/measured/benchmarks.md alone")  # fmt: skip
     args = parser.parse_args()
     args.steps = args.steps or list(STEPS)
     args.contestants = args.contestants.split(",")

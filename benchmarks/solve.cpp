@@ -133,13 +133,13 @@ json solve_chain(const Arguments& a, const std::vector<Cycle>& cycles, std::opti
   for (std::size_t i = 0; i < cycles.size() && cycles[i].drive == 0 && i < kChain; ++i) {
     const auto& request = cycles[i].request;
     if (cycles[i].in_range) break;
-    if (i > 0 && request.t0 > cycles[i - 1].request.t0 + 1.5 * request.tex) break;  // thinned out
+    if (i > 0 && request.t0 > cycles[i - 1].request.t0 + 1.5 * (request.t_start - request.t0))
+      break;  // thinned out
     solves.push_back(timed_solve(planner, *solver, cycles[i], last ? &*last : nullptr,
                                  options_of(a), start, answer));
     if (answer.status != nlp::Status::solved) continue;
     auto plan = planner.form(false).transcription.trajectory(answer.point.x);
-    last =
-        bench::Last{{request.t0 + request.tex, request.X0p, std::move(plan), false}, answer.point};
+    last = bench::Last{{request.t_start, request.X0p, std::move(plan), false}, answer.point};
   }
   result["cycles"] = std::move(solves);
   return result;

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Sweeps very many very short trials, and measures what the sweep itself costs: its rate on one
-process and on several, the memory of the process that leads, and how soon it goes on after a kill.
+process and on several, the memory of the process that leads, and how soon it goes on after a kill;
+into docs/measured/sweep-scale.md.
 
 A trial begins in the goal's square and ends after one cycle. Use a quiet machine. Linux only.
 
 usage: sweep_scale.py [--program build/slalom] [--trials N] [--jobs J]
 """
 
-import argparse
 import contextlib
 import os
 import pathlib
@@ -15,8 +15,12 @@ import resource
 import signal
 import sqlite3
 import subprocess
+import sys
 import tempfile
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from measured import page_parser, stamp, write  # noqa: E402
 
 SCENARIO = """
 name: at the goal
@@ -106,9 +110,10 @@ def single(program, folder, trials):
 
 
 def measure(program, folder, trials, jobs):
-    print(f"load before, of {os.cpu_count()} processors: {os.getloadavg()[0]:.2f}", flush=True)
+    """Sweeps, kills and goes on; what was found, a sentence each."""
+    before = os.getloadavg()[0]
     one, cost = single(program, folder, trials)
-    print(f"one process: {one:.1f} trials a second, {1e3 * cost:.2f} ms of processor time a trial", flush=True)
+    yield f"One process: {one:.1f} trials a second, {1e3 * cost:.2f} ms of processor time a trial."
 
     peaks = []
     sweep = Sweep(program, folder, "pool", "--jobs", jobs)
@@ -120,8 +125,8 @@ def measure(program, folder, trials, jobs):
     peaks.append(sweep.peak())
     used = sweep.processor_time()
     several = (done - at) / (half - first)
-    print(f"{jobs} processes: {several:.1f} trials a second, {several / one / jobs:.1%} of {jobs} times one;"
-          f" the leading process takes {1e3 * used / done:.2f} ms a trial, {used / done / cost:.1%} of all", flush=True)
+    yield f"{jobs} processes: {several:.1f} trials a second, {several / one / jobs:.1%} of {jobs} times one."
+    yield f"The leading process takes {1e3 * used / done:.2f} ms a trial, {used / done / cost:.1%} of all."
 
     os.kill(sweep.process.pid, signal.SIGKILL)
     sweep.process.wait()
@@ -130,28 +135,37 @@ def measure(program, folder, trials, jobs):
     near = sweep.recorded(above)
     sweep = Sweep(program, folder, "pool", "--jobs", jobs, "--resume")
     resumed = sweep.wait_for(near + 1, 0.01, above) - sweep.begin
-    print(f"killed at {left}: {resumed:.2f} s from the new start to the first new trial", flush=True)
+    yield f"Killed at {left} trials: {resumed:.2f} s from the new start to the first new trial."
     peak, _ = sweep.end()
     peaks.append(peak)
     rows = (folder / "pool/trials.csv").read_text().count("\n") - 1
-    print("peak memory of the leading process at 1, 50 and 100 %: "
-          + ", ".join(f"{peak:.0f}" for peak in peaks) + f" MB; {rows} rows at the end")
+    yield ("Peak memory of the leading process at 1, 50 and 100 %: "
+           + ", ".join(f"{peak:.0f}" for peak in peaks) + f" MB; {rows} rows at the end.")
     if rows != trials:
         raise SystemExit(f"found {rows} rows, expected {trials}")
-    print(f"load after: {os.getloadavg()[0]:.2f}")
+    yield (f"Load of the machine, of {os.cpu_count()} processors: {before:.2f} before, {os.getloadavg()[0]:.2f} after.")
+
+
+def page(found, trials, stamped):
+    return "\n".join(["# What a sweep costs", "", stamped,
+                      f"A sweep of {trials} trials that begin in the goal's square and end after one cycle.", "",
+                      *(f"- {line}" for line in found), ""])
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", default="build/slalom")
+    parser = page_parser("sweep-scale", __doc__, keeps=False)
     parser.add_argument("--trials", type=int, default=100_000)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     given = parser.parse_args()
+    found = []
     with tempfile.TemporaryDirectory(prefix="sweep-scale-") as folder:
         folder = pathlib.Path(folder)
         (folder / "scenario.yaml").write_text(SCENARIO)
         (folder / "study.yaml").write_text(STUDY.format(trials=given.trials))
-        measure(given.program, folder, given.trials, given.jobs)
+        for line in measure(given.program, folder, given.trials, given.jobs):
+            print(line, flush=True)
+            found.append(line)
+    write(given.out, page(found, given.trials, stamp("make sweep-scale", given.program)))
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from contestants import CONTESTANTS
 from levels import LEVELS
+from measured import stamp
 
 QUANTITIES = {
     "all_first": "values, gradient, Jacobian",
@@ -9,7 +10,8 @@ QUANTITIES = {
     "hessian": "the Hessian alone",
 }
 PLACES = {"guess": "from straight on", "plan": "at a shifted plan"}
-AT = {"floor": "at the floor 0.9", "1e-2": "at 1e-2 without floor", "1e-6": "at 1e-6 without floor"}
+AT = {name: f"at the floor {level.floor:g}" if level.floor else f"at {name} without floor"
+      for name, level in LEVELS.items()}  # fmt: skip
 SHOWN = 12  # other local optima listed a table
 
 
@@ -147,7 +149,7 @@ def levels_markdown():
                   for k, v in LEVELS.items()])  # fmt: skip
 
 
-def markdown(summary):
+def markdown(summary, program):
     about = summary["about"]
     machine = about["machine"] | {
         "slalom": ", ".join(summary["versions"]), "our kernel set": summary["kernels"],
@@ -157,7 +159,8 @@ def markdown(summary):
         warnings.append("**Several versions of slalom were measured in this run.**")
     environments = "\n\n".join(environment_markdown(n, p)
                                for n, p in summary["environments"].items())  # fmt: skip
-    return PAGE.format(about=about, warnings="\n".join(f"- {w}" for w in warnings),
+    stamped = stamp("make bench", program, about["commit"])
+    return PAGE.format(about=about, stamp=stamped, warnings="\n".join(f"- {w}" for w in warnings),
                        limit=number(summary["limit_ms"]), levels=levels_markdown(),
                        environments=environments, growth=growth_markdown(summary["growth"]),
                        phases=phases_markdown(summary["phases"]),
@@ -166,7 +169,9 @@ def markdown(summary):
 
 
 PAGE = """# Benchmarks
-Written by `make bench` from run {about[run]}: every figure comes from this one run on one core.
+
+{stamp}
+Every figure comes from one run, {about[run]}, on one core.
 How contestants are set up and what makes the comparison fair: `benchmarks/README.md`.
 {warnings}
 
@@ -182,12 +187,11 @@ solver says so and the independent checker, in unscaled units, finds it within
 {levels}
 
 (complementarity is |s z / μ - 1| at the floor, |s z| without). Ratios are by environment, never
-pooled; where a peer is faster, the table says so.
+pooled; where a peer is faster, the cell says so.
 
 ¹ fatrop and acados solve a multiple-shooting form: another problem, with x(0) fixed, controls constant
 in an interval and no floor. They get the same nodes to start from, but no multipliers, which belong to
 our problem. Their answers are judged against their own problem, with the multipliers that suit them best.
-CasADi's wheel carries BLASFEO's generic kernels: fatrop would gain from others.
 
 {environments}
 

@@ -1,59 +1,84 @@
 #!/usr/bin/env python3
-"""Runs the study `latency` and writes its table, docs/latency.md. Standard library only.
+"""Runs the study `latency` and writes its table, docs/measured/latency.md. Standard library only.
 
-    tools/latency.py --program build/slalom [--work run/latency]
-
-The sweep goes on where it stopped, in --work.
+    tools/latency.py [--program build/slalom]
 """
 
-import argparse
-import pathlib
-import re
+import json
 
+from measured import page_parser, stamp, write
 from sweeps import head, row, swept
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+PAGE = """# When plans take effect
 
-HEAD = """<!-- Written by tools/latency.py (`make latency`). -->
-# When plans take effect
+{stamp}
+What the rules of `loop.latency` ([studies.md](../studies.md#latency-rules)) do to the pass rate: P_D in the
+paper's E_C, O2 at {speeds} speeds from {first:g} to {last:g} m/s, by `slalom sweep latency`. Where a solve
+yields no plan, the last one runs on. What a plan is charged:
 
-What the rules of `loop.latency` ([studies.md](studies.md#latency-rules)) do to the pass rate: P_D in the
-paper's E_C, O2 at {speeds} speeds from 0 to -20 m/s, by `slalom sweep latency`. `recorded` charges {recorded} s to
-every solve, `model` draws from a lognormal distribution with that median and a spread of {spread}; where a
-solve yields no plan, the last one runs on.
+- `instant`: nothing, and nothing is predicted: a plan takes effect at once.
+- `paper`: tex, however long its solve takes.
+- `measured`: its own solve time, on this machine {longest:.1f} ms or less, tex at least.
+- `recorded`: {recorded:g} s, tex at least.
+- `model`: a draw from a lognormal distribution of median {median:g} s and spread {spread:g}, tex at least.
 
 At the goal, of {speeds} speeds:
 
-"""
-
-NOTES = """
-`instant`, what most simulation studies do, leaves out the time that planning takes and with it the
-prediction; as long as plans are ready in time it passes about what `paper` passes. `measured` charges this machine's own solve times, which are
-milliseconds, so that no plan is late and `paper`'s drives come out. Charged {recorded} s, plans are late at
-every horizon shorter than that: a short tex then buys nothing, and what looked safe is not. The rule is
-part of a claim about safety.
-"""
+{table}
+{findings}"""
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", default="build/slalom")
-    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run/latency")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/latency.md")
-    options = parser.parse_args()
-    trials = swept(options.program, "latency", options.work)
-    study = (ROOT / "config/studies/latency.yaml").read_text()
-    settings = dict(re.findall(r"loop\.(solve_times|latency_spread): \[?([\d.]+)", study))
-    rules = list(dict.fromkeys(t["loop.latency"] for t in trials))
-    texs = list(dict.fromkeys(t["loop.tex"] for t in trials))
-    speeds = len({t["obstacles.O2.vy"] for t in trials})
+def arrive(trials):
+    return sum(t["outcome"] == "goal" for t in trials)
+
+
+def of(trials):
+    return f"{arrive(trials)} of {len(trials)}"
+
+
+def table(rules, texs, trials):
     text = head(["rule", *(f"tex {tex} s" for tex in texs), "all"])
     for rule in rules:
         own = [t for t in trials if t["loop.latency"] == rule]
-        passed = [sum(t["outcome"] == "goal" for t in own if t["loop.tex"] == tex) for tex in texs]
-        text += row([f"`{rule}`", *passed, f"{sum(passed)} of {len(own)}"])
-    numbers = {"speeds": speeds, "recorded": settings["solve_times"], "spread": settings["latency_spread"]}
-    options.out.write_text(HEAD.format(**numbers) + text + NOTES.format(**numbers))
+        passed = [arrive(t for t in own if t["loop.tex"] == tex) for tex in texs]
+        text += row([f"`{rule}`", *passed, of(own)])
+    return text
+
+
+def findings(trials, charged):
+    """How each rule's drives end beside those of `paper`, and what a charge does to short horizons."""
+    by_rule = {}
+    for t in trials:
+        by_rule.setdefault(t["loop.latency"], {})[t["loop.tex"], t["obstacles.O2.vy"]] = t
+    lines = []
+    for rule, own in by_rule.items():
+        if rule != "paper":
+            alike = sum(t["outcome"] == by_rule["paper"][key]["outcome"] for key, t in own.items())
+            lines.append(f"- `{rule}`: {alike} of {len(own)} drives end as those of `paper` do.")
+    for rule in ("paper", "recorded"):
+        short = [t for t in by_rule[rule].values() if float(t["loop.tex"]) < charged]
+        rest = [t for t in by_rule[rule].values() if float(t["loop.tex"]) >= charged]
+        lines.append(f"- `{rule}` arrives in {of(short)} at horizons shorter than {charged:g} s, and in {of(rest)} "
+                     "at the others.")
+    return "\n".join(lines) + "\n"
+
+
+def page(trials, stamped):
+    (recorded,), = {tuple(json.loads(t["loop.solve_times"])) for t in trials}
+    speeds = list(dict.fromkeys(float(t["obstacles.O2.vy"]) for t in trials))
+    rules, texs = (list(dict.fromkeys(t[key] for t in trials)) for key in ("loop.latency", "loop.tex"))
+    longest = max(float(t["max_solve_time_s"] or 0) for t in trials if t["loop.latency"] == "measured")
+    return PAGE.format(
+        stamp=stamped, speeds=len(speeds), first=speeds[0], last=speeds[-1], longest=1e3 * longest,
+        recorded=recorded, median=float(trials[0]["loop.latency_median"]),
+        spread=float(trials[0]["loop.latency_spread"]), table=table(rules, texs, trials),
+        findings=findings(trials, recorded))
+
+
+def main():
+    options = page_parser("latency", __doc__).parse_args()
+    trials = swept(options.program, "latency", options.work)
+    write(options.out, page(trials, stamp("make latency", options.program)))
 
 
 if __name__ == "__main__":

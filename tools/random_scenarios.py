@@ -1,21 +1,18 @@
 #!/usr/bin/env python3
 """Sweeps random scenarios of every family with the planners P_A to P_D, at several execution horizons,
-and writes the counts and their paired comparison to docs/random-scenarios.md. Standard library only.
+and writes the counts and their paired comparison to docs/measured/random-scenarios.md. Standard library
+only.
 
-    tools/random_scenarios.py --program build/slalom [--count 125] [--seed 1] [--difficulty 0.5]
-
-The sweep goes on where it stopped, in --work.
+    tools/random_scenarios.py [--program build/slalom] [--count 125] [--seed 1] [--difficulty 0.5]
 """
 
-import argparse
 import collections
 import itertools
-import pathlib
 import subprocess
 
+from measured import page_parser, stamp, write
 from sweeps import head, interval, mcnemar, row, setting, swept
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
 PLANNERS = ("P_A", "P_B", "P_C", "P_D")
 FAMILIES = ("static_field", "moving_field", "crossing", "oncoming", "slalom", "double_lane_change",
             "gates", "dead_ends")
@@ -23,9 +20,9 @@ FAMILIES = ("static_field", "moving_field", "crossing", "oncoming", "slalom", "d
 VARIANTS = {"P_D": {}, "tex .1 s": {"loop.tex": 0.1},
             "N 40": {"planner.N": 40}, "N 40, range 90 m": {"planner.N": 40, "planner.L_range": 90}}
 
-HEAD = """<!-- Written by tools/random_scenarios.py (`make random-scenarios`). -->
-# Random scenarios
+HEAD = """# Random scenarios
 
+{stamp}
 `slalom make-scenarios FAMILY --count N --seed S --difficulty D --out DIR` makes scenarios of a family
 (`--help` lists them). The same numbers give the same files. Each has a way from start to goal that a
 vehicle could drive: a search (hybrid A*, Dolgov et al. 2010) over place, heading, speed, curvature and
@@ -36,15 +33,6 @@ of its LiDAR as far as its plan reaches them.
 
 """
 
-NOTES = """
-What the families show: where nothing moves P_C is as good as P_D, and what moves tells them apart. In
-`slalom` and `dead_ends` plans end in two ways. With N 10, nodes are 5 m apart at 17 m/s, obstacle
-constraints hold at nodes alone, and a plan cuts the end of a thin barrier between two of them. With
-more nodes, planning ends where the next barrier comes into range and the plan's end cannot get
-around it: the solver goes downhill from the last plan, and has no other way to look for one.
-"""
-
-
 def sweep(program, work, name, scenarios, planners, settings):
     """Runs or completes a sweep; its trials by scenario and planner."""
     study = work / f"{name}.yaml"
@@ -53,11 +41,15 @@ def sweep(program, work, name, scenarios, planners, settings):
     return {(t["scenario"], t["planner"]): t["outcome"] for t in swept(program, study, work / name)}
 
 
+def of_family(family, scenarios):
+    return [s for s in scenarios if s.rsplit("-", 1)[0] == family]
+
+
 def by_family(columns, scenarios):
     """A row a family of how many arrive; `columns`: outcomes by scenario, for each name."""
     text = head(["family", *columns])
     for family in FAMILIES:
-        own = [s for s in scenarios if s.rsplit("-", 1)[0] == family]
+        own = of_family(family, scenarios)
         passed = [sum(outcomes[s] == "goal" for s in own) for outcomes in columns.values()]
         text += row([family, *(f"{k}/{len(own)}" for k in passed)])
     passed = [sum(outcomes[s] == "goal" for s in scenarios) for outcomes in columns.values()]
@@ -87,21 +79,27 @@ def pairs(columns, wanted, scenarios):
     return text
 
 
-def page(planners, variants, scenarios, options):
-    return (HEAD + f"{len(scenarios)} scenarios, {options.count} of each family, seed {options.seed}, "
-            f"difficulty {options.difficulty:g}, execution horizon .5 s, floor .9. Drives that arrive:\n\n"
-            + by_family(planners, scenarios) + "\nHow they ended:\n\n" + ends(planners)
+def never(columns, scenarios):
+    """The families in which no drive of any column arrives."""
+    families = [family for family in FAMILIES if not any(
+        outcomes[s] == "goal" for outcomes in columns.values() for s in of_family(family, scenarios))]
+    return f"Families in which none of these arrives: {', '.join(families) or 'none'}.\n"
+
+
+def page(planners, variants, scenarios, options, stamped):
+    return (HEAD.format(stamp=stamped) + f"{len(scenarios)} scenarios, {options.count} of each family, seed {options.seed}, "
+            f"difficulty {options.difficulty:g}, else by default settings. Drives that arrive:\n\n"
+            + by_family(planners, scenarios) + "\n" + never(planners, scenarios)
+            + "\nHow they ended:\n\n" + ends(planners)
             + "\nPaired on the scenarios, by McNemar's exact test:\n\n"
             + pairs(planners, itertools.combinations(PLANNERS, 2), scenarios)
             + "\nP_D, with other settings:\n\n" + by_family(variants, scenarios) + "\n"
-            + pairs(variants, [("P_D", name) for name in variants if name != "P_D"], scenarios) + NOTES)
+            + pairs(variants, [("P_D", name) for name in variants if name != "P_D"], scenarios)
+            + "\n" + never(variants, scenarios))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", default="build/slalom")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/random-scenarios.md")
-    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run/random-scenarios")
+    parser = page_parser("random-scenarios", __doc__)
     parser.add_argument("--count", type=int, default=125, help="of each family")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--difficulty", type=float, default=0.5)
@@ -119,7 +117,8 @@ def main():
         if settings:
             trials = sweep(options.program, options.work, f"variant-{number}", folder, ["P_D"], settings)
             variants[name] = {s: trials[s, "P_D"] for s in scenarios}
-    options.out.write_text(page(planners, variants, scenarios, options))
+    stamped = stamp("make random-scenarios", options.program)
+    write(options.out, page(planners, variants, scenarios, options, stamped))
 
 
 if __name__ == "__main__":

@@ -1,25 +1,22 @@
 #!/usr/bin/env python3
-"""Times the planner in closed loop against its execution horizon and writes docs/realtime.md from one
-run. Standard library only.
+"""Times the planner in closed loop against its execution horizon and writes docs/measured/realtime.md
+from one run. Standard library only.
 
-    tools/realtime.py [--program build/slalom] [--out docs/realtime.md]
+    tools/realtime.py [--program build/slalom]
 
 Thread times are of the one run, the first, not the best of several.
 """
 
-import argparse
 import csv
 import json
 import math
-import os
 import pathlib
 import statistics
 import subprocess
 import tempfile
 
-from results import DRIVES
-
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+from measured import page_parser, stamp, write
+from robustness import PAPER as DRIVES
 
 # Drives of E_C by P_D: name, tex [s], deadline, what an unsolved cycle drives on.
 STUDIES = (("off", 0.01, "off", "last_plan"), ("10 ms", 0.01, "tex", "best_iterate"),
@@ -55,13 +52,6 @@ def ms(value):
 def simulate_arguments(tex, deadline, on_failure):
     return ["simulate", "E_C", "--planner", "P_D", "--tex", f"{tex:g}", "--set",
             f"loop.deadline={deadline}", "--set", f"loop.on_failure={on_failure}"]
-
-
-def machine():
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return f"{line.split(':')[1].strip()}, {os.cpu_count()} processors"
-    return f"{os.cpu_count()} processors"
 
 
 def reproduced_table(drives):
@@ -131,7 +121,7 @@ def unsolved_list(named_drives):
             "|---|---|---|---|---|---|---|---|", *lines]
 
 
-def page(drives, studies):
+def page(drives, studies, stamped):
     commands = [f"    slalom {' '.join(simulate_arguments(*study[1:]))} --out DIR"
                 for study in studies]
     longest = max(float(c["cpu_time_s"]) for d in drives.values() for c in d.solved)
@@ -143,11 +133,10 @@ def page(drives, studies):
               for study, d in studies.items()]
     backend = off.cycles[0]["backend"]
     return "\n".join([
-        "# Real time", "",
-        "How long planning takes beside the execution horizon. Written by `make realtime`",
-        f"(`tools/realtime.py`) from one run on {machine()}, solver",
-        f"`{backend}`. Times are of the planning thread; the operating system's share is in the wall",
-        "times of each drive's `cycles.csv`. *Solved* is the independent check's word.", "",
+        "# Real time", "", stamped,
+        f"How long planning takes beside the execution horizon, from one run, solver `{backend}`.",
+        "Times are of the planning thread; the operating system's share is in the wall times of each",
+        "drive's `cycles.csv`. *Solved* is the independent check's word.", "",
         "| what | wanted | found |", "|---|---|---|",
         "| the ten drives: longest solve of a cycle that was solved | at most 3 ms | "
         f"{ms(1e3 * longest)} ms |",
@@ -168,10 +157,7 @@ def page(drives, studies):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--program", default=str(ROOT / "build/slalom"))
-    parser.add_argument("--out", default=str(ROOT / "docs/realtime.md"))
-    args = parser.parse_args()
+    args = page_parser("realtime", __doc__, keeps=False).parse_args()
 
     def run(*arguments):
         subprocess.run([args.program, *map(str, arguments), "--quiet"], check=True)
@@ -184,10 +170,7 @@ def main():
         for study in STUDIES:
             run(*simulate_arguments(*study[1:]), "--out", folder / study[0])
             studies[study] = Drive(folder / study[0])
-        out = pathlib.Path(args.out)
-        aside = out.with_suffix(".part")
-        aside.write_text(page(drives, studies))
-        aside.rename(out)
+    write(args.out, page(drives, studies, stamp("make realtime", args.program)))
 
 
 if __name__ == "__main__":

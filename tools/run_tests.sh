@@ -75,6 +75,7 @@ if step "release build" release; then run_ctest release "tests and checks of the
 
 echo
 printf '%s\n' "${parts[@]}"
+python3 tools/measured.py --check
 echo "took $(((SECONDS - start) / 60)) min $(((SECONDS - start) % 60)) s"
 for failure in "${failures[@]}"; do echo "FAILED: $failure"; done
 if [ "$skipped" -gt 0 ]; then echo "$skipped skipped"; fi

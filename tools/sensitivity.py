@@ -1,23 +1,18 @@
 #!/usr/bin/env python3
 """Drives E_B and E_C with a plant or sensors other than the planner believes, one quantity at a time,
-and writes docs/sensitivity.md. Standard library only.
+and writes docs/measured/sensitivity.md. Standard library only.
 
-    tools/sensitivity.py --program build/slalom [--work run/sensitivity] [--jobs 2]
-
-The two sweeps go on where they stopped, in --work. What the page says of the figures stands in
-tools/sensitivity_notes.md; look at it again when they change.
+    tools/sensitivity.py [--program build/slalom] [--jobs 2]
 """
 
-import argparse
 import collections
 import itertools
 import json
-import pathlib
 from typing import NamedTuple
 
+from measured import page_parser, stamp, write
 from sweeps import interval, swept
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
 STARTS = {"E_B": (200, 0), "E_C": (6, 0)}  # [m]
 MOVES_X = (-0.3, -0.1, 0, 0.1, 0.3)  # [m]
 MOVES_Y = (-0.3, 0, 0.3)
@@ -159,13 +154,13 @@ def rates_table(trials, counts, n, by_part):
     return text
 
 
-HEAD = """<!-- Written by tools/sensitivity.py (`make sensitivity`). -->
-# Sensitivity to what is not as believed
+HEAD = """# Sensitivity to what is not as believed
 
+{stamp}
 The planner P_D believes the scenario's vehicle, what it is told of its state, and what it is told of
 its obstacles. The plant and the sensors differ from that here, one quantity at a time
-([formulation.md](formulation.md), section 4, "What is believed, and what is"; keys in
-[scenario-reference.md](scenario-reference.md)).
+([formulation.md](../formulation.md), section 4, "What is believed, and what is"; keys in
+[scenario-reference.md](../scenario-reference.md)).
 
 {n} drives at each value: E_B and E_C, tex {texes} s, starts moved by {dx} m
 in x and {dy} m in y, each start with a seed of its own for noise. All else is by default. A drive
@@ -189,7 +184,47 @@ Clearance is to obstacles grown by 2 m, below which it is a crash; a wheel lifts
 """
 
 
-def page(trials, notes):
+def columns(trials):
+    """The drives of one environment, tex and value, which differ in their start alone."""
+    found = collections.defaultdict(list)
+    for t in trials:
+        found[t["scenario"], t["loop.tex"], point_of(t)].append(t)
+    return found.values()
+
+
+def findings(trials, counts, n, by_part):
+    """What the tables show, in numbers alone."""
+    def of(own):
+        return f"{sum(t['outcome'] == 'goal' for t in own)} of {len(own)}"
+
+    def sides(wanted):
+        """Sides of quantities, `wanted` of the first rate away from neutral and of the least one."""
+        found = []
+        for q in QUANTITIES:
+            for name, values in (("below", q.below), ("above", q.above)):
+                rates = [counts[q.key, v] / n for v in values]
+                if rates and wanted(rates[0], min(rates)):
+                    found.append(f"`{q.key}` {name}")
+        return ", ".join(found) or "none"
+    level = counts[None, None] / n - DROP
+    off = [t for t in trials if point_of(t) != (None, None)]
+    alike = [column for column in columns(trials) if len({t["outcome"] == "goal" for t in column}) == 1]
+    unsolved = {name: sum(t["outcome"] == "not_optimal" for t in trials if part(t)) for name, part in by_part.items()}
+    parts = "; ".join(f"{name}: {of([t for t in off if part(t)])}" for name, part in by_part.items())
+    return f"""
+## What they show
+
+- With one quantity off, drives arrive in: {parts}.
+- The rate falls by {100 * DROP:.0f} points at the nearest value tried already: {sides(lambda first, _: first < level)}.
+- It falls so far at no value tried: {sides(lambda _, least: least >= level)}.
+- Intervals take drives for independent. The starts of one environment, tex and value all end alike, arriving or
+  not, in {len(alike)} of {len(columns(trials))} such sets.
+- One unsolved problem ends a drive (`loop.on_failure: stop`). Drives that end so: {
+    "; ".join(f"{name}: {count}" for name, count in unsolved.items())}.
+"""
+
+
+def page(trials, stamped):
     n = sum(point_of(t) == (None, None) for t in trials)
     counts = collections.Counter(point_of(t) for t in trials if t["outcome"] == "goal")
     base = counts[None, None]
@@ -198,22 +233,19 @@ def page(trials, notes):
                for e in STARTS for tex in TEXES}
     listed = lambda values: ", ".join(f"{v:g}" for v in values)  # noqa: E731
     text = HEAD.format(n=n, base=base, drop=100 * DROP, width=(high - low) / 2, texes=listed(TEXES),
-                       dx=listed(MOVES_X), dy=listed(MOVES_Y),
+                       dx=listed(MOVES_X), dy=listed(MOVES_Y), stamp=stamped,
                        share="{:.2f}, 95 % {:.2f}–{:.2f}".format(base / n, *interval(base, n)))
-    text += limits_table(counts, n) + MARGINS + margins_table(trials, by_part) + "\n" + notes
-    text += "\n## Every value\n\n"
+    text += limits_table(counts, n) + MARGINS + margins_table(trials, by_part)
+    text += findings(trials, counts, n, by_part) + "\n## Every value\n\n"
     return text + rates_table(trials, counts, n, by_part)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", default="build/slalom")
-    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run/sensitivity")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/sensitivity.md")
+    parser = page_parser("sensitivity", __doc__)
     parser.add_argument("--jobs", type=int, default=2, help="worker processes")
     options = parser.parse_args()
     trials = [trial for environment in STARTS for trial in sweep(options, environment)]
-    options.out.write_text(page(trials, (ROOT / "tools/sensitivity_notes.md").read_text()))
+    write(options.out, page(trials, stamp("make sensitivity", options.program)))
 
 
 if __name__ == "__main__":

@@ -52,13 +52,18 @@ class Sensitivity(unittest.TestCase):
         # Of 15 starts, 10 fail with much mass; elsewhere all arrive.
         def passes(key, value, seed):
             return key != "plant.mass_factor" or value <= 1.2 or seed >= 10
-        text = page(trials(passes), "A note.\n")
+        text = page(trials(passes), "A stamp.\n")
         row = next(line for line in text.splitlines() if line.startswith("| `plant.mass_factor` | 1 | 1 "))
         self.assertIn("| not to 0.6 (lowest rate 1.00) | 1.23 |", row)  # .1/(2/3) of the way from 1.2 to 1.4
         self.assertIn("| `plant.mass_factor` | 1.4 | 30 | 0.33 | 0.24–0.44 |", text)
         self.assertIn("crash cone (60)", text)
         self.assertIn("| E_C, tex 0.25 | 15/15 | 0.25–0.25 | O2 | 1100 |", text)
-        self.assertIn("A note.", text)
+        self.assertIn("A stamp.", text)
+        self.assertIn("`plant.mass_factor` below, ", text.split("falls so far at no value tried")[1].split("\n")[0])
+        self.assertNotIn("`plant.mass_factor` above", text.split("falls so far at no value tried")[1].split("\n")[0])
+        self.assertIn("at the nearest value tried already: none.", text)
+        self.assertIn("E_C, tex 0.25: 1105 of 1125", text)
+        self.assertIn("in 444 of 456 such sets", text)
         self.assertIn("90 drives at each value", text)
 
 

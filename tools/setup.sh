@@ -37,6 +37,7 @@ python3-dev         | wheel | pc:python3                | compiles the Python ex
 python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
 gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
 make                | bench | cmd:make                  | builds acados' generated solver
+linux-perf          | bench | cmd:perf                  | samples the profile of a solve
 TABLE
 }
 

@@ -1,9 +1,29 @@
-"""Sweeps for the tools that write pages: run, read, counted and set in tables. Standard library only."""
+"""Drives and sweeps for the tools that write pages: run, read, counted and set in tables. Standard
+library only."""
 
 import csv
+import json
 import math
 import pathlib
 import subprocess
+import tempfile
+
+
+def driven(program, scenario, planner, settings):
+    """One drive with `settings` ("planner.N": 15): its summary, and the rows of its cycles.csv."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [program, "simulate", scenario, "--planner", planner, "--out", folder, "--force", "--quiet"]
+        for key, value in settings.items():
+            command += ["--set", f"{key}={value}"]
+        subprocess.run(command, check=True)
+        out = pathlib.Path(folder)
+        with open(out / "cycles.csv", newline="") as file:
+            return json.loads((out / "summary.json").read_text()), list(csv.DictReader(file))
+
+
+def ended(summary):
+    """Outcome, and what was hit."""
+    return summary["outcome"] + (f" {summary['hit']}" if summary["hit"] else "")
 
 
 def trials(folder):

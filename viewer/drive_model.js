@@ -109,7 +109,7 @@
     add(data.start.x, data.start.y, 5, 5);
     add(data.goal.x, data.goal.y, data.goal.sigma, data.goal.sigma);
     for (let i = 0; i < plant.t.length; ++i) add(plant.x[i], plant.y[i], 4, 4);
-    for (const o of data.obstacles) add(o.x, o.y, o.a + data.loop.sm_crash, o.b + data.loop.sm_crash);
+    for (const o of data.obstacles) add(o.x, o.y, o.grown.a, o.grown.b);
     const r = data.region;
     if (r.x_min !== null) box.x0 = Math.min(box.x0, r.x_min - 2);
     if (r.x_max !== null) box.x1 = Math.max(box.x1, r.x_max + 2);

@@ -133,7 +133,7 @@
     for (const o of obstacles) {
       const p = slalom.obstacleAt(o, t);
       if (layers.grown) {
-        ellipse(p.x, p.y, o.a + loop.sm_crash, o.b + loop.sm_crash);
+        ellipse(p.x, p.y, o.grown.a, o.grown.b);
         ctx.strokeStyle = colour.vermilion;
         ctx.globalAlpha = 0.6;
         ctx.lineWidth = 1;

@@ -1,3 +1,4 @@
+#include "all_problems.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "slalom/problems/page.hpp"
@@ -18,7 +19,7 @@ void add_docs(CLI::App& app, Command& run) {
       });
   command->add_subcommand("problems", "The library of problems, as Markdown")->callback([&run] {
     run = [] {
-      print(problems::page());
+      print(problems::page(all_problems()));
       return kOk;
     };
   });

@@ -8,7 +8,7 @@
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "slalom/io/scenario_set.hpp"
-#include "slalom/study/families.hpp"
+#include "slalom/sweep/families.hpp"
 
 namespace slalom::app {
 namespace {
@@ -25,7 +25,7 @@ int make_scenarios(const MakeOptions& options) {
   std::vector<sim::Scenario> made;
   for (int index = 1; index <= options.count; ++index) {
     if (interrupted()) return kInterrupted;
-    made.push_back(study::make_scenario(
+    made.push_back(sweep::make_scenario(
         options.family, {.seed = options.seed, .index = index, .difficulty = options.difficulty}));
   }
   write_or_fail([&] { io::write_scenarios(options.out, made, options.force); });
@@ -51,7 +51,7 @@ void add_make_scenarios(CLI::App& app, Command& run) {
   auto options = std::make_shared<MakeOptions>();
   auto* command = app.add_subcommand("make-scenarios", "Make random scenarios of one family");
   std::string list = "Families:\n";
-  for (const auto& family : study::families())
+  for (const auto& family : sweep::families())
     list += fmt::format("  {:<20}{}\n", family.name, family.about);
   command->add_option("FAMILY", options->family, "Which kind; see below")->required();
   command->add_option("--count", options->count, "How many")

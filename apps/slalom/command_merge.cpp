@@ -5,7 +5,7 @@
 
 #include "commands.hpp"
 #include "exit_code.hpp"
-#include "slalom/io/sweep.hpp"
+#include "slalom/sweep/sweep.hpp"
 
 namespace slalom::app {
 namespace {
@@ -17,10 +17,10 @@ struct MergeOptions {
 };
 
 int merge(const MergeOptions& options) {
-  io::SweepContent merged;
+  sweep::SweepContent merged;
   write_or_fail([&] {
     merged =
-        io::merge_sweeps({options.from.begin(), options.from.end()}, options.out, options.force);
+        sweep::merge_sweeps({options.from.begin(), options.from.end()}, options.out, options.force);
   });
   const auto& study = merged.study;
   if (options.json)

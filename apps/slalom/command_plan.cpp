@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <optional>
 
 #include "commands.hpp"
 #include "exit_code.hpp"
@@ -14,39 +13,19 @@ namespace {
 
 const std::vector<std::string> kOutcomes = {"solved", "not_optimal", "interrupted"};
 
-/// The first cycle of the closed loop, predicted from the start and solved, and the warm-up solve
-/// before it.
-struct First {
-  std::optional<sim::Cycle> cycle;
-  std::optional<sim::Cycle> warm_up;
-
-  const sim::Cycle* warm_up_or_null() const { return warm_up ? &*warm_up : nullptr; }
-};
-
-First first_cycle(const sim::Scenario& scenario) {
-  First first;
-  sim::LoopHooks hooks;
-  hooks.on_cycle = [&](const sim::Cycle& cycle) {
-    (cycle.index > 0 ? first.cycle : first.warm_up) = cycle;
-  };
-  hooks.interrupted = [&] { return first.cycle.has_value() || interrupted(); };
-  (void)sim::drive(scenario, hooks);
-  return first;
-}
-
-std::string plan_text(const sim::Scenario& scenario, const First& first) {
+std::string plan_text(const sim::Scenario& scenario, const sim::FirstPlan& first) {
   const auto& cycle = *first.cycle;
   const auto& plan = cycle.plan;
   const auto& report = plan.report;
   auto text = fmt::format(
       "{} with {}: {} after {} iterations, {:.3f} s; from {:g} s on, {:.3f} s long, cost {:.4f}\n",
-      scenario.name, scenario.planner.name, report.status, report.iterations, report.wall_s,
+      scenario.name, scenario.planner.name, report.status_text(), report.iterations, report.wall_s,
       plan.t_start, plan.tf, report.cost);
   if (first.warm_up) {
     const auto& before = first.warm_up->plan.report;
     text += fmt::format(
         "  after a warm-up solve of the same problem: {} after {} iterations, {:.3f} s\n",
-        before.status, before.iterations, before.wall_s);
+        before.status_text(), before.iterations, before.wall_s);
   }
   for (const auto& [name, value] : report.cost_terms)
     text += fmt::format("  {:<12} {:>12.4f}\n", name, value);
@@ -66,14 +45,15 @@ int plan(const CommonOptions& options) {
   check_expectations(options.expect, kOutcomes);
   const auto scenario = io::load_scenario(options.request);
   if (options.writes()) write_or_fail([&] { io::prepare_folder(options.out, options.force); });
-  const auto first = first_cycle(scenario);
+  const auto first = sim::first_plan(scenario, interrupted);
   const auto& cycle = first.cycle;
+  const auto* warm_up = first.warm_up ? &*first.warm_up : nullptr;
   if (!cycle || (interrupted() && !cycle->plan.report.solved))
     return exit_code_for("interrupted", options.expect);
   if (options.writes())
-    write_or_fail([&] { io::write_plan(options.out, scenario, *cycle, first.warm_up_or_null()); });
+    write_or_fail([&] { io::write_plan(options.out, scenario, *cycle, warm_up); });
   if (options.json) {
-    print(io::plan_json(scenario, *cycle, first.warm_up_or_null()));
+    print(io::plan_json(scenario, *cycle, warm_up));
   } else if (!options.quiet) {
     print(plan_text(scenario, first));
   }

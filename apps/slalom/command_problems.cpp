@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "all_problems.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "slalom/problems/page.hpp"
@@ -23,7 +24,7 @@ struct ProblemsOptions {
 
 std::string list_text() {
   std::string text = fmt::format("{:<24}{:<62}{}\n", "name", "problem", "what it exercises");
-  for (const auto& entry : problems::library())
+  for (const auto& entry : all_problems())
     text += fmt::format("{:<24}{:<62}{}\n", entry.name, entry.title, tags_of(entry));
   return text;
 }
@@ -92,7 +93,7 @@ std::string run_text(const Run& run) {
 }
 
 int one(const ProblemsOptions& options) {
-  const Entry& entry = problems::find(options.name);
+  const Entry& entry = problems::find(all_problems(), options.name);
   if (!options.json) print(entry_text(entry));
   const Run run = problems::run(entry, options.settings);
   if (options.json) {
@@ -106,7 +107,6 @@ int one(const ProblemsOptions& options) {
 }
 
 int all(const ProblemsOptions& options) {
-  const auto& library = problems::library();
   RunSettings second = options.settings;
   second.scheme = options.settings.scheme == "lgr" ? "hermite_simpson" : "lgr";
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -114,7 +114,7 @@ int all(const ProblemsOptions& options) {
     print(fmt::format("{:<24}{:>17}  {:<18}{:>17}{:>11}{:>11}{:>9}  {}\n", "name", "reference",
                       "scheme", "value", "difference", "error", "solve [s]", "status"));
   bool agree = true;
-  for (const Entry& entry : library)
+  for (const Entry& entry : all_problems())
     for (const RunSettings& settings : {options.settings, second}) {
       const Run run = problems::run(entry, settings);
       agree = agree && run.agrees;
@@ -139,7 +139,7 @@ int problems_command(const ProblemsOptions& options) {
     return kOk;
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const auto& entry : problems::library()) json.push_back(json_of(entry));
+  for (const auto& entry : all_problems()) json.push_back(json_of(entry));
   print(json.dump(2) + "\n");
   return kOk;
 }

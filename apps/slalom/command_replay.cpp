@@ -51,9 +51,7 @@ std::string json_text(const io::RecordedSolve& solve, const planner::Replayed& r
 
 int replay(const ReplayOptions& options) {
   const auto solve = io::read_recording(options.file);
-  const auto& s = solve.scenario;
-  const auto replayed =
-      planner::replay(solve.recording, s.planner, s.vehicle, s.goal, s.region, s.obstacles);
+  const auto replayed = planner::replay(solve.recording, solve.scenario);
   if (options.common.json) {
     print(json_text(solve, replayed));
   } else if (!options.common.quiet) {

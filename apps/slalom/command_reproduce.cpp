@@ -5,19 +5,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "../../src/paper/paper_data.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "slalom/io/drive_files.hpp"
-#include "slalom/io/paper_data.hpp"
 #include "slalom/sim/closed_loop.hpp"
 
 namespace slalom::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Drives = std::vector<study::ReproducedDrive>;
+using Drives = std::vector<paper::ReproducedDrive>;
 
 /// The drives of the paper's figures, then those of which its text alone speaks.
 constexpr std::pair<const char*, const char*> kDrives[] = {
@@ -41,14 +41,14 @@ Drives load_all(const CommonOptions& options) {
 }
 
 /// What the paper says of this drive, or nullptr.
-const study::PaperDrive* paper_of(const study::PaperData& paper,
-                                  const study::ReproducedDrive& one) {
+const paper::PaperDrive* paper_of(const paper::PaperData& paper,
+                                  const paper::ReproducedDrive& one) {
   for (const auto& drive : paper.drives)
     if (drive.environment + "/" + drive.planner == one.folder) return &drive;
   return nullptr;
 }
 
-std::string row(const study::ReproducedDrive& one, const study::PaperDrive* paper) {
+std::string row(const paper::ReproducedDrive& one, const paper::PaperDrive* paper) {
   const auto& drive = one.drive;
   const auto end =
       fmt::format("{} {}", sim::to_string(drive.outcome), drive.hit.empty() ? "" : drive.hit);
@@ -73,7 +73,7 @@ class Reproduction {
   }
 
   /// False when interrupted.
-  bool drive(study::ReproducedDrive& one, const study::PaperDrive* printed) {
+  bool drive(paper::ReproducedDrive& one, const paper::PaperDrive* printed) {
     Progress progress(fmt::format("{}/{} {}", ++index_, count_, one.folder), options_.quiet);
     sim::LoopHooks hooks;
     hooks.on_cycle = [&](const sim::Cycle& cycle) { progress.show(cycle); };
@@ -102,9 +102,9 @@ class Reproduction {
 int reproduce(const CommonOptions& options) {
   check_expectations(options.expect, {"paper"});
   auto drives = load_all(options);
-  auto cases = io::load_concept_cases(options.request);
-  const auto paper = io::load_paper_data();
-  std::vector<study::ReproducedDrive*> all;
+  auto cases = paper::load_concept_cases(options.request);
+  const auto paper = paper::load_paper_data();
+  std::vector<paper::ReproducedDrive*> all;
   for (auto& one : drives) all.push_back(&one);
   for (auto& one : cases) all.push_back(&one.driven);
   const fs::path out = options.out;
@@ -121,7 +121,7 @@ int reproduce(const CommonOptions& options) {
       return kInterrupted;
     }
   if (options.writes()) {
-    write_or_fail([&] { io::write_reproduction(out, drives, paper, cases); });
+    write_or_fail([&] { paper::write_reproduction(out, drives, paper, cases); });
     if (reproduction.text()) print(fmt::format("written to {}\n", (out / "index.html").string()));
   }
   if (options.json) print(reproduction.json().dump(2) + "\n");

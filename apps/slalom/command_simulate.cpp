@@ -34,7 +34,8 @@ class Recordings {
   planner::Recorder recorder() {
     if (options_.record.empty()) return {};
     return {[this](const planner::SolveReport& report) {
-              const bool failed = !report.solved && report.status != "interrupted";
+              const bool failed =
+                  !report.solved && report.status != planner::PlanStatus::interrupted;
               return failed || report.cpu_s >= options_.slow;
             },
             [this](const planner::Recording& recording) {

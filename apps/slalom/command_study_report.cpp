@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "../../src/paper/published_sweep.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
-#include "slalom/io/sweep_report.hpp"
-#include "slalom/io/trial_drive.hpp"
+#include "slalom/sweep/sweep_pages.hpp"
+#include "slalom/sweep/trial_drive.hpp"
 #include "sweep_server.hpp"
 
 namespace slalom::app {
@@ -26,13 +27,13 @@ struct ReportOptions {
 int study_report(const ReportOptions& options) {
   for (const auto trial : options.trials) {
     if (interrupted()) return kInterrupted;
-    const auto drive = io::trial_drive(options.folder, trial);
+    const auto drive = sweep::trial_drive(options.folder, trial);
     const char* how = !drive.again        ? "kept"
                       : drive.as_recorded ? "driven again, as recorded"
                                           : "driven again, and NOT as recorded";
     print(fmt::format("trial {}: {} ({})\n", trial, (drive.folder / "report.html").string(), how));
   }
-  write_or_fail([&] { io::write_sweep_report(options.folder); });
+  write_or_fail([&] { sweep::write_sweep_report(options.folder, paper::published_sweep()); });
   print(fmt::format("written to {}/index.html\n", options.folder));
   if (options.port >= 0) write_or_fail([&] { serve_sweep(options.folder, options.port); });
   return kOk;

@@ -8,8 +8,8 @@
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
-#include "slalom/io/open_sweep.hpp"
-#include "slalom/io/sweep.hpp"
+#include "slalom/sweep/open_sweep.hpp"
+#include "slalom/sweep/sweep.hpp"
 #include "sweep_progress.hpp"
 
 namespace slalom::app {
@@ -36,8 +36,8 @@ std::pair<int, int> parse_shard(const std::string& text) {
   return {i, n};
 }
 
-io::SweepRequest request_of(const SweepOptions& options) {
-  io::SweepRequest request;
+sweep::SweepRequest request_of(const SweepOptions& options) {
+  sweep::SweepRequest request;
   request.out = options.out;
   request.jobs = options.jobs > 0
                      ? options.jobs
@@ -51,8 +51,8 @@ io::SweepRequest request_of(const SweepOptions& options) {
   return request;
 }
 
-Json event_json(const io::SweepEvent& event) {
-  using Kind = io::SweepEvent::Kind;
+Json event_json(const sweep::SweepEvent& event) {
+  using Kind = sweep::SweepEvent::Kind;
   switch (event.kind) {
     case Kind::begun:
       return {{"event", "begun"}, {"trials", event.total}, {"found_done", event.before}};
@@ -78,7 +78,7 @@ std::string line_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string end_text(const SweepOptions& options, const io::SweepSummary& s) {
+std::string end_text(const SweepOptions& options, const sweep::SweepSummary& s) {
   auto text = fmt::format("{} trials: {} run now", s.total, s.done);
   if (s.before > 0) text += fmt::format(", {} found done", s.before);
   if (s.failed > 0) text += fmt::format(", {} failed (see the column message)", s.failed);
@@ -90,17 +90,17 @@ std::string end_text(const SweepOptions& options, const io::SweepSummary& s) {
 
 int sweep(const SweepOptions& options) {
   auto request = request_of(options);
-  const auto study = io::load_study(options.study, options.overrides);
+  const auto study = sweep::load_study(options.study, options.overrides);
   SweepProgress progress(study.name, options.quiet);
-  io::SweepHooks hooks;
-  hooks.on_event = [&](const io::SweepEvent& event) {
+  sweep::SweepHooks hooks;
+  hooks.on_event = [&](const sweep::SweepEvent& event) {
     progress.take(event);
     if (options.json) print(line_of(event_json(event)));
   };
   hooks.tick = [&] { progress.tick(); };
   hooks.interrupted = interrupted;
-  io::SweepSummary summary;
-  write_or_fail([&] { summary = io::run_sweep(study, request, hooks); });
+  sweep::SweepSummary summary;
+  write_or_fail([&] { summary = sweep::run_sweep(study, request, hooks); });
   progress.clear();
   if (options.json)
     print(line_of({{"event", "ended"},
@@ -121,7 +121,7 @@ void add_worker(CLI::App& app, Command& run) {
   command->group("");
   command->callback([&run] {
     run = [] {
-      io::serve_trials();
+      sweep::serve_trials();
       return kOk;
     };
   });

@@ -35,9 +35,7 @@ std::optional<std::string> unknown_command(const CLI::App& cli, const std::strin
     if (command->get_name() == word) return std::nullopt;
     if (!command->get_group().empty()) names.push_back(command->get_name());
   }
-  const auto nearest = nearest_name(word, names);
-  return fmt::format("found '{}', expected one of {}{}", word, fmt::join(names, ", "),
-                     nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest));
+  return fmt::format("found '{}', expected {}", word, one_of(word, names));
 }
 
 /// Reads the arguments into `run`; an exit code when there is nothing to run.

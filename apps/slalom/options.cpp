@@ -61,12 +61,8 @@ void add_expect(CLI::App& command, CommonOptions& options, const std::string& ou
 void check_expectations(const std::vector<std::string>& expect,
                         const std::vector<std::string>& known) {
   for (const auto& word : expect)
-    if (std::find(known.begin(), known.end(), word) == known.end()) {
-      const auto nearest = nearest_name(word, known);
-      throw InvalidValue("--expect", fmt::format("'{}'", word),
-                         fmt::format("one of {}{}", fmt::join(known, ", "),
-                                     nearest.empty() ? "" : " (did you mean '" + nearest + "'?)"));
-    }
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw InvalidValue("--expect", fmt::format("'{}'", word), one_of(word, known));
 }
 
 int exit_code_for(const std::string& outcome, const std::vector<std::string>& expect) {

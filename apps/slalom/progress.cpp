@@ -1,33 +1,17 @@
 #include "progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
 
 namespace slalom::app {
 
-Progress::Progress(std::string label, bool quiet)
-    : label_(std::move(label)), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
-
-Progress::~Progress() {
-  clear();
-}
+Progress::Progress(std::string label, bool quiet) : label_(std::move(label)), line_(quiet) {}
 
 void Progress::show(const sim::Cycle& cycle) {
-  if (!on_) return;
+  if (!line_.on()) return;
   const auto& plan = cycle.plan;
-  fmt::print(stderr, "\r\x1b[K{}  t {:5.1f} s  cycle {}  solve {:.3f} s of {:g} s  {:.1f} m/s",
-             label_, cycle.t0, cycle.index, plan.report.wall_s, cycle.tex, cycle.X0p[vehicle::UX]);
-  std::fflush(stderr);
-  shown_ = true;
-}
-
-void Progress::clear() {
-  if (!shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
-  shown_ = false;
+  line_.show(fmt::format("{}  t {:5.1f} s  cycle {}  solve {:.3f} s of {:g} s  {:.1f} m/s", label_,
+                         cycle.t0, cycle.index, plan.report.wall_s, cycle.tex,
+                         cycle.X0p[vehicle::UX]));
 }
 
 }  // namespace slalom::app

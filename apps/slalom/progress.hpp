@@ -3,6 +3,7 @@
 #include <string>
 
 #include "slalom/sim/drive.hpp"
+#include "status_line.hpp"
 
 namespace slalom::app {
 
@@ -11,18 +12,14 @@ class Progress {
  public:
   /// `label` starts the line, e.g. "E_C P_D"; `quiet` keeps it away in any case.
   Progress(std::string label, bool quiet);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   void show(const sim::Cycle& cycle);
   /// Takes the line away, so that what is printed next starts clean.
-  void clear();
+  void clear() { line_.clear(); }
 
  private:
   std::string label_;
-  bool on_;
-  bool shown_ = false;
+  StatusLine line_;
 };
 
 }  // namespace slalom::app

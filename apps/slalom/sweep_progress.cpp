@@ -1,10 +1,8 @@
 #include "sweep_progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace slalom::app {
 namespace {
@@ -19,13 +17,9 @@ std::string clock_text(double seconds) {
 }  // namespace
 
 SweepProgress::SweepProgress(std::string label, bool quiet)
-    : label_(std::move(label)), on_(!quiet && isatty(STDERR_FILENO) != 0) {}
+    : label_(std::move(label)), line_(quiet) {}
 
-SweepProgress::~SweepProgress() {
-  clear();
-}
-
-void SweepProgress::take(const io::SweepEvent& event) {
+void SweepProgress::take(const sweep::SweepEvent& event) {
   total_ = event.total;
   before_ = event.before;
   done_ = event.done;
@@ -34,36 +28,26 @@ void SweepProgress::take(const io::SweepEvent& event) {
   failed_ += event.record->outcome == "failed" || event.record->outcome == "invalid";
 }
 
-std::string SweepProgress::line() const {
+std::string SweepProgress::text() const {
   constexpr int kWidth = 24;
   const auto all = before_ + done_;
   const auto filled = total_ > 0 ? static_cast<int>(kWidth * all / total_) : kWidth;
-  auto text = fmt::format("{} [{:#<{}}{:.<{}}] {}/{}", label_, "", filled, "", kWidth - filled, all,
+  auto line = fmt::format("{} [{:#<{}}{:.<{}}] {}/{}", label_, "", filled, "", kWidth - filled, all,
                           total_);
   const double elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   if (done_ > 0 && elapsed > 0) {
     const double rate = static_cast<double>(done_) / elapsed;
-    text += fmt::format("  {:.3g} a second  {} left", rate,
+    line += fmt::format("  {:.3g} a second  {} left", rate,
                         clock_text(static_cast<double>(total_ - all) / rate));
   }
-  text += fmt::format("  {} at the goal", passed_);
-  if (failed_ > 0) text += fmt::format("  {} failed", failed_);
-  return text;
+  line += fmt::format("  {} at the goal", passed_);
+  if (failed_ > 0) line += fmt::format("  {} failed", failed_);
+  return line;
 }
 
 void SweepProgress::tick() {
-  if (!on_) return;
-  fmt::print(stderr, "\r\x1b[K{}", line());
-  std::fflush(stderr);
-  shown_ = true;
-}
-
-void SweepProgress::clear() {
-  if (!shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
-  shown_ = false;
+  if (line_.on()) line_.show(text());
 }
 
 }  // namespace slalom::app

@@ -3,7 +3,8 @@
 #include <chrono>
 #include <string>
 
-#include "slalom/io/sweep.hpp"
+#include "slalom/sweep/sweep.hpp"
+#include "status_line.hpp"
 
 namespace slalom::app {
 
@@ -12,22 +13,18 @@ namespace slalom::app {
 class SweepProgress {
  public:
   SweepProgress(std::string label, bool quiet);
-  ~SweepProgress();
-  SweepProgress(const SweepProgress&) = delete;
-  SweepProgress& operator=(const SweepProgress&) = delete;
 
-  void take(const io::SweepEvent& event);
+  void take(const sweep::SweepEvent& event);
   /// Redraws once in a while.
   void tick();
   /// Takes the line away.
-  void clear();
+  void clear() { line_.clear(); }
 
  private:
-  std::string line() const;
+  std::string text() const;
 
   std::string label_;
-  bool on_;
-  bool shown_ = false;
+  StatusLine line_;
   std::int64_t total_ = 0, before_ = 0, done_ = 0, passed_ = 0, failed_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

@@ -11,7 +11,7 @@
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/io/trial_drive.hpp"
+#include "slalom/sweep/trial_drive.hpp"
 
 namespace slalom::app {
 namespace {
@@ -27,7 +27,7 @@ class Drives {
   httplib::Server::HandlerResponse make(const std::string& number, httplib::Response& response) {
     const std::lock_guard lock(mutex_);
     try {
-      (void)io::trial_drive(folder_, std::stoll(number));
+      (void)sweep::trial_drive(folder_, std::stoll(number));
       return httplib::Server::HandlerResponse::Unhandled;
     } catch (const InvalidValue& error) {
       response.status = 404;

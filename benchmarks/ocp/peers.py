@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Times tools for optimal control on the same problems to the same accuracy: docs/peers.md.
+"""Times tools for optimal control on the same problems to the same accuracy, into
+docs/measured/peers.md.
 
 Each contestant solves each statement (statements.py) on uniform meshes of 10, 20, 40, ... 320
 intervals by each of its schemes; the first mesh of a scheme whose answer judge.py finds good is that
@@ -9,7 +10,7 @@ seven, in a process of its own; the contestant's best scheme, by both together, 
 usage: peers.py [--out DOC] [--folder DIR] [--contestants a,b] [--problems a,b] [--fresh]
 
 Packages (requirements.txt) and the wheel of the Python package come into DIR/venv. What was measured
-is kept in DIR and not measured again without --fresh.
+at a commit is kept in DIR and not measured again without --fresh.
 """
 
 import argparse
@@ -24,6 +25,9 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from measured import FOLDER, commit, stamp, write  # noqa: E402
+
 CONTESTANTS = ["slalom", "asset", "casadi", "maptor"]
 NAMES = {"slalom": "Slalom", "asset": "ASSET", "casadi": "CasADi + Ipopt", "maptor": "MAPTOR"}
 INTERVALS = [10, 20, 40, 80, 160, 320]
@@ -155,15 +159,14 @@ def ratios(results, problems):
     return lines
 
 
-def page(results, references, titles, machine):
-    """The text of docs/peers.md."""
+def page(results, references, titles, stamped):
+    """The text of docs/measured/peers.md."""
     problems = list(titles)
     return "\n".join([
-        "# Tools for optimal control, on the same problems to the same accuracy", "",
-        "Made by `make peers` (`benchmarks/ocp/peers.py`), which describes how; problems in",
-        "`statements.py`, accuracy in `judge.py`: every interval, integrated anew by SciPy's DOP853",
-        "with the answer's own controls, ends within 1e-6 (relative) of the answer's next node, and",
-        "the objective is within 1e-4 of the converged one.", "", machine, "",
+        "# Tools for optimal control, on the same problems to the same accuracy", "", stamped,
+        "How: `benchmarks/ocp/peers.py`; problems in `statements.py`, accuracy in `judge.py`: every interval,",
+        "integrated anew by SciPy's DOP853 with the answer's own controls, ends within 1e-6 (relative) of the",
+        "answer's next node, and the objective is within 1e-4 of the converged one. One thread each.", "",
         "## Times: set-up + solve [ms] (scheme, intervals)", "",
         *table(results, problems, titles), "",
         "–: no answer as accurate with up to 320 equal intervals by any of its schemes.", "",
@@ -174,19 +177,10 @@ def page(results, references, titles, machine):
         ""])
 
 
-def machine_of():
-    """What it ran on."""
-    cpu = next((line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text()
-                .splitlines() if line.startswith("model name")), "unknown processor")
-    load = os.getloadavg()[0]
-    return (f"{cpu}, {os.cpu_count()} cores, one thread each; load of the machine while writing "
-            f"this {load:.1f}.")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", default=str(ROOT / "docs/peers.md"))
+    parser.add_argument("--out", type=Path, default=FOLDER / "peers.md")
     parser.add_argument("--folder", default=str(ROOT / "build/peers"))
     parser.add_argument("--contestants", default=",".join(CONTESTANTS))
     parser.add_argument("--problems")
@@ -210,7 +204,7 @@ def main():
     import statements  # noqa: PLC0415
 
     titles = {make.__name__: make().name for make in statements.STATEMENTS}
-    kept = folder / "results.json"
+    kept = folder / f"results-{commit()}.json"
     results = json.loads(kept.read_text()) if kept.exists() and not arguments.fresh else {}
     references = results.setdefault("references", {})
     wanted = arguments.problems.split(",") if arguments.problems else list(titles)
@@ -227,7 +221,8 @@ def main():
             print(problem, contestant, best(found), flush=True)
             kept.write_text(json.dumps(results, indent=1))
     done = {p: t for p, t in titles.items() if p in results}
-    Path(arguments.out).write_text(page(results, references, done, machine_of()))
+    extension = next(folder.glob("venv/lib/python*/site-packages/slalom/*.so"), "")
+    write(arguments.out, page(results, references, done, stamp("make peers", extension)))
 
 
 if __name__ == "__main__":

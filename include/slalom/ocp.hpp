@@ -1,9 +1,8 @@
 #pragma once
 
-/// Optimal control whole: expressions, problems in one phase or several, guesses, solving, answers
-/// judged and refined, receding horizons. All of it is in slalom::ocp but for
-/// slalom::expr, whose functions (sin, square, min, cubic_spline, ...) are found by their
-/// arguments.
+/// All of optimal control: expressions, problems in one phase or several, guesses, solving, judging
+/// and refining answers, receding horizons. It is in slalom::ocp, except for the functions of
+/// slalom::expr (sin, square, min, cubic_spline, ...), which are found by their arguments.
 
 #include "slalom/expr/expr.hpp"
 #include "slalom/expr/spline.hpp"

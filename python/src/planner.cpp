@@ -28,8 +28,7 @@ struct ScenarioPlanner {
   planner::Planner planner;
   double tex;
 
-  explicit ScenarioPlanner(const Scenario& s)
-      : planner(s.planner, s.vehicle, s.goal, s.region, s.obstacles), tex(s.loop.tex) {}
+  explicit ScenarioPlanner(const Scenario& s) : planner(s), tex(s.loop.tex) {}
 };
 
 Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
@@ -37,7 +36,7 @@ Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
   planner::Request request;
   request.X0p = state_of(state, "plan: state");
   request.t0 = t0;
-  request.tex = tex.value_or(self.tex);
+  request.t_start = t0 + tex.value_or(self.tex);
   request.time_limit = time_limit;
   request.best_iterate_tol = best_iterate_tol;
   Released released;
@@ -55,7 +54,8 @@ void bind_report(nb::class_<Plan>& type) {
   type.def_prop_ro(
           "solved", [](const Plan& p) { return p.report.solved; }, doc::planner_SolveReport_solved)
       .def_prop_ro(
-          "status", [](const Plan& p) { return p.report.status; }, doc::planner_SolveReport_status)
+          "status", [](const Plan& p) { return p.report.status_text(); },
+          doc::planner_SolveReport_status_text)
       .def_prop_ro(
           "backend", [](const Plan& p) { return p.report.backend; },
           doc::planner_SolveReport_backend)
@@ -113,7 +113,7 @@ void bind_plan(nb::module_& module) {
           nb::rv_policy::move,
           "The control at each node, [node, control], in the order of control_names.")
       .def("__repr__", [](const Plan& p) {
-        return "<Plan: " + p.report.status + ", " + std::to_string(p.t.size()) + " nodes>";
+        return "<Plan: " + p.report.status_text() + ", " + std::to_string(p.t.size()) + " nodes>";
       });
   bind_report(type);
 }

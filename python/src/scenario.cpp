@@ -31,42 +31,26 @@ std::string text_of(const nb::dict& scenario) {
       nb::module_::import_("json").attr("dumps")(scenario, "default"_a = plain));
 }
 
-/// Calls `visit(prefix, table, settings)` for each of the tables of options.
-template <class Visit>
-void for_tables(const Scenario& s, const Visit& visit) {
-  visit("vehicle.", vehicle::parameter_options(), s.vehicle);
-  visit("planner.", planner::setting_options(), s.planner);
-  visit("loop.", sim::loop_options(), s.loop);
-  visit("plant.", sim::plant_options(), s.plant);
-  visit("sensing.", sim::sensing_options(), s.sensing);
-}
-
 std::vector<std::string> keys(const Scenario& scenario) {
   std::vector<std::string> names;
-  for_tables(scenario, [&](const char* prefix, const auto& table, const auto&) {
-    for (const auto& entry : table.entries()) names.push_back(prefix + entry.info.name);
-  });
+  for (const auto& [key, value] : io::settings_of(scenario)) names.push_back(key);
   return names;
 }
 
-nb::any value(const Scenario& scenario, const std::string& key) {
-  nb::object found;
-  for_tables(scenario, [&](const char* prefix, const auto& table, const auto& settings) {
-    for (const auto& entry : table.entries())
-      if (prefix + entry.info.name == key)
-        std::visit([&](const auto& v) { found = nb::cast(v); }, entry.get(settings));
-  });
-  if (found.is_valid()) return nb::borrow<nb::any>(found);
-  const auto nearest = nearest_name(key, keys(scenario));
+nb::any value(const Scenario& scenario, const std::string& wanted) {
+  for (const auto& [key, value] : io::settings_of(scenario))
+    if (key == wanted)
+      return std::visit([](const auto& v) { return nb::borrow<nb::any>(nb::cast(v)); }, value);
+  const auto nearest = nearest_name(wanted, keys(scenario));
   throw UnknownName(
-      {"scenario", "no value '" + key + "'",
+      {"scenario", "no value '" + wanted + "'",
        nearest.empty() ? "a key such as 'planner.w_t'" : "perhaps '" + nearest + "'"});
 }
 
 void bind_parts(nb::module_& module) {
-  using planner::Goal;
-  using planner::Obstacle;
-  using planner::Region;
+  using world::Goal;
+  using world::Obstacle;
+  using world::Region;
   nb::class_<Goal>(module, "Goal", doc::planner_Goal)
       .def_ro("x", &Goal::x)
       .def_ro("y", &Goal::y)
@@ -101,7 +85,7 @@ void bind_class(nb::module_& module) {
       .def_ro("region", &Scenario::region)
       .def_prop_ro(
           "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
-      .def("keys", &keys, "Keys of the values of vehicle, planner, loop, plant and sensing.")
+      .def("keys", &keys, "Keys of the values of loop, plant, sensing, planner and vehicle.")
       .def("__getitem__", &value, "key"_a, "A value by its key, such as \"planner.w_t\".")
       .def(
           "replace",

@@ -12,9 +12,9 @@
 #include "slalom/base/error.hpp"
 #include "slalom/base/kernels.hpp"
 #include "slalom/base/timer.hpp"
-#include "slalom/io/open_sweep.hpp"
-#include "slalom/io/sweep.hpp"
-#include "slalom/study/worker_pool.hpp"
+#include "slalom/sweep/open_sweep.hpp"
+#include "slalom/sweep/sweep.hpp"
+#include "slalom/sweep/worker_pool.hpp"
 
 namespace slalom::python {
 namespace {
@@ -26,21 +26,21 @@ class Sweep {
  public:
   Sweep(const std::string& study, const Path& out, const std::vector<std::string>& set,
         std::optional<std::int64_t> limit, bool resume, bool force)
-      : study_(io::load_study(study, set)) {
-    io::SweepRequest request;
+      : study_(sweep::load_study(study, set)) {
+    sweep::SweepRequest request;
     request.out = std::filesystem::absolute(out);  // also where other machines keep drives
     request.limit = limit;
     request.resume = resume;
     request.force = force;
-    sweep_ = std::make_unique<io::OpenSweep>(study_, request);
+    sweep_ = std::make_unique<sweep::OpenSweep>(study_, request);
   }
 
-  const io::Study& study() const { return study_; }
-  io::OpenSweep& sweep() const { return *sweep_; }
+  const sweep::Study& study() const { return study_; }
+  sweep::OpenSweep& sweep() const { return *sweep_; }
 
  private:
-  io::Study study_;
-  std::unique_ptr<io::OpenSweep> sweep_;
+  sweep::Study study_;
+  std::unique_ptr<sweep::OpenSweep> sweep_;
 };
 
 /// A trial, its answer (None: it failed), and why it failed.
@@ -55,11 +55,11 @@ std::vector<Result> run_trials(const Orders& orders, const std::vector<std::stri
     const nb::gil_scoped_release unlock;
     const Timer timer;
     std::size_t next = 0;
-    study::PoolHooks hooks;
-    hooks.next = [&]() -> std::optional<study::PoolJob> {
+    sweep::PoolHooks hooks;
+    hooks.next = [&]() -> std::optional<sweep::PoolJob> {
       if (next == orders.size() || (next > 0 && timer.wall() > seconds)) return std::nullopt;
       const auto& [trial, order] = orders[next++];
-      return study::PoolJob{trial, order};
+      return sweep::PoolJob{trial, order};
     };
     hooks.done = [&](std::int64_t trial, const std::string& answer) {
       results.emplace_back(trial, answer, "");
@@ -68,21 +68,16 @@ std::vector<Result> run_trials(const Orders& orders, const std::vector<std::stri
       results.emplace_back(trial, std::nullopt, reason);
     };
     hooks.interrupted = [&] { return released.interrupted(); };
-    (void)study::run_pool({worker, 1, retries, time_limit}, hooks);
+    (void)sweep::run_pool({worker, 1, retries, time_limit}, hooks);
   }
   released.raise_if_interrupted();
   return results;
 }
 
 void require_kernels(const std::string& name) {
-  for (const auto set : {KernelSet::baseline, KernelSet::avx2})
-    if (name == to_string(set)) {
-      const auto before = current_kernels();
-      select_kernels(set);  // throws where the processor lacks it
-      select_kernels(before);
-      return;
-    }
-  throw Error("no instruction set '" + name + "'");
+  const auto before = current_kernels();
+  select_kernels(kernel_set(name));  // throws where the processor lacks it
+  select_kernels(before);
 }
 
 void bind_open_sweep(nb::module_& module) {
@@ -139,7 +134,7 @@ void bind_open_sweep(nb::module_& module) {
 void bind_sweep(nb::module_& module) {
   bind_open_sweep(module);
   module.def(
-      "trials_csv", [](const Path& folder) { return io::trials_csv(folder); }, "folder"_a,
+      "trials_csv", [](const Path& folder) { return sweep::trials_csv(folder); }, "folder"_a,
       doc::io_trials_csv);
   module.def(
       "run_trials", &run_trials, "orders"_a, "worker"_a, "retries"_a, "time_limit"_a, "seconds"_a,
@@ -150,7 +145,7 @@ void bind_sweep(nb::module_& module) {
       "serve_trials",
       [] {
         const nb::gil_scoped_release unlock;
-        io::serve_trials();
+        sweep::serve_trials();
       },
       doc::io_serve_trials);
   module.def("require_kernels", &require_kernels, "name"_a,

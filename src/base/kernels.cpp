@@ -31,4 +31,10 @@ const char* to_string(KernelSet set) {
   return set == KernelSet::avx2 ? "avx2" : "baseline";
 }
 
+KernelSet kernel_set(const std::string& name) {
+  for (const auto set : {KernelSet::baseline, KernelSet::avx2})
+    if (name == to_string(set)) return set;
+  throw InvalidValue("kernels", "instruction set '" + name + "'", "baseline or avx2");
+}
+
 }  // namespace slalom

@@ -19,14 +19,15 @@ const char* kind_name(const OptionValue& value) {
 }
 
 [[noreturn]] void wrong_kind(const OptionInfo& info, const OptionValue& value,
-                             const std::string& where, const std::string& expected) {
+                             const std::string& where) {
   throw InvalidValue(where, fmt::format("{} {}", kind_name(value), to_string(value)),
-                     fmt::format("{} for {}", expected, info.name));
+                     fmt::format("{} for {}", info.rule(), info.name), {info.name});
 }
 
 void check_number(const OptionInfo& info, double value, const std::string& where) {
   if (!std::isfinite(value) || !info.range.contains(value))
-    throw InvalidValue(where, fmt::format("{} = {}", info.name, value), info.range.to_string());
+    throw InvalidValue(where, fmt::format("{} = {}", info.name, value), info.range.to_string(),
+                       {info.name});
 }
 
 }  // namespace
@@ -56,18 +57,35 @@ std::string to_string(const OptionValue& value) {
   return std::visit(Printer{}, value);
 }
 
+std::string OptionInfo::rule() const {
+  switch (kind) {
+    case OptionKind::boolean:
+      return "true or false";
+    case OptionKind::integer:
+      return "an integer";
+    case OptionKind::real:
+      return range.to_string();
+    case OptionKind::text:
+      return "text";
+    case OptionKind::choice:
+      return fmt::format("one of {}", fmt::join(choices, ", "));
+    case OptionKind::vector:
+      return length == 0 ? "a list of numbers" : fmt::format("a list of {} numbers", length);
+  }
+  return "a value";
+}
+
 OptionValue OptionInfo::checked(const OptionValue& value, const std::string& where) const {
   switch (kind) {
     case OptionKind::boolean:
-      if (!std::holds_alternative<bool>(value)) wrong_kind(*this, value, where, "true or false");
+      if (!std::holds_alternative<bool>(value)) wrong_kind(*this, value, where);
       return value;
     case OptionKind::integer:
-      if (!std::holds_alternative<std::int64_t>(value))
-        wrong_kind(*this, value, where, "an integer");
+      if (!std::holds_alternative<std::int64_t>(value)) wrong_kind(*this, value, where);
       check_number(*this, static_cast<double>(std::get<std::int64_t>(value)), where);
       if (!std::in_range<int>(std::get<std::int64_t>(value)))  // options are stored as int
         throw InvalidValue(where, fmt::format("{} = {}", name, to_string(value)),
-                           "an integer of at most 31 bits");
+                           "an integer of at most 31 bits", {name});
       return value;
     case OptionKind::real: {
       double number = 0;
@@ -76,35 +94,29 @@ OptionValue OptionInfo::checked(const OptionValue& value, const std::string& whe
       } else if (const auto* d = std::get_if<double>(&value)) {
         number = *d;
       } else {
-        wrong_kind(*this, value, where, range.to_string());
+        wrong_kind(*this, value, where);
       }
       check_number(*this, number, where);
       return number;
     }
     case OptionKind::text:
-      if (!std::holds_alternative<std::string>(value)) wrong_kind(*this, value, where, "text");
+      if (!std::holds_alternative<std::string>(value)) wrong_kind(*this, value, where);
       return value;
     case OptionKind::choice: {
       // Options are checked in every solve, which must not allocate: no text for good ones.
       const auto* word = std::get_if<std::string>(&value);
       if (word != nullptr && std::find(choices.begin(), choices.end(), *word) != choices.end())
         return value;
-      const auto expected = fmt::format("one of {}", fmt::join(choices, ", "));
-      if (word == nullptr) wrong_kind(*this, value, where, expected);
-      const auto nearest = nearest_name(*word, choices);
-      throw InvalidValue(
-          where, fmt::format("{} = '{}'", name, *word),
-          nearest.empty() ? expected : fmt::format("{} (did you mean '{}'?)", expected, nearest));
+      if (word == nullptr) wrong_kind(*this, value, where);
+      throw InvalidValue(where, fmt::format("{} = '{}'", name, *word), one_of(*word, choices),
+                         {name});
     }
     case OptionKind::vector: {
-      const auto expected =
-          length == 0 ? "a list of numbers" : fmt::format("a list of {} numbers", length);
-      if (!std::holds_alternative<std::vector<double>>(value))
-        wrong_kind(*this, value, where, expected);
+      if (!std::holds_alternative<std::vector<double>>(value)) wrong_kind(*this, value, where);
       const auto& numbers = std::get<std::vector<double>>(value);
       if (length != 0 && numbers.size() != length)
-        throw InvalidValue(where, fmt::format("{} with {} numbers", name, numbers.size()),
-                           expected);
+        throw InvalidValue(where, fmt::format("{} with {} numbers", name, numbers.size()), rule(),
+                           {name});
       for (double number : numbers) check_number(*this, number, where);
       return value;
     }
@@ -135,6 +147,12 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     }
   }
   return best;
+}
+
+std::string one_of(std::string_view word, const std::vector<std::string>& names) {
+  const auto nearest = nearest_name(word, names);
+  return fmt::format("one of {}{}", fmt::join(names, ", "),
+                     nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest));
 }
 
 }  // namespace slalom

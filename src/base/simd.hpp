@@ -109,7 +109,7 @@ struct Whole {
   T only_or(T v, double) const { return v; }
 };
 template <class V>
-struct Part {
+struct FirstLanes {
   using T = typename V::type;
   std::size_t n;
   T operator()(const double* p) const { return V::load_part(p, n); }
@@ -128,7 +128,7 @@ template <class V, class F>
 inline void for_vectors(std::size_t n, F f) {
   std::size_t i = 0;
   for (; i + V::size <= n; i += V::size) f(i, Whole<V>{}, Whole<V>{});
-  if (i < n) f(i, Part<V>{n - i}, Part<V>{n - i});
+  if (i < n) f(i, FirstLanes<V>{n - i}, FirstLanes<V>{n - i});
 }
 
 }  // namespace

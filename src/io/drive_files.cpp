@@ -6,8 +6,8 @@
 #include "file_set.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/io/version.hpp"
+#include "slalom/report/report.hpp"
 #include "slalom/sim/solve_times.hpp"
-#include "slalom/study/report.hpp"
 
 namespace slalom::io {
 namespace {
@@ -25,7 +25,7 @@ Json text_or_null(const std::string& text) {
 
 Json warm_up_json(const sim::Cycle& cycle) {
   const auto& report = cycle.plan.report;
-  return {{"status", report.status},
+  return {{"status", report.status_text()},
           {"iterations", report.iterations},
           {"solve_time_s", number(report.wall_s)},
           {"cpu_time_s", number(report.cpu_s)}};
@@ -91,7 +91,7 @@ std::string plan_json(const sim::Scenario& scenario, const sim::Cycle& cycle,
   json["planner"] = scenario.planner.name;
   json["vehicle"] = scenario.vehicle.name;
   json["solved"] = report.solved;
-  json["status"] = report.status;
+  json["status"] = report.status_text();
   json["backend"] = report.backend;
   json["iterations"] = report.iterations;
   json["solve_time_s"] = number(report.wall_s);
@@ -126,8 +126,8 @@ void write_drive(const std::filesystem::path& folder, const sim::Scenario& scena
   files.add(folder / "cycles.csv", cycles_csv(drive));
   files.add(folder / "summary.json", summary_json(scenario, drive));
   files.add(folder / "resolved.yaml", to_yaml(scenario));
-  files.add(folder / "report.html", study::drive_page(scenario, drive));
-  for (const auto& figure : study::drive_figures(scenario, drive))
+  files.add(folder / "report.html", report::drive_page(scenario, drive));
+  for (const auto& figure : report::drive_figures(scenario, drive))
     files.add(folder / "figures" / figure.file, figure.svg);
   files.commit();
 }
@@ -138,17 +138,6 @@ void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenar
   files.add(folder / "plan.csv", plan_csv(cycle.plan));
   files.add(folder / "plan.json", plan_json(scenario, cycle, warm_up));
   files.add(folder / "resolved.yaml", to_yaml(scenario));
-  files.commit();
-}
-
-void write_reproduction(const std::filesystem::path& folder,
-                        const std::vector<study::ReproducedDrive>& drives,
-                        const study::PaperData& paper,
-                        const std::vector<study::ConceptCase>& cases) {
-  FileSet files;
-  files.add(folder / "index.html", study::reproduction_page(drives, paper, cases));
-  for (const auto& figure : study::reproduction_figures(drives, paper, cases))
-    files.add(folder / "figures" / figure.file, figure.svg);
   files.commit();
 }
 

@@ -89,8 +89,9 @@ std::string cycles_csv(const sim::Drive& drive) {
   for (const auto& cycle : drive.cycles) {
     if (cycle.index == 0) continue;
     const auto& report = cycle.plan.report;
-    text += fmt::format("{},{},{},{},{},{},{},{}", cycle.index, cycle.t0, cycle.tex, report.wall_s,
-                        report.iterations, csv_cell(report.status), report.cpu_s, report.cost);
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{}", cycle.index, cycle.t0, cycle.tex, report.wall_s,
+                    report.iterations, csv_cell(report.status_text()), report.cpu_s, report.cost);
     for (const auto& term : terms) text += fmt::format(",{}", cost_term(report, term));
     text +=
         fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(report.worst_constraint),

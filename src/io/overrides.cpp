@@ -4,11 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 
 #include "document.hpp"
-#include "scenario_tables.hpp"
+#include "scenario_sections.hpp"
 #include "text_file.hpp"
 
 namespace slalom::io {
@@ -42,13 +41,13 @@ Assignment split(const std::string& assignment) {
 }
 
 void set_field(const Section& section, const Assignment& a, Places& places) {
-  for (const auto& field : section.fields())
-    if (field.info.name == a.key && field.info.kind == OptionKind::text) {
-      // Text is taken as it stands: 'title=a: b' is no map.
-      check_text(a.text, a.place.source, "text");
-      field.store(a.text);
-      return;
-    }
+  const auto* field = section.find(a.key);
+  if (field != nullptr && field->info.kind == OptionKind::text) {
+    // Text is taken as it stands: 'title=a: b' is no map.
+    check_text(a.text, a.place.source, "text");
+    field->store(a.text);
+    return;
+  }
   section.set(a.key, a.value ? *a.value : parse_argument(a.text, a.place.source), a.place, places);
 }
 
@@ -68,40 +67,12 @@ void set_obstacle(const Assignment& a, sim::Scenario& scenario, Places& places) 
   places[a.section] = a.place;
 }
 
-/// The sections whose keys are options.
-constexpr const char* kSections[] = {"planner", "loop",  "plant", "sensing",
-                                     "vehicle", "start", "goal",  "region"};
-
-/// These, the obstacles, and `others`.
-std::vector<std::string> sections_and(const std::vector<std::string>& others = {}) {
-  std::vector<std::string> names(std::begin(kSections), std::end(kSections));
-  names.emplace_back("obstacles");
-  names.insert(names.end(), others.begin(), others.end());
-  return names;
-}
-
-/// One of them; nothing for other names. `start` is where the keys of the start go.
-std::optional<Section> section_of(const std::string& name, sim::Scenario& scenario, Start& start) {
-  if (name == "planner") return Section(name).add(planner::setting_options(), scenario.planner);
-  if (name == "loop") return Section(name).add(sim::loop_options(), scenario.loop);
-  if (name == "plant") return Section(name).add(sim::plant_options(), scenario.plant);
-  if (name == "sensing") return Section(name).add(sim::sensing_options(), scenario.sensing);
-  if (name == "vehicle") return Section(name).add(vehicle::parameter_options(), scenario.vehicle);
-  if (name == "start") return start_section(start);
-  if (name == "goal") return goal_section(scenario.goal);
-  if (name == "region") return region_section(scenario.region);
-  return std::nullopt;
-}
-
 /// "loop.tex" for tex: the keys of this name with their sections.
 std::vector<std::string> whole_paths(const std::string& key, sim::Scenario& scenario) {
   std::vector<std::string> paths;
-  Start start(scenario.start);
-  for (const std::string name : kSections) {
-    const auto keys = section_of(name, scenario, start)->keys();
-    if (std::find(keys.begin(), keys.end(), key) != keys.end())
-      paths.push_back(fmt::format("{}.{}", name, key));
-  }
+  for (const auto& section : scenario_sections())
+    if (section.bind != nullptr && section.bind(scenario).find(key) != nullptr)
+      paths.push_back(fmt::format("{}.{}", section.name, key));
   return paths;
 }
 
@@ -111,24 +82,21 @@ void set_top_level(const Assignment& a, sim::Scenario& scenario) {
     (a.key == "name" ? scenario.name : scenario.title) = a.text;
     return;
   }
-  const auto known = sections_and();
+  const auto known = section_names();
   if (std::find(known.begin(), known.end(), a.key) == known.end()) {
     if (const auto paths = whole_paths(a.key, scenario); !paths.empty())
       throw InvalidValue(a.place.to_string(), fmt::format("key '{}' without its section", a.key),
                          fmt::format("{}", fmt::join(paths, " or ")));
-    unknown_key(a.key, a.place, "", sections_and({"name", "title"}));
+    unknown_key(a.key, a.place, "", scenario_keys());
   }
   throw InvalidValue(a.place.to_string(), "a whole section",
                      fmt::format("one key of it, {}.KEY=value", a.key));
 }
 
 void apply(const Assignment& a, sim::Scenario& scenario, Places& places) {
-  Start start(scenario.start);
-  if (const auto section = section_of(a.section, scenario, start)) {
-    set_field(*section, a, places);
-    if (a.section != "start") return;
-    scenario.start = start.state();
-    places["start"] = a.place;
+  if (const auto* section = find_section(a.section)) {
+    set_field(section->bind(scenario), a, places);
+    places[a.section] = a.place;
     return;
   }
   if (a.section == "obstacles" || a.section.starts_with("obstacles.")) {
@@ -136,7 +104,7 @@ void apply(const Assignment& a, sim::Scenario& scenario, Places& places) {
   } else if (a.section.empty()) {
     set_top_level(a, scenario);
   } else {
-    unknown_key(a.section, a.place, "", sections_and());
+    unknown_key(a.section, a.place, "", section_names());
   }
 }
 
@@ -162,8 +130,8 @@ void try_settings(const std::string& path, const Place& place,
   a.place = place;
   split_path(path, a);
   // Making a section takes longer than setting a value.
-  Start start(scenario.start);
-  const auto section = section_of(a.section, scenario, start);
+  std::optional<Section> section;
+  if (const auto* found = find_section(a.section)) section = found->bind(scenario);
   Places places;
   for (const Value* value : values) {
     a.text = value->text;

@@ -26,15 +26,15 @@ vehicle::State state(const JsonReader& reader) {
   return result;
 }
 
-Json json_obstacles(const std::vector<planner::Obstacle>& obstacles) {
+Json json_obstacles(const std::vector<world::Obstacle>& obstacles) {
   Json json = Json::array();
   for (const auto& o : obstacles)
     json.push_back({{"name", o.name}, {"numbers", json_numbers({o.x, o.y, o.a, o.b, o.vx, o.vy})}});
   return json;
 }
 
-std::vector<planner::Obstacle> obstacles(const JsonReader& reader) {
-  std::vector<planner::Obstacle> result;
+std::vector<world::Obstacle> obstacles(const JsonReader& reader) {
+  std::vector<world::Obstacle> result;
   for (std::size_t i = 0; i < reader.size(); ++i) {
     const JsonReader one = reader.at(i), numbers = one.at("numbers");
     const auto n = numbers.list();
@@ -54,7 +54,7 @@ std::string to_json(const RecordedSolve& solve) {
   json["kernels"] = to_string(r.kernels);
   json["request"] = {{"X0p", json_numbers({r.X0p.begin(), r.X0p.end()})},
                      {"t0", r.t0},
-                     {"tex", r.tex},
+                     {"t_start", r.t_start},
                      {"goal_in_range", r.goal_in_range}};
   if (!r.obstacles.empty()) json["request"]["obstacles"] = json_obstacles(r.obstacles);
   json["options"] = json_options(r.options);
@@ -79,7 +79,7 @@ RecordedSolve read_recording(const std::string& file) {
   const JsonReader request = reader.at("request");
   r.X0p = state(request.at("X0p"));
   r.t0 = request.at("t0").real();
-  r.tex = request.at("tex").real();
+  r.t_start = request.at("t_start").real();
   r.goal_in_range = request.at("goal_in_range").flag();
   if (request.has("obstacles")) r.obstacles = obstacles(request.at("obstacles"));
   r.kernels = reader.at("kernels").one_of(KernelSet::avx2);

@@ -7,8 +7,7 @@
 #include "config_dir.hpp"
 #include "document.hpp"
 #include "overrides.hpp"
-#include "scenario_tables.hpp"
-#include "section.hpp"
+#include "scenario_sections.hpp"
 #include "semantic_check.hpp"
 
 namespace slalom::io {
@@ -16,13 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxObstacles = 1000;
-
-/// Throws InvalidValue unless `map` has `key`.
-void require_key(const Value& map, const std::string& path, const std::string& key) {
-  if (map.find(key) == nullptr)
-    throw InvalidValue(map.place.to_string(), fmt::format("{} without '{}'", path, key),
-                       fmt::format("the key '{}'", key));
-}
 
 /// Reads one scenario file and what it refers to.
 class Loader {
@@ -32,23 +24,15 @@ class Loader {
 
   sim::Scenario load() {
     require_map(root_, "a scenario (a map with start, goal, ...)");
-    static const std::vector<std::string> known = {"name",  "title", "vehicle", "planner",
-                                                   "start", "goal",  "region",  "obstacles",
-                                                   "loop",  "plant", "sensing"};
+    const auto known = scenario_keys();
     for (const auto& member : root_.members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
         unknown_key(member.key, member.place, "", known);
 
     read_names();
-    read_vehicle();
-    read_planner();
-    read_start_goal_region();
-    if (const Value* obstacles = root_.find("obstacles")) read_obstacles(*obstacles);
-    read_plain("loop", sim::loop_options(), scenario_.loop);
-    read_plain("plant", sim::plant_options(), scenario_.plant);
-    read_plain("sensing", sim::sensing_options(), scenario_.sensing);
+    for (const auto& section : scenario_sections()) read_section(section);
     apply_command_line();
-    check_scenario(scenario_, file_.string(), places_);
+    check_scenario(scenario_, {file_.string(), 1, 1}, places_);
     return std::move(scenario_);
   }
 
@@ -70,78 +54,58 @@ class Loader {
     return file;
   }
 
-  /// Reads a vehicle or planner file over the struct's defaults.
-  template <class S>
-  void read_base(const std::string& what, const fs::path& file, const OptionTable<S>& table,
-                 S& settings) {
-    const Value map = parse_file(file, "a " + what);
-    require_map(map, fmt::format("a {} (a map of its settings)", what));
-    settings.name = file.stem().string();
-    if (const Value* name = map.find("name")) settings.name = to_text(*name, "a name");
+  void read_section(const ScenarioSection& section) {
+    if (!section.required.empty()) require_key(root_, "a scenario", section.name);
+    const Value* value = root_.find(section.name);
+    if (section.in_files) {
+      // --planner puts another file in the place of the one that the scenario names.
+      read_over_file(section, value, section.name == "planner" ? request_.planner : std::nullopt);
+    } else if (value != nullptr && section.form == ScenarioSection::Form::list) {
+      read_obstacles(*value);
+    } else if (value != nullptr) {
+      require_map(*value, fmt::format("the map of {}", section.name));
+      for (const auto& key : section.required) require_key(*value, section.name, key);
+      section.bind(scenario_).read(*value, places_);
+      places_[section.name] = value->place;
+    }
+  }
+
+  /// Reads a section's file over the defaults.
+  void read_file_of(const ScenarioSection& section, const fs::path& file) {
+    const auto what = "a " + section.name;
+    const Value map = parse_file(file, what);
+    require_map(map, fmt::format("{} (a map of its settings)", what));
+    const auto settings = section.bind(scenario_);
+    const Value* name = map.find("name");
+    settings.find("name")->store(name != nullptr ? to_text(*name, "a name") : file.stem().string());
     if (const Value* title = map.find("title")) to_text(*title, "a title");
-    Section(what).add(table, settings).read(map, places_, {"name", "title"});
+    settings.read(map, places_, {"name", "title"});
   }
 
   /// Reads `vehicle:` or `planner:`, a name or a map with the base and what differs from it.
   /// `chosen` (from the command line) takes the base's place.
-  template <class S>
-  void read_based(const std::string& what, const OptionTable<S>& table, S& settings,
-                  const std::optional<std::string>& chosen) {
-    const Value* value = root_.find(what);
-    const Value* base = value;
-    if (value != nullptr && value->kind == Value::Kind::map) base = value->find("base");
-    const auto content = fmt::format("the name of a {}, a file, or a map of its settings", what);
-    if (base != nullptr) to_text(*base, content);
+  void read_over_file(const ScenarioSection& section, const Value* value,
+                      const std::optional<std::string>& chosen) {
+    const auto& what = section.name;
+    const bool is_map = value != nullptr && value->kind == Value::Kind::map;
+    const Value* base = is_map ? value->find("base") : value;
+    if (base != nullptr)
+      to_text(*base, fmt::format("the name of a {}, a file, or a map of its settings", what));
     if (base != nullptr && !chosen)
-      read_base(what, referenced(what, base->text, file_.parent_path(), base->place.to_string()),
-                table, settings);
+      read_file_of(section,
+                   referenced(what, base->text, file_.parent_path(), base->place.to_string()));
     const auto read_chosen = [&] {
-      const auto option = "--" + what;
-      read_base(what, referenced(what, *chosen, "", option), table, settings);
+      read_file_of(section, referenced(what, *chosen, "", "--" + what));
     };
     if (base != nullptr && chosen) read_chosen();
-    if (value != nullptr && value->kind == Value::Kind::map) {
-      Section(what).add(table, settings).read(*value, places_, {"base", "name"});
+    if (is_map) {
+      const auto settings = section.bind(scenario_);
+      settings.read(*value, places_, {"base", "name"});
       if (const Value* name = value->find("name"); name != nullptr && !(base && chosen))
-        settings.name = to_text(*name, "a name");
+        settings.find("name")->store(to_text(*name, "a name"));
     }
     // A map without a base states every setting; what the chosen file states then wins over it.
     if (base == nullptr && chosen) read_chosen();
-  }
-
-  void read_vehicle() {
-    read_based("vehicle", vehicle::parameter_options(), scenario_.vehicle, std::nullopt);
-  }
-  void read_planner() {
-    read_based("planner", planner::setting_options(), scenario_.planner, request_.planner);
-  }
-
-  const Value& required(const std::string& key) {
-    require_key(root_, "a scenario", key);
-    const Value& map = *root_.find(key);
-    require_map(map, fmt::format("the map of {}", key));
-    require_key(map, key, "x");
-    require_key(map, key, "y");
-    places_[key] = map.place;
-    return map;
-  }
-
-  void read_start_goal_region() {
-    Start start(scenario_.start);
-    start_section(start).read(required("start"), places_);
-    scenario_.start = start.state();
-    goal_section(scenario_.goal).read(required("goal"), places_);
-    if (const Value* region = root_.find("region")) {
-      region_section(scenario_.region).read(*region, places_);
-      places_["region"] = region->place;
-    }
-  }
-
-  /// Reads a section of options alone, if it is there.
-  template <class S>
-  void read_plain(const std::string& name, const OptionTable<S>& table, S& settings) {
-    if (const Value* value = root_.find(name))
-      Section(name).add(table, settings).read(*value, places_);
   }
 
   void read_obstacles(const Value& list) {
@@ -156,10 +120,8 @@ class Loader {
     ObstacleEntry entry;
     auto& obstacle = entry.obstacle;
     obstacle.name = fmt::format("O{}", scenario_.obstacles.size() + 1);
-    Section section = obstacle_section(obstacle, "an obstacle");
-    section.add(repeat_options(), entry);
     Places local;
-    section.read(map, local);
+    entry_section(entry).read(map, local);
     require_key(map, "an obstacle", "x");
     require_key(map, "an obstacle", "y");
     if (map.find("r") == nullptr && (map.find("a") == nullptr || map.find("b") == nullptr))
@@ -167,7 +129,7 @@ class Loader {
     if (map.find("step") != nullptr && map.find("repeat") == nullptr)
       throw InvalidValue(map.place.to_string(), "an obstacle with step alone", "repeat beside it");
     for (int k = 0; k < entry.repeat; ++k) {
-      planner::Obstacle one = obstacle;
+      world::Obstacle one = obstacle;
       one.x += k * entry.step[0];
       one.y += k * entry.step[1];
       if (map.find("repeat") != nullptr) one.name += std::to_string(k + 1);
@@ -175,7 +137,7 @@ class Loader {
     }
   }
 
-  void add_obstacle(const planner::Obstacle& obstacle, const Place& place) {
+  void add_obstacle(const world::Obstacle& obstacle, const Place& place) {
     if (obstacle.name.empty())
       throw InvalidValue(place.to_string(), "an obstacle with an empty name", "a name");
     if (!names_.insert(obstacle.name).second)
@@ -195,9 +157,7 @@ class Loader {
       value.kind = Value::Kind::scalar;
       value.text = fmt::format("{}", *request_.tex);
       value.place = {"--tex", 0, 0};
-      Section("loop")
-          .add(sim::loop_options(), scenario_.loop)
-          .set("tex", value, value.place, places_);
+      apply_setting("loop.tex", value.place, value, scenario_, places_);
     }
     for (const auto& assignment : request_.overrides)
       apply_override(assignment, scenario_, places_);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenario_tables.hpp"
+#include "scenario_sections.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/mpc.hpp"
@@ -22,23 +22,14 @@ std::string cell(const std::string& text) {
   return safe;
 }
 
+/// The rule of an option as a cell has it.
 std::string kind_text(const OptionInfo& info) {
-  switch (info.kind) {
-    case OptionKind::boolean:
-      return "true or false";
-    case OptionKind::integer:
-      return "an integer" + info.range.to_string().substr(std::string("a number").size());
-    case OptionKind::real:
-      return info.range.to_string();
-    case OptionKind::text:
-      return "text";
-    case OptionKind::choice:
-      return fmt::format("{}", fmt::join(info.choices, " or "));
-    case OptionKind::vector:
-      return info.length == 0 ? "a list of numbers, or a file of them"
-                              : fmt::format("{} numbers", info.length);
-  }
-  return "";
+  if (info.kind == OptionKind::integer)
+    return info.rule() + info.range.to_string().substr(std::string("a number").size());
+  if (info.kind == OptionKind::choice) return fmt::format("{}", fmt::join(info.choices, " or "));
+  if (info.kind == OptionKind::vector && info.length != 0)
+    return fmt::format("{} numbers", info.length);
+  return rule_of(info);
 }
 
 /// Of two kinds of default: a value, or a side or key that is absent.
@@ -58,35 +49,49 @@ std::string row(const OptionInfo& info, const std::string& standard) {
 
 constexpr const char* kHead = "| key | default | unit | value | meaning |\n|---|---|---|---|---|\n";
 
-template <class S>
-std::string table(const OptionTable<S>& options, const S& defaults,
-                  const std::vector<std::string>& required = {}) {
+/// A row for every key; `standard` gives what it is when left out.
+template <class F>
+std::string rows(const Section& section, const F& standard) {
   std::string text;
-  for (const auto& entry : options.entries()) {
-    const bool needed =
-        std::find(required.begin(), required.end(), entry.info.name) != required.end();
-    text += row(entry.info, needed ? "required" : default_text(entry.get(defaults)));
-  }
+  for (const auto& field : section.fields())
+    if (!field.in_degrees()) text += row(field.info, standard(field));
   return text;
 }
 
-std::string degrees_note(const char* keys) {
-  return fmt::format("\n{} may be given in degrees instead; 90 is π/2 to the bit.\n", keys);
+template <class S>
+std::string table(const OptionTable<S>& options) {
+  S defaults;
+  return kHead + rows(Section("").add(options, defaults),
+                      [](const Field& field) { return default_text(field.load()); });
+}
+
+std::string section_rows(const ScenarioSection& section) {
+  sim::Scenario defaults;
+  const auto& needed = section.required;
+  return rows(section.bind(defaults), [&](const Field& field) {
+    return std::find(needed.begin(), needed.end(), field.info.name) != needed.end()
+               ? "required"
+               : default_text(field.load());
+  });
 }
 
 std::string obstacle_rows() {
-  planner::Obstacle obstacle;
-  const Section section = obstacle_section(obstacle, "obstacles");
-  std::string text;
-  for (const auto& field : section.fields()) {
+  ObstacleEntry entry;
+  return rows(entry_section(entry), [](const Field& field) -> std::string {
     const auto& name = field.info.name;
-    const bool required = name == "x" || name == "y";
-    const bool size = name == "r" || name == "a" || name == "b";
-    text += row(field.info, required ? "required"
-                            : size   ? "r, or a and b"
-                                     : default_text(field.load()));
-  }
-  return text + table(repeat_options(), ObstacleEntry{});
+    if (name == "x" || name == "y") return "required";
+    if (name == "r" || name == "a" || name == "b") return "r, or a and b";
+    return default_text(field.load());
+  });
+}
+
+std::string degrees_note(const Section& section) {
+  std::vector<std::string> keys;
+  for (const auto& field : section.fields())
+    if (field.in_degrees()) keys.push_back(fmt::format("`{}`", field.excludes[0]));
+  if (keys.empty()) return "";
+  return fmt::format("\n{} may be given in degrees instead; 90 is π/2 to the bit.\n",
+                     fmt::join(keys, " and "));
 }
 
 constexpr const char* kIntroduction =
@@ -127,34 +132,13 @@ file named by a scenario counts from the scenario's folder.
 }  // namespace
 
 std::string scenario_reference() {
-  const sim::Scenario defaults;
+  sim::Scenario defaults;
   std::string text = kIntroduction;
-  const auto section = [&](const std::string& name, const std::string& about) {
-    text += fmt::format("\n## `{}`\n\n{}\n\n{}", name, about, kHead);
-  };
-  section("start", "The vehicle's state at t = 0.");
-  text += table(start_options(), Start(defaults.start), {"x", "y"});
-  text += degrees_note("`psi` and `sa`");
-  section("goal", "Where the drive is to end.");
-  text += table(goal_options(), defaults.goal, {"x", "y"});
-  text += degrees_note("`psi`");
-  section("region", "A box in which every node of a plan lies.");
-  text += table(region_options(), defaults.region);
-  section("obstacles", "A list; each obstacle is a circle or an ellipse along the axes.");
-  text += obstacle_rows();
-  section("loop", "The closed loop.");
-  text += table(sim::loop_options(), defaults.loop);
-  section("plant",
-          "How the plant differs from the `vehicle` that planner and prediction believe in; see "
-          "[formulation.md](formulation.md), section 4. The defaults change nothing.");
-  text += table(sim::plant_options(), defaults.plant);
-  section("sensing",
-          "How what the planner is told differs from what is. The defaults tell the truth.");
-  text += table(sim::sensing_options(), defaults.sensing);
-  section("planner", "The trajectory-planning problem and its solver.");
-  text += table(planner::setting_options(), defaults.planner);
-  section("vehicle", "The vehicle; the defaults are the HMMWV's.");
-  text += table(vehicle::parameter_options(), defaults.vehicle);
+  for (const auto& section : scenario_sections()) {
+    text += fmt::format("\n## `{}`\n\n{}\n\n{}", section.name, section.about, kHead);
+    text += section.bind == nullptr ? obstacle_rows()
+                                    : section_rows(section) + degrees_note(section.bind(defaults));
+  }
   return text;
 }
 
@@ -165,15 +149,14 @@ std::string solver_options_page() {
 The members of `nlp::Options` (`slalom/nlp/solver.hpp`), which every back end takes. A value out of
 its range is refused before a solve begins, with option, value and rule.
 
-)" + std::string(kHead) +
-         table(nlp::solver_options(), nlp::Options{}) + R"(
+)" + table(nlp::solver_options()) +
+         R"(
 ## Receding horizon
 
 The members of `ocp::MpcSettings` (`slalom/ocp/mpc.hpp`) that are numbers, switches or choices; see
 [mpc.md](mpc.md).
 
-)" + std::string(kHead) +
-         table(ocp::mpc_options(), ocp::MpcSettings{});
+)" + table(ocp::mpc_options());
 }
 
 }  // namespace slalom::io

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scenario_tables.hpp"
+#include "scenario_sections.hpp"
 #include "slalom/io/scenario_file.hpp"
 
 namespace slalom::io {
@@ -37,28 +37,46 @@ std::string yaml_value(const OptionInfo& info, const OptionValue& value) {
   return to_string(value);
 }
 
-/// "  key: value" for every option of the table but its name.
-template <class S>
-std::string block(const OptionTable<S>& table, const S& settings) {
+/// "  key: value" for every key.
+std::string block(const Section& section) {
   std::string text;
-  for (const auto& entry : table.entries()) {
-    if (entry.info.name == "name") continue;
-    text += fmt::format("  {}: {}\n", entry.info.name, yaml_value(entry.info, entry.get(settings)));
-  }
+  for (const auto& field : section.fields())
+    text += fmt::format("  {}: {}\n", field.info.name, yaml_value(field.info, field.load()));
   return text;
 }
 
-/// "{key: value, ...}" for every option of the table that is not infinite (an absent side).
-template <class S>
-std::string flow(const OptionTable<S>& table, const S& settings) {
+/// "{key: value, ...}" for every key that is not infinite (an absent side) and not another way to
+/// write one of the others.
+std::string flow(const Section& section) {
   std::string text;
-  for (const auto& entry : table.entries()) {
-    const auto value = entry.get(settings);
+  for (const auto& field : section.fields()) {
+    const auto value = field.load();
     if (const auto* number = std::get_if<double>(&value); number && std::isinf(*number)) continue;
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", entry.info.name,
-                        yaml_value(entry.info, value));
+    if (!field.excludes.empty()) continue;
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", field.info.name,
+                        yaml_value(field.info, value));
   }
   return "{" + text + "}";
+}
+
+std::string list(std::vector<world::Obstacle>& obstacles) {
+  std::string text = obstacles.empty() ? " []\n" : "\n";
+  for (auto& obstacle : obstacles)
+    text += fmt::format("  - {}\n", flow(obstacle_section(obstacle, "obstacles")));
+  return text;
+}
+
+/// What stands behind "section:".
+std::string content(const ScenarioSection& section, sim::Scenario& scenario) {
+  switch (section.form) {
+    case ScenarioSection::Form::flow:
+      return " " + flow(section.bind(scenario)) + "\n";
+    case ScenarioSection::Form::block:
+      return "\n" + block(section.bind(scenario));
+    case ScenarioSection::Form::list:
+      return list(scenario.obstacles);
+  }
+  return "\n";
 }
 
 }  // namespace
@@ -66,19 +84,9 @@ std::string flow(const OptionTable<S>& table, const S& settings) {
 std::string to_yaml(const sim::Scenario& scenario) {
   std::string text = "# Everything resolved: this file alone gives the drive. SI units, radians.\n";
   text += fmt::format("name: {}\ntitle: {}\n", yaml_text(scenario.name), yaml_text(scenario.title));
-  text += fmt::format("start: {}\n", flow(start_options(), Start(scenario.start)));
-  text += fmt::format("goal: {}\n", flow(goal_options(), scenario.goal));
-  text += fmt::format("region: {}\n", flow(region_options(), scenario.region));
-  text += scenario.obstacles.empty() ? "obstacles: []\n" : "obstacles:\n";
-  for (const auto& obstacle : scenario.obstacles)
-    text += fmt::format("  - {}\n", flow(obstacle_options(), obstacle));
-  text += fmt::format("loop:\n{}", block(sim::loop_options(), scenario.loop));
-  text += fmt::format("plant:\n{}", block(sim::plant_options(), scenario.plant));
-  text += fmt::format("sensing:\n{}", block(sim::sensing_options(), scenario.sensing));
-  text += fmt::format("planner:\n  name: {}\n{}", yaml_text(scenario.planner.name),
-                      block(planner::setting_options(), scenario.planner));
-  text += fmt::format("vehicle:\n  name: {}\n{}", yaml_text(scenario.vehicle.name),
-                      block(vehicle::parameter_options(), scenario.vehicle));
+  auto copy = scenario;  // sections are bound to what they could also set
+  for (const auto& section : scenario_sections())
+    text += fmt::format("{}:{}", section.name, content(section, copy));
   return text;
 }
 

@@ -60,25 +60,6 @@ OptionValue list_value(const Value& value) {
   return numbers;
 }
 
-std::string expected_of(const OptionInfo& info) {
-  switch (info.kind) {
-    case OptionKind::boolean:
-      return "true or false";
-    case OptionKind::integer:
-      return "an integer";
-    case OptionKind::real:
-      return info.range.to_string();
-    case OptionKind::text:
-      return "text";
-    case OptionKind::choice:
-      return fmt::format("one of {}", fmt::join(info.choices, ", "));
-    case OptionKind::vector:
-      return info.length == 0 ? "a list of numbers, or a file of them"
-                              : fmt::format("a list of {} numbers", info.length);
-  }
-  return "a value";
-}
-
 /// The inner value of {value: ..., unit: ..., source: ...}.
 const Value& unwrap(const OptionInfo& info, const Value& map) {
   for (const auto& member : map.members)
@@ -87,7 +68,7 @@ const Value& unwrap(const OptionInfo& info, const Value& map) {
   const Value* value = map.find("value");
   if (value == nullptr)
     throw InvalidValue(map.place.to_string(), fmt::format("a map without value for {}", info.name),
-                       fmt::format("{} or {{value: ..., unit: ...}}", expected_of(info)));
+                       fmt::format("{} or {{value: ..., unit: ...}}", rule_of(info)));
   if (const Value* unit = map.find("unit")) {
     const auto& text = to_text(*unit, "a unit");
     if (text != info.unit)
@@ -99,6 +80,11 @@ const Value& unwrap(const OptionInfo& info, const Value& map) {
 }
 
 }  // namespace
+
+std::string rule_of(const OptionInfo& info) {
+  const bool may_be_file = info.kind == OptionKind::vector && info.length == 0;
+  return info.rule() + (may_be_file ? ", or a file of them" : "");
+}
 
 void unknown_key(const std::string& key, const Place& place, const std::string& path,
                  const std::vector<std::string>& known) {
@@ -112,6 +98,14 @@ void unknown_key(const std::string& key, const Place& place, const std::string& 
 void require_map(const Value& value, const std::string& content) {
   if (value.kind != Value::Kind::map)
     throw InvalidValue(value.place.to_string(), value.describe(), content);
+}
+
+const Value& require_key(const Value& map, const std::string& what, const std::string& key) {
+  const Value* value = map.find(key);
+  if (value == nullptr)
+    throw InvalidValue(map.place.to_string(), fmt::format("{} without '{}'", what, key),
+                       fmt::format("the key '{}'", key));
+  return *value;
 }
 
 const std::vector<Value>& items_of(const Value& list, const std::string& content) {
@@ -130,16 +124,16 @@ OptionValue to_option_value(const OptionInfo& info, const Value& value) {
   switch (value.kind) {
     case Value::Kind::null:
       throw InvalidValue(value.place.to_string(), fmt::format("nothing for {}", info.name),
-                         expected_of(info));
+                         rule_of(info));
     case Value::Kind::map:
       if (const Value& inner = unwrap(info, value); inner.kind != Value::Kind::map)
         return to_option_value(info, inner);
       throw InvalidValue(value.place.to_string(), fmt::format("a map for {}", info.name),
-                         expected_of(info));
+                         rule_of(info));
     case Value::Kind::sequence:
       if (info.kind != OptionKind::vector)
         throw InvalidValue(value.place.to_string(), fmt::format("a list for {}", info.name),
-                           expected_of(info));
+                           rule_of(info));
       return list_value(value);
     case Value::Kind::scalar:
       if (info.kind == OptionKind::text || info.kind == OptionKind::choice) return value.text;
@@ -206,6 +200,7 @@ void Section::set(const std::string& key, const Value& value, const Place& key_p
   if (field == nullptr) unknown_key(key, key_place, path_, keys());
   field->store(field->info.checked(to_option_value(field->info, value), value.place.to_string()));
   places[path_ + "." + key] = value.place;
+  for (const auto& other : field->excludes) places[path_ + "." + other] = value.place;
 }
 
 }  // namespace slalom::io

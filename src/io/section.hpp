@@ -18,7 +18,10 @@ struct Field {
   OptionInfo info;
   std::function<void(const OptionValue&)> store;  ///< value already checked
   std::function<OptionValue()> load;
-  std::vector<std::string> excludes = {};  ///< keys that set the same thing another way
+  std::vector<std::string> excludes = {};  ///< keys that set the same thing and are written instead
+
+  /// Whether the key is `excludes[0]` in degrees.
+  bool in_degrees() const { return !excludes.empty() && info.name == excludes[0] + "_deg"; }
 };
 
 /// The keys of one map of a configuration file, bound to one settings struct. A section reads a map
@@ -44,21 +47,25 @@ class Section {
   const std::string& path() const { return path_; }
   const std::vector<Field>& fields() const { return fields_; }
   std::vector<std::string> keys() const;
+  /// The field of that key, or nullptr.
+  const Field* find(const std::string& key) const;
 
   /// Reads every member of `map`; `others` are keys the caller reads itself. Throws InvalidValue
   /// for an unknown key (with the nearest known one), a wrong kind or unit, a value out of range
   /// and two keys that exclude each other.
   void read(const Value& map, Places& places, const std::vector<std::string>& others = {}) const;
-  /// Sets one key; `key_place` is for messages about the key, `value.place` for the value.
+  /// Sets one key; `key_place` is for messages about the key, `value.place` for the value, which
+  /// becomes the place of the keys too that set the same thing.
   void set(const std::string& key, const Value& value, const Place& key_place,
            Places& places) const;
 
  private:
-  const Field* find(const std::string& key) const;
-
   std::string path_;
   std::vector<Field> fields_;
 };
+
+/// What values files may have for an option, as messages have it.
+std::string rule_of(const OptionInfo& info);
 
 /// Throws InvalidValue at `place`: an unknown key of `path`, with the nearest of `known`.
 [[noreturn]] void unknown_key(const std::string& key, const Place& place, const std::string& path,
@@ -66,6 +73,8 @@ class Section {
 
 /// Throws InvalidValue unless `value` is a map; `content` says what it should hold.
 void require_map(const Value& value, const std::string& content);
+/// The value of `key` in a map, which `what` names; throws InvalidValue where there is none.
+const Value& require_key(const Value& map, const std::string& what, const std::string& key);
 
 /// What the scalar, list or {value, unit, source} map means for an option of this kind. Throws
 /// InvalidValue for another unit than the option's, and for values no option can hold.

@@ -7,8 +7,8 @@
 
 namespace slalom::io {
 
-/// Runs sim::check and gives its error the line of the key it is about, as far as one stands in
-/// the file or on the command line.
-void check_scenario(const sim::Scenario& scenario, const std::string& file, const Places& places);
+/// Runs sim::check and gives its error the place of the value at fault; `whole`, the place of the
+/// scenario itself, where none of `places` is that.
+void check_scenario(const sim::Scenario& scenario, const Place& whole, const Places& places);
 
 }  // namespace slalom::io

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "integrator.hpp"
-#include "model.hpp"
+#include "point_functions.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
 
@@ -34,7 +34,7 @@ class Reintegration {
                 const Vector& units, double tolerance)
       : problem_(problem),
         solution_(solution),
-        model_(problem, solution.trajectory),
+        functions_(problem, solution.trajectory),
         integrator_(units, tolerance),
         between_(between),
         nodes_(nodes(solution)) {}
@@ -48,8 +48,9 @@ class Reintegration {
                                                                Vector& out) {
       const Vector u = between_.controls(k, c);
       const std::span<const double> states(at.data(), nx);
-      model_.rates(begin + c * duration, states, u, {out.data(), nx});
-      model_.integrands(begin + c * duration, states, u, {out.data() + nx, model_.integrands()});
+      functions_.rates(begin + c * duration, states, u, {out.data(), nx});
+      functions_.integrands(begin + c * duration, states, u,
+                            {out.data() + nx, functions_.integrands()});
     };
     if (integrator_.across(duration, rates, x) < 1) return {};
     return x;
@@ -61,12 +62,12 @@ class Reintegration {
     const Scheme& scheme = solution_.scheme.of(k);
     const std::size_t first = nodes_[k], last = scheme.points.size() - 1;
     const Trajectory& at = solution_.trajectory;
-    Vector sum(model_.integrands(), 0.0), values(model_.integrands());
+    Vector sum(functions_.integrands(), 0.0), values(functions_.integrands());
     for (std::size_t j = 0; j <= last; ++j) {
       if (scheme.weight[j] == 0) continue;
       const bool held = j == last && scheme.collocates(0);
       const Vector u = held ? end_controls(problem_, at, first, first + j) : at.controls[first + j];
-      model_.integrands(begin + scheme.points[j] * duration, at.states[first + j], u, values);
+      functions_.integrands(begin + scheme.points[j] * duration, at.states[first + j], u, values);
       for (std::size_t i = 0; i < sum.size(); ++i)
         sum[i] += scheme.weight[j] * duration * (of_sizes ? std::fabs(values[i]) : values[i]);
     }
@@ -81,7 +82,7 @@ class Reintegration {
   }
   const Problem& problem_;
   const Solution& solution_;
-  Model model_;
+  PointFunctions functions_;
   Integrator integrator_;
   const Interpolant& between_;
   std::vector<std::size_t> nodes_;
@@ -223,17 +224,17 @@ Violation largest_violation(const Problem& problem, const Solution& solution, in
     throw InvalidValue(problem.name() + ": samples", std::to_string(samples), "at least 1");
   const Trajectory& trajectory = solution.trajectory;
   const Interpolant polynomials = between(problem, solution);
-  const Model model(problem, trajectory);
+  const PointFunctions functions(problem, trajectory);
   const auto& breaks = solution.mesh.breakpoints();
-  Vector values(model.rows().size());
+  Vector values(functions.rows().size());
   Violation worst;
   for (std::size_t k = 0; k < solution.mesh.intervals(); ++k)
     for (int s = 0; s <= samples; ++s) {
       const double c = static_cast<double>(s) / samples;
       const double t = trajectory.time_at(breaks[k] + c * (breaks[k + 1] - breaks[k]));
-      model.row_values(t, polynomials.states(k, c), polynomials.controls(k, c), values);
+      functions.row_values(t, polynomials.states(k, c), polynomials.controls(k, c), values);
       for (std::size_t r = 0; r < values.size(); ++r) {
-        const auto& row = model.rows()[r];
+        const auto& row = functions.rows()[r];
         if (k == 0 && s == 0 && row.points == Points::after_first) continue;
         const double excess = std::max(row.bounds.lower - values[r], values[r] - row.bounds.upper);
         if (excess > worst.value) worst = {excess, row.name, t};
@@ -245,15 +246,15 @@ Violation largest_violation(const Problem& problem, const Solution& solution, in
 std::vector<double> hamiltonian(const Problem& problem, const Solution& solution) {
   const Trajectory& trajectory = solution.trajectory;
   const Interpolant polynomials = between(problem, solution);
-  const Model model(problem, trajectory);
+  const PointFunctions functions(problem, trajectory);
   const auto node = nodes(solution);
   const std::size_t last = solution.mesh.intervals();
   Vector rates(problem.states().size()), values;
   for (std::size_t k = 0; k <= last; ++k) {
     const double t = trajectory.time(node[k]);
     const Vector u = k == last ? polynomials.controls(last - 1, 1) : polynomials.controls(k, 0);
-    model.rates(t, trajectory.states[node[k]], u, rates);
-    double h = model.integrand(t, trajectory.states[node[k]], u);
+    functions.rates(t, trajectory.states[node[k]], u, rates);
+    double h = functions.integrand(t, trajectory.states[node[k]], u);
     for (std::size_t i = 0; i < rates.size(); ++i) h += solution.costates[k][i] * rates[i];
     values.push_back(h);
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "model.hpp"
+#include "point_functions.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/quadrature.hpp"
 
@@ -88,10 +88,10 @@ Interpolant::Interpolant(const Problem& problem, const Trajectory& trajectory, c
     throw InvalidValue(problem.name() + ": interpolation",
                        fmt::format("{} points", trajectory.tau.size()),
                        fmt::format("{}, those of the mesh", points + 1));
-  const Model model(problem, trajectory);
+  const PointFunctions functions(problem, trajectory);
   for (std::size_t p = 0; p <= points; ++p) {
     auto& rate = at.rate.emplace_back(problem.states().size());
-    model.rates(trajectory.time(p), trajectory.states[p], trajectory.controls[p], rate);
+    functions.rates(trajectory.time(p), trajectory.states[p], trajectory.controls[p], rate);
   }
   for (const auto& control : problem.controls())
     at.held.push_back(control.form == ControlForm::constant ? 1 : 0);
@@ -101,8 +101,8 @@ Interpolant::Interpolant(const Problem& problem, const Trajectory& trajectory, c
     if (!schemes.of(k).collocates(0)) continue;  // held by its end
     const std::size_t end = at.first[k + 1];
     at.end_rate[k].resize(problem.states().size());
-    model.rates(trajectory.time(end), trajectory.states[end],
-                end_controls(problem, trajectory, at.first[k], end), at.end_rate[k]);
+    functions.rates(trajectory.time(end), trajectory.states[end],
+                    end_controls(problem, trajectory, at.first[k], end), at.end_rate[k]);
   }
 }
 

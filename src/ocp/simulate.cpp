@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "integrator.hpp"
-#include "model.hpp"
+#include "point_functions.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
 
@@ -121,9 +121,9 @@ System system_of(const Problem& problem, const Trajectory& fixed) {
                            "dynamics that a simulation can know");
   Trajectory at = fixed;
   if (at.states.empty()) at.states.assign(1, Vector(problem.states().size(), 0.0));
-  const auto model = std::make_shared<const Model>(problem, at);
-  system.rates = [model](double t, std::span<const double> x, std::span<const double> u,
-                         std::span<double> out) { model->rates(t, x, u, out); };
+  const auto functions = std::make_shared<const PointFunctions>(problem, at);
+  system.rates = [functions](double t, std::span<const double> x, std::span<const double> u,
+                             std::span<double> out) { functions->rates(t, x, u, out); };
   return system;
 }
 

@@ -12,7 +12,7 @@
 #include "carry.hpp"
 #include "checks.hpp"
 #include "duals.hpp"
-#include "model.hpp"
+#include "point_functions.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "symbols.hpp"
@@ -54,16 +54,16 @@ void check_same(const Problem& before, const Problem& now) {
 
 /// The states at compressed midpoints: Hermite's interpolant of the ends.
 void fill_midpoints(const Problem& problem, const Layout& layout, Trajectory& trajectory) {
-  const Model model(problem, trajectory);
+  const PointFunctions functions(problem, trajectory);
   const std::size_t nx = problem.states().size();
   std::vector<double> at_begin(nx), at_end(nx);
   for (std::size_t point = 0; point < layout.points(); ++point) {
     if (layout.has_state(point)) continue;
     const std::size_t begin = point - 1, end = point + 1;
     const auto controls_at_end = end_controls(problem, trajectory, begin, end);
-    model.rates(trajectory.time(begin), trajectory.states[begin], trajectory.controls[begin],
-                at_begin);
-    model.rates(trajectory.time(end), trajectory.states[end], controls_at_end, at_end);
+    functions.rates(trajectory.time(begin), trajectory.states[begin], trajectory.controls[begin],
+                    at_begin);
+    functions.rates(trajectory.time(end), trajectory.states[end], controls_at_end, at_end);
     const double h = trajectory.time(end) - trajectory.time(begin);
     for (std::size_t i = 0; i < nx; ++i)
       trajectory.states[point][i] = (trajectory.states[begin][i] + trajectory.states[end][i]) / 2 +

@@ -31,7 +31,7 @@ void Guess::straight_on(const Request& request) {
 /// The last plan from the new start on, its last point held, its end time kept.
 void Guess::shift(const Request& request, const LastPlan& last) {
   const ocp::Trajectory& plan = last.trajectory;
-  const double shift = request.t0 + request.tex - last.t_start;
+  const double shift = request.t_start - last.t_start;
   guess_.tf =
       std::clamp(std::max(plan.tf - shift, 0.2), 1.01 * settings_.tf_min, 0.99 * settings_.tf_max);
   const std::size_t samples = 1 + static_cast<std::size_t>(settings_.N) * 2;

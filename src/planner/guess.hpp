@@ -3,9 +3,8 @@
 #include <vector>
 
 #include "slalom/ocp/trajectory.hpp"
-#include "slalom/planner/goal.hpp"
 #include "slalom/planner/planner.hpp"
-#include "slalom/planner/settings.hpp"
+#include "slalom/planner/task.hpp"
 
 namespace slalom::planner {
 
@@ -21,7 +20,7 @@ struct LastPlan {
 /// a last plan, else that plan from the new start on, resampled; slacks inside their rows.
 class Guess {
  public:
-  Guess(const Settings& settings, const Goal& goal) : settings_(settings), goal_(goal) {}
+  explicit Guess(const Task& task) : settings_(task.planner), goal_(task.goal) {}
 
   /// `last` may be null. The result, of full states and controls, lives until the next call.
   ocp::Trajectory& operator()(const Request& request, bool in_range, const LastPlan* last);
@@ -34,7 +33,7 @@ class Guess {
   double inside(double room, double weight) const;
 
   const Settings settings_;
-  const Goal goal_;
+  const world::Goal goal_;
   ocp::Trajectory guess_;
 };
 

@@ -10,8 +10,8 @@ ModelMap::ModelMap(const Parameters& vehicle, ModelKind kind)
     : model_(make_model(vehicle, kind)),
       values_({model_.state.begin(), model_.state.end()}, {},
               {model_.value.begin(), model_.value.end()}),
-      same_(std::all_of(model_.part.begin(), model_.part.end(),
-                        [](Part part) { return part == Part::state; })) {}
+      same_(std::all_of(model_.role.begin(), model_.role.end(),
+                        [](Role role) { return role == Role::state; })) {}
 
 namespace {
 
@@ -34,28 +34,28 @@ void spread(const std::array<Kept, N>& kept, Kept wanted, std::vector<double>& r
 
 void ModelMap::to_planner(ocp::Trajectory& trajectory) const {
   if (same_) return;
-  for (auto& state : trajectory.states) keep(model_.part, Part::state, state);
+  for (auto& state : trajectory.states) keep(model_.role, Role::state, state);
   for (auto& control : trajectory.controls) keep(model_.used, true, control);
-  keep(model_.part, Part::state, trajectory.slacks);
+  keep(model_.role, Role::state, trajectory.slacks);
 }
 
 void ModelMap::to_plant(const State& X0p, ocp::Trajectory& trajectory) const {
   if (same_) return;
   for (auto& state : trajectory.states) {
-    spread(model_.part, Part::state, state);
+    spread(model_.role, Role::state, state);
     complete(X0p, state);
   }
   for (auto& control : trajectory.controls) spread(model_.used, true, control);
-  spread(model_.part, Part::state, trajectory.slacks);
+  spread(model_.role, Role::state, trajectory.slacks);
 }
 
 void ModelMap::complete(const State& X0p, std::vector<double>& state) const {
   for (std::size_t i = 0; i < kStates; ++i)
-    if (model_.part[i] == Part::held) state[i] = X0p[i];
+    if (model_.role[i] == Role::held) state[i] = X0p[i];
   State values;
   values_(state, {}, values);
   for (std::size_t i = 0; i < kStates; ++i)
-    if (model_.part[i] == Part::derived) state[i] = values[i];
+    if (model_.role[i] == Role::derived) state[i] = values[i];
 }
 
 }  // namespace slalom::planner

@@ -11,14 +11,14 @@ namespace {
 using vehicle::State;
 
 /// Distance [m] from an ellipse's centre to its edge in the direction of (dx, dy).
-double radius_towards(const Obstacle& o, double dx, double dy) {
+double radius_towards(const world::Obstacle& o, double dx, double dy) {
   const double length = std::hypot(dx, dy);
   if (length == 0) return std::min(o.a, o.b);
   return length / std::hypot(dx / o.a, dy / o.b);
 }
 
 /// Between the edges of two obstacles along the line of their centres [m]; negative: they overlap.
-double gap(const Obstacle& p, const Obstacle& q) {
+double gap(const world::Obstacle& p, const world::Obstacle& q) {
   const double dx = q.x - p.x, dy = q.y - p.y;
   return std::hypot(dx, dy) - radius_towards(p, dx, dy) - radius_towards(q, dx, dy);
 }
@@ -26,7 +26,7 @@ double gap(const Obstacle& p, const Obstacle& q) {
 /// How much an ellipse about `o`'s centre with semi-axes a, b must be scaled to cover `member`: the
 /// largest value over the member's edge of the ellipse's norm. The edge is sampled, and the norm,
 /// whose slope along it is at most that of its two terms, bounded between samples.
-double scale_to_cover(const Obstacle& o, const Obstacle& member) {
+double scale_to_cover(const world::Obstacle& o, const world::Obstacle& member) {
   constexpr int kSamples = 720;
   const double step = 2 * std::numbers::pi / kSamples;
   const double steepest = std::hypot(member.a / o.a, member.b / o.b);
@@ -40,20 +40,20 @@ double scale_to_cover(const Obstacle& o, const Obstacle& member) {
 }
 
 /// The least distance [m] between the obstacle's centre and a point over absolute times t0 to t1.
-double nearest_pass(const Obstacle& o, double x, double y, double t0, double t1) {
+double nearest_pass(const world::Obstacle& o, double x, double y, double t0, double t1) {
   const double dx = o.x_at(t0) - x, dy = o.y_at(t0) - y;
   const double speed2 = o.vx * o.vx + o.vy * o.vy;
   const double t = speed2 > 0 ? std::clamp(-(dx * o.vx + dy * o.vy) / speed2, 0.0, t1 - t0) : 0.0;
   return std::hypot(dx + o.vx * t, dy + o.vy * t);
 }
 
-std::vector<Obstacle> in_reach(const Settings& s, const Request& request,
-                               const std::vector<Obstacle>& obstacles) {
+std::vector<world::Obstacle> in_reach(const Settings& s, const Request& request,
+                                      const std::vector<world::Obstacle>& obstacles) {
   // Every node lies within L_range + kappa of x(0), and x(0) within X0_tol of X0p.
   const double reach = s.L_range + s.kappa + std::hypot(s.X0_tol[0], s.X0_tol[1]);
-  const double begin = s.moving_avoidance ? request.t0 + request.tex : request.t0;
+  const double begin = s.moving_avoidance ? request.t_start : request.t0;
   const double end = s.moving_avoidance ? begin + s.tf_max : begin;
-  std::vector<Obstacle> chosen;
+  std::vector<world::Obstacle> chosen;
   for (const auto& o : obstacles)
     if (nearest_pass(o, request.X0p[vehicle::X], request.X0p[vehicle::Y], begin, end) <=
         reach + std::max(o.a, o.b) + s.sm_end)
@@ -61,9 +61,9 @@ std::vector<Obstacle> in_reach(const Settings& s, const Request& request,
   return chosen;
 }
 
-std::vector<Obstacle> nearest(const Settings& s, const Request& request,
-                              const std::vector<Obstacle>& obstacles) {
-  const double t = s.moving_avoidance ? request.t0 + request.tex : request.t0;
+std::vector<world::Obstacle> nearest(const Settings& s, const Request& request,
+                                     const std::vector<world::Obstacle>& obstacles) {
+  const double t = s.moving_avoidance ? request.t_start : request.t0;
   std::vector<double> distance;
   for (const auto& o : obstacles) {
     const double dx = o.x_at(t) - request.X0p[vehicle::X], dy = o.y_at(t) - request.X0p[vehicle::Y];
@@ -75,14 +75,14 @@ std::vector<Obstacle> nearest(const Settings& s, const Request& request,
                    [&](std::size_t i, std::size_t j) { return distance[i] < distance[j]; });
   order.resize(std::min(order.size(), static_cast<std::size_t>(s.obstacle_count)));
   std::sort(order.begin(), order.end());
-  std::vector<Obstacle> chosen;
+  std::vector<world::Obstacle> chosen;
   for (const auto i : order) chosen.push_back(obstacles[i]);
   return chosen;
 }
 
 }  // namespace
 
-Obstacle covering_ellipse(const std::vector<Obstacle>& members) {
+world::Obstacle covering_ellipse(const std::vector<world::Obstacle>& members) {
   if (members.size() == 1) return members.front();
   double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
   for (const auto& o : members) {
@@ -91,7 +91,7 @@ Obstacle covering_ellipse(const std::vector<Obstacle>& members) {
     south = std::min(south, o.y - o.b);
     north = std::max(north, o.y + o.b);
   }
-  Obstacle cover = members.front();
+  world::Obstacle cover = members.front();
   cover.name = members.front().name + "+" + std::to_string(members.size() - 1);
   cover.x = (west + east) / 2;
   cover.y = (south + north) / 2;
@@ -105,8 +105,8 @@ Obstacle covering_ellipse(const std::vector<Obstacle>& members) {
   return cover;
 }
 
-std::vector<Obstacle> group_obstacles(const Settings& settings,
-                                      const std::vector<Obstacle>& obstacles) {
+std::vector<world::Obstacle> group_obstacles(const Settings& settings,
+                                             const std::vector<world::Obstacle>& obstacles) {
   if (settings.obstacle_group_gap == 0) return obstacles;
   const std::size_t n = obstacles.size();
   std::vector<std::size_t> group(n);
@@ -119,9 +119,9 @@ std::vector<Obstacle> group_obstacles(const Settings& settings,
       const auto keep = std::min(group[i], group[j]), drop = std::max(group[i], group[j]);
       std::replace(group.begin(), group.end(), drop, keep);
     }
-  std::vector<Obstacle> result;
+  std::vector<world::Obstacle> result;
   for (std::size_t first = 0; first < n; ++first) {
-    std::vector<Obstacle> members;
+    std::vector<world::Obstacle> members;
     for (std::size_t i = first; i < n; ++i)
       if (group[i] == first) members.push_back(obstacles[i]);
     if (!members.empty()) result.push_back(covering_ellipse(members));
@@ -129,8 +129,8 @@ std::vector<Obstacle> group_obstacles(const Settings& settings,
   return result;
 }
 
-std::vector<Obstacle> choose_obstacles(const Settings& settings, const Request& request,
-                                       const std::vector<Obstacle>& obstacles) {
+std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
+                                              const std::vector<world::Obstacle>& obstacles) {
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
     return in_reach(settings, request, obstacles);
   if (settings.obstacle_choice == ObstacleChoice::nearest)
@@ -138,9 +138,10 @@ std::vector<Obstacle> choose_obstacles(const Settings& settings, const Request& 
   return obstacles;
 }
 
-bool same_names(const std::vector<Obstacle>& a, const std::vector<Obstacle>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Obstacle& p, const Obstacle& q) { return p.name == q.name; });
+bool same_names(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const world::Obstacle& p, const world::Obstacle& q) { return p.name == q.name; });
 }
 
 }  // namespace slalom::planner

@@ -2,28 +2,28 @@
 
 #include <vector>
 
-#include "slalom/planner/obstacle.hpp"
 #include "slalom/planner/planner.hpp"
 #include "slalom/planner/settings.hpp"
+#include "slalom/world/obstacle.hpp"
 
 namespace slalom::planner {
 
 /// The obstacles with those of one velocity and less than obstacle_group_gap between their edges
 /// replaced by one ellipse that covers them, in the order of the first of each group. A chain of
 /// near ones is one group. Gaps are measured along the line of centres: exact for circles.
-std::vector<Obstacle> group_obstacles(const Settings& settings,
-                                      const std::vector<Obstacle>& obstacles);
+std::vector<world::Obstacle> group_obstacles(const Settings& settings,
+                                             const std::vector<world::Obstacle>& obstacles);
 
 /// The axis-aligned ellipse about the middle of the members' common box, with the box's ratio of
 /// axes, scaled down as far as it covers every member: at most sqrt(2) times the half box. All have
 /// one velocity; positions are those at t = 0.
-Obstacle covering_ellipse(const std::vector<Obstacle>& members);
+world::Obstacle covering_ellipse(const std::vector<world::Obstacle>& members);
 
 /// Of `obstacles`, in their order, those that a plan for `request` knows of, as
 /// Settings::obstacle_choice says.
-std::vector<Obstacle> choose_obstacles(const Settings& settings, const Request& request,
-                                       const std::vector<Obstacle>& obstacles);
+std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
+                                              const std::vector<world::Obstacle>& obstacles);
 
-bool same_names(const std::vector<Obstacle>& a, const std::vector<Obstacle>& b);
+bool same_names(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b);
 
 }  // namespace slalom::planner

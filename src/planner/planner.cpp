@@ -20,9 +20,11 @@ namespace {
 
 using namespace vehicle;
 
-const Settings& checked(const Settings& settings) {
-  check(settings, "planner " + settings.name);
-  return settings;
+/// The task with its obstacles grouped as its settings say, once these are found to be sound.
+Task with_groups(Task task) {
+  check(task.planner, "planner " + task.planner.name);
+  task.obstacles = group_obstacles(task.planner, task.obstacles);
+  return task;
 }
 
 nlp::Options solver_options(const Settings& settings, const Request& request) {
@@ -61,23 +63,18 @@ struct Form {
 
 class Planner::Impl {
  public:
-  Impl(const Settings& settings, const Parameters& vehicle, const Goal& goal, const Region& region,
-       const std::vector<Obstacle>& obstacles)
-      : settings_(checked(settings)),
-        goal_(goal),
-        vehicle_(vehicle),
-        region_(region),
-        obstacles_(group_obstacles(settings, obstacles)),
-        chosen_(choose_obstacles(settings, {}, obstacles_)),
-        guess_(settings, goal),
-        solver_(nlp::make_solver(to_string(settings.solver))) {
+  explicit Impl(const Task& task)
+      : task_(with_groups(task)),
+        settings_(task_.planner),
+        chosen_(choose_obstacles(settings_, {}, task_.obstacles)),
+        guess_(task_),
+        solver_(nlp::make_solver(to_string(settings_.solver))) {
     prepare();
   }
 
   Plan plan(const Request& request) {
     const Timer timer;
-    const bool in_range =
-        std::hypot(request.X0p[X] - goal_.x, request.X0p[Y] - goal_.y) < settings_.L_range;
+    const bool in_range = goal_in_range(task_, request.X0p);
     choose(request);
     form(in_range).update(request);
     ocp::Transcription& transcription = form(in_range).transcription;
@@ -112,8 +109,9 @@ class Planner::Impl {
     const auto key = std::pair(in_range, chosen_.size());
     const auto found = forms_.find(key);
     if (found != forms_.end()) return found->second;
-    TrajectoryProblem problem(settings_, vehicle_, goal_, region_, chosen_, in_range);
-    return forms_.try_emplace(key, std::move(problem), settings_).first->second;
+    Task chosen = task_;
+    chosen.obstacles = chosen_;
+    return forms_.try_emplace(key, TrajectoryProblem(chosen, in_range), settings_).first->second;
   }
 
   /// Chooses this cycle's obstacles. Multipliers carry over only where the last solve had the same.
@@ -122,7 +120,8 @@ class Planner::Impl {
     if (settings_.obstacle_choice == ObstacleChoice::all && !measured && as_made_) return;
     as_made_ = !measured;
     auto now = choose_obstacles(
-        settings_, request, measured ? group_obstacles(settings_, request.obstacles) : obstacles_);
+        settings_, request,
+        measured ? group_obstacles(settings_, request.obstacles) : task_.obstacles);
     same_obstacles_ = same_names(now, chosen_);
     chosen_ = std::move(now);
     for (const bool in_range : {false, true}) {
@@ -153,9 +152,9 @@ class Planner::Impl {
   /// The last solve, but for what judging it brings.
   Recording record_solve(const Request& request, bool in_range, const nlp::Options& options) const {
     Recording r{
-        request.X0p,   request.t0,     request.tex,    in_range,           current_kernels(),
-        options,       start_,         answer_.status, answer_.iterations, 0,
-        answer_.cpu_s, answer_.wall_s, answer_.point,  request.obstacles};
+        request.X0p,   request.t0,     request.t_start, in_range,           current_kernels(),
+        options,       start_,         answer_.status,  answer_.iterations, 0,
+        answer_.cpu_s, answer_.wall_s, answer_.point,   request.obstacles};
     r.options.stop = nullptr;
     r.options.stop_data = nullptr;
     return r;
@@ -169,7 +168,7 @@ class Planner::Impl {
     plan.goal_in_range = in_range;
     auto trajectory = transcription.trajectory(answer_.point.x);
     form(in_range).problem.map().to_plant(request.X0p, trajectory);
-    plan.t_start = request.t0 + request.tex;
+    plan.t_start = request.t_start;
     plan.tf = trajectory.tf;
     plan.obstacle_time_held = settings_.moving_avoidance ? -1 : request.t0;
     const std::size_t points = trajectory.tau.size();
@@ -197,7 +196,8 @@ class Planner::Impl {
     SolveReport report;
     const bool claimed = answer_.status == nlp::Status::solved;
     report.solved = claimed && residuals.solved(options);
-    report.status = claimed && !report.solved ? "not_confirmed" : nlp::to_string(answer_.status);
+    report.status =
+        claimed && !report.solved ? PlanStatus::not_confirmed : plan_status(answer_.status);
     report.best_iterate = !report.solved && residuals.violation <= request.best_iterate_tol;
     report.backend = answer_.backend;
     report.iterations = answer_.iterations;
@@ -213,12 +213,9 @@ class Planner::Impl {
     return report;
   }
 
-  const Settings settings_;
-  const Goal goal_;
-  const Parameters vehicle_;
-  const Region region_;
-  const std::vector<Obstacle> obstacles_;               ///< grouped
-  std::vector<Obstacle> chosen_;                        ///< of these, in this cycle
+  const Task task_;  ///< its obstacles grouped
+  const Settings& settings_;
+  std::vector<world::Obstacle> chosen_;                 ///< of these, in this cycle
   bool same_obstacles_ = true;                          ///< as in the last solve
   bool as_made_ = true;                                 ///< none measured in the last cycle
   std::map<std::pair<bool, std::size_t>, Form> forms_;  ///< goal in range, number of obstacles
@@ -231,9 +228,7 @@ class Planner::Impl {
   double longest_reading_s_ = 0;  ///< thread time of a cycle after its solve
 };
 
-Planner::Planner(const Settings& settings, const Parameters& vehicle, const Goal& goal,
-                 const Region& region, const std::vector<Obstacle>& obstacles)
-    : impl_(std::make_unique<Impl>(settings, vehicle, goal, region, obstacles)) {}
+Planner::Planner(const Task& task) : impl_(std::make_unique<Impl>(task)) {}
 Planner::~Planner() = default;
 Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;

@@ -32,18 +32,17 @@ bool cut_off(nlp::Status status) {
 
 }  // namespace
 
-Replayed replay(const Recording& recording, const Settings& settings,
-                const vehicle::Parameters& vehicle, const Goal& goal, const Region& region,
-                const std::vector<Obstacle>& obstacles) {
+Replayed replay(const Recording& recording, const Task& task) {
   select_kernels(recording.kernels);
   Request request;
   request.X0p = recording.X0p;
   request.t0 = recording.t0;
-  request.tex = recording.tex;
-  const auto& known = recording.obstacles.empty() ? obstacles : recording.obstacles;
-  TrajectoryProblem problem(settings, vehicle, goal, region,
-                            choose_obstacles(settings, request, group_obstacles(settings, known)),
-                            recording.goal_in_range);
+  request.t_start = recording.t_start;
+  const Settings& settings = task.planner;
+  Task known = task;
+  if (!recording.obstacles.empty()) known.obstacles = recording.obstacles;
+  known.obstacles = choose_obstacles(settings, request, group_obstacles(settings, known.obstacles));
+  TrajectoryProblem problem(known, recording.goal_in_range);
   problem.update(request);
   ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
                                    scheme_of(settings));

@@ -48,7 +48,7 @@ void add_what_tells_planners_apart(Table& table) {
               "The obstacles a plan knows of. in_reach: those that can come, grown by sm_end, into "
               "the LiDAR's range about the start within tf_max; no plan can touch the others. "
               "nearest: the obstacle_count nearest ones at the moment the plan begins. See "
-              "docs/obstacle-choice.md.")
+              "docs/measured/obstacle-choice.md.")
       .integer("obstacle_count", &S::obstacle_count, Range::closed(1, 1000), "1",
                "How many obstacles `nearest` keeps.")
       .real("obstacle_group_gap", &S::obstacle_group_gap, Range::non_negative(), "m",
@@ -179,15 +179,18 @@ void check(const Settings& settings, const std::string& where) {
   setting_options().check(settings, where);
   if (settings.L_range <= settings.kappa)
     throw InvalidValue(where, fmt::format("L_range = {}", settings.L_range),
-                       fmt::format("a number above kappa = {}", settings.kappa));
+                       fmt::format("a number above kappa = {}", settings.kappa),
+                       {"L_range", "kappa"});
   if (settings.tf_min >= settings.tf_max)
     throw InvalidValue(where, fmt::format("tf_min = {}", settings.tf_min),
-                       fmt::format("a number below tf_max = {}", settings.tf_max));
+                       fmt::format("a number below tf_max = {}", settings.tf_max),
+                       {"tf_min", "tf_max"});
   const auto solvers = nlp::backends();
   const std::string solver = to_string(settings.solver);
   if (std::find(solvers.begin(), solvers.end(), solver) == solvers.end())
     throw InvalidValue(where, "solver = " + solver,
-                       fmt::format("a solver of this build: {}", fmt::join(solvers, ", ")));
+                       fmt::format("a solver of this build: {}", fmt::join(solvers, ", ")),
+                       {"solver"});
 }
 
 }  // namespace slalom::planner

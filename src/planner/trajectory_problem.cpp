@@ -42,28 +42,26 @@ const ocp::Scheme& scheme_of(const Settings& settings) {
   }
 }
 
-TrajectoryProblem::TrajectoryProblem(const Settings& settings, const Parameters& vehicle,
-                                     const Goal& goal, const Region& region,
-                                     const std::vector<Obstacle>& obstacles, bool goal_in_range)
-    : settings_(settings),
-      vehicle_(vehicle),
-      goal_(goal),
+TrajectoryProblem::TrajectoryProblem(const Task& task, bool goal_in_range)
+    : settings_(task.planner),
+      vehicle_(task.vehicle),
+      goal_(task.goal),
       goal_in_range_(goal_in_range),
-      map_(vehicle, settings.model),
+      map_(task.vehicle, task.planner.model),
       problem_("trajectory") {
   const Model& model = map_.model();
-  add_variables(model, region);
+  add_variables(model, task.region);
   add_dynamics(model);
   add_cost(model);
   add_initial_state(model);
   add_vehicle_limits(model);
   add_obstacles();
-  set_obstacles(obstacles);
+  set_obstacles(task.obstacles);
   add_lidar_region();
   add_goal();
 }
 
-void TrajectoryProblem::add_variables(const Model& model, const Region& region) {
+void TrajectoryProblem::add_variables(const Model& model, const world::Region& region) {
   std::array<Bounds, kStates> bounds;
   bounds[X] = {region.x_min, region.x_max};
   bounds[Y] = {region.y_min, region.y_max};
@@ -72,18 +70,18 @@ void TrajectoryProblem::add_variables(const Model& model, const Region& region) 
   bounds[UX] = {vehicle_.ux_min, vehicle_.ux_max};
   for (std::size_t i = 0; i < kStates; ++i) {
     const std::string name = kStateNames[i];
-    const Part part = model.part[i];
-    if (part == Part::state) X_[i] = problem_.state(name, bounds[i]);
-    if (part != Part::derived) X0p_[i] = problem_.parameter("X0p_" + name, 0);
-    if (part == Part::held) X_[i] = X0p_[i];
-    if (part == Part::state)
+    const Role role = model.role[i];
+    if (role == Role::state) X_[i] = problem_.state(name, bounds[i]);
+    if (role != Role::derived) X0p_[i] = problem_.parameter("X0p_" + name, 0);
+    if (role == Role::held) X_[i] = X0p_[i];
+    if (role == Role::state)
       x0s_[i] = problem_.slack("x0s_" + name, End::initial, Bounds::at_most(settings_.X0_tol[i]));
   }
   U_[SR] = problem_.control("sr", {-vehicle_.sr_max(), vehicle_.sr_max()});
   if (model.used[JX]) U_[JX] = problem_.control("jx", {-vehicle_.jx_max, vehicle_.jx_max});
   const auto derived = in_terms_of(model.value, model, X_, U_);
   for (std::size_t i = 0; i < kStates; ++i)
-    if (model.part[i] == Part::derived) X_[i] = derived[i];
+    if (model.role[i] == Role::derived) X_[i] = derived[i];
   t_start_ = problem_.parameter("t_start", 0);
   t_planning_ = problem_.parameter("t_planning", 0);
   problem_.initial_time(Bounds::equal(0), 0);
@@ -97,7 +95,7 @@ void TrajectoryProblem::add_variables(const Model& model, const Region& region) 
 void TrajectoryProblem::add_dynamics(const Model& model) {
   const auto rate = in_terms_of(model.derivative, model, X_, U_);
   for (std::size_t i = 0; i < kStates; ++i)
-    if (model.part[i] == Part::state) problem_.dynamics(X_[i], rate[i]);
+    if (model.role[i] == Role::state) problem_.dynamics(X_[i], rate[i]);
 }
 
 /// The cost functional J, term by term; a term of weight zero is absent.
@@ -126,13 +124,13 @@ void TrajectoryProblem::add_cost(const Model& model) {
   if (s.w_haf != 0)
     problem_.lagrange("heading_area", s.w_haf * square(std::sin(goal_.psi) * (X_[X] - goal_.x) -
                                                        std::cos(goal_.psi) * (X_[Y] - goal_.y)));
-  if (s.w_ax != 0 && model.part[AX] == Part::state)
+  if (s.w_ax != 0 && model.role[AX] == Role::state)
     problem_.lagrange("acceleration", s.w_ax * square(X_[AX]));
   if (s.w_psi != 0) problem_.lagrange("heading", s.w_psi * square(X_[PSI] - goal_.psi));
 
   Expr initial_slacks;
   for (std::size_t i = 0; i < kStates; ++i)
-    if (model.part[i] == Part::state) initial_slacks += s.w_s0[i] * x0s_[i];
+    if (model.role[i] == Role::state) initial_slacks += s.w_s0[i] * x0s_[i];
   problem_.mayer("initial_slack", s.w_ic * initial_slacks);
   if (goal_in_range_) problem_.mayer("final_slack", s.w_xf * (xfs_[0] + xfs_[1]));
 }
@@ -141,7 +139,7 @@ void TrajectoryProblem::add_cost(const Model& model) {
 /// as section 3 settles them).
 void TrajectoryProblem::add_initial_state(const Model& model) {
   for (std::size_t i = 0; i < kStates; ++i) {
-    if (model.part[i] != Part::state) continue;
+    if (model.role[i] != Role::state) continue;
     const std::string name = kStateNames[i];
     const Expr gap = problem_.initial(X_[i]) - X0p_[i];
     problem_.boundary("initial " + name + " from below", gap + x0s_[i], Bounds::at_least(0));
@@ -151,7 +149,7 @@ void TrajectoryProblem::add_initial_state(const Model& model) {
 
 void TrajectoryProblem::add_vehicle_limits(const Model& model) {
   const auto limits = in_terms_of(std::array{model.ax_min, model.ax_max}, model, X_, U_);
-  if (model.part[AX] == Part::state) {
+  if (model.role[AX] == Role::state) {
     problem_.path("ax above ax_min", X_[AX] - limits[0], Bounds::at_least(0));
     problem_.path("ax below ax_max", limits[1] - X_[AX], Bounds::at_least(0));
   }
@@ -184,7 +182,7 @@ void TrajectoryProblem::add_obstacles() {
     problem_.soften(obstacle_rows_, {ocp::Norm::l1, settings_.w_obstacle, 0});
 }
 
-void TrajectoryProblem::set_obstacles(const std::vector<Obstacle>& obstacles) {
+void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstacles) {
   std::vector<std::string> names;
   std::vector<std::vector<double>> numbers;
   for (const auto& o : obstacles) {
@@ -222,8 +220,8 @@ void TrajectoryProblem::add_goal() {
 
 void TrajectoryProblem::update(const Request& request) {
   for (std::size_t i = 0; i < kStates; ++i)
-    if (map_.model().part[i] != Part::derived) problem_.set_parameter(X0p_[i], request.X0p[i]);
-  problem_.set_parameter(t_start_, request.t0 + request.tex);
+    if (map_.model().role[i] != Role::derived) problem_.set_parameter(X0p_[i], request.X0p[i]);
+  problem_.set_parameter(t_start_, request.t_start);
   problem_.set_parameter(t_planning_, request.t0);
 }
 

@@ -6,12 +6,9 @@
 #include "model_map.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
-#include "slalom/planner/goal.hpp"
-#include "slalom/planner/obstacle.hpp"
 #include "slalom/planner/planner.hpp"
-#include "slalom/planner/settings.hpp"
+#include "slalom/planner/task.hpp"
 #include "slalom/vehicle/model.hpp"
-#include "slalom/vehicle/parameters.hpp"
 
 namespace slalom::planner {
 
@@ -23,12 +20,10 @@ const ocp::Scheme& scheme_of(const Settings& settings);
 /// absent from it, not switched to zero.
 class TrajectoryProblem {
  public:
-  TrajectoryProblem(const Settings& settings, const vehicle::Parameters& vehicle, const Goal& goal,
-                    const Region& region, const std::vector<Obstacle>& obstacles,
-                    bool goal_in_range);
+  TrajectoryProblem(const Task& task, bool goal_in_range);
 
   /// Puts other obstacles, as many, in the place of those the problem has.
-  void set_obstacles(const std::vector<Obstacle>& obstacles);
+  void set_obstacles(const std::vector<world::Obstacle>& obstacles);
   /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
   void update(const Request& request);
 
@@ -38,7 +33,7 @@ class TrajectoryProblem {
  private:
   using Expr = ocp::Expr;
 
-  void add_variables(const vehicle::Model& model, const Region& region);
+  void add_variables(const vehicle::Model& model, const world::Region& region);
   void add_dynamics(const vehicle::Model& model);
   void add_cost(const vehicle::Model& model);
   void add_initial_state(const vehicle::Model& model);
@@ -49,7 +44,7 @@ class TrajectoryProblem {
 
   const Settings settings_;
   const vehicle::Parameters vehicle_;
-  const Goal goal_;
+  const world::Goal goal_;
   const bool goal_in_range_;
   const ModelMap map_;
 

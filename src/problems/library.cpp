@@ -85,16 +85,16 @@ const std::vector<Entry>& library() {
   static const std::vector<Entry> all = [] {
     std::vector<Entry> list;
     for (auto* part : {classics, singular_arcs, state_constraints, bang_bang, aerospace, biology,
-                       phases, parameter_estimation, vehicle_cycle})
+                       phases, parameter_estimation})
       for (auto& entry : part()) list.push_back(std::move(entry));
     return list;
   }();
   return all;
 }
 
-const Entry& find(const std::string& name) {
+const Entry& find(const std::vector<Entry>& entries, const std::string& name) {
   std::vector<std::string> names;
-  for (const auto& entry : library()) {
+  for (const auto& entry : entries) {
     if (entry.name == name) return entry;
     names.push_back(entry.name);
   }

@@ -56,6 +56,5 @@ Entries phases();
 Entries parameter_estimation();
 Entries aerospace();
 Entries biology();
-Entries vehicle_cycle();
 
 }  // namespace slalom::problems

@@ -23,7 +23,8 @@ double drawn(const LoopSettings& settings, int index) {
 Latency::Latency(const LoopSettings& settings) : settings_(settings) {
   if (settings.latency == LatencyRule::recorded && settings.solve_times.empty())
     throw InvalidValue("loop.solve_times", "no solve times",
-                       "a list or a file of them for latency: recorded");
+                       "a list or a file of them for latency: recorded",
+                       {"latency", "solve_times"});
 }
 
 double Latency::charge(int index, double measured) const {

@@ -1,15 +1,21 @@
+#include "planning.hpp"
 #include "slalom/planner/planner.hpp"
-#include "slalom/sim/closed_loop.hpp"
 
 namespace slalom::sim {
 
 Drive drive(const Scenario& scenario, const LoopHooks& hooks) {
-  check(scenario, scenario.name.empty() ? "scenario" : scenario.name);
-  planner::Planner planner(scenario.planner, scenario.vehicle, scenario.goal, scenario.region,
-                           scenario.obstacles);
+  check(scenario);
+  planner::Planner planner(scenario);
   if (hooks.record.take) planner.record(hooks.record);
   const PlanFunction plan = [&](const planner::Request& request) { return planner.plan(request); };
   return drive(scenario, plan, hooks);
+}
+
+FirstPlan first_plan(const Scenario& scenario, const std::function<bool()>& interrupted) {
+  check(scenario);
+  planner::Planner planner(scenario);
+  const PlanFunction plan = [&](const planner::Request& request) { return planner.plan(request); };
+  return first_plan(scenario, plan, interrupted);
 }
 
 }  // namespace slalom::sim

@@ -33,6 +33,21 @@ void scale_tyre(vehicle::Parameters& p, double friction, double stiffness) {
   p.PKY1 *= stiffness;
 }
 
+/// Keys that may be at fault where values `of` of the plant's vehicle are: the settings that make
+/// it another vehicle, and the values themselves.
+std::vector<std::string> keys_behind(const PlantSettings& settings, const InvalidValue& of) {
+  std::vector<std::string> keys;
+  for (const char* name :
+       {"mass_factor", "friction_factor", "cornering_stiffness_factor", "cg_shift"}) {
+    const auto& entry = *plant_options().find(name);
+    if (entry.get(settings) != entry.get(PlantSettings{}))
+      keys.push_back(std::string("plant.") + name);
+  }
+  const auto own = of.within("vehicle").keys();
+  keys.insert(keys.end(), own.begin(), own.end());
+  return keys;
+}
+
 /// Forces [N] of the axles driving straight on at static load.
 std::array<double, 2> straight_on_forces(const vehicle::Parameters& p) {
   vehicle::State state{};
@@ -80,14 +95,20 @@ vehicle::Parameters plant_vehicle(const vehicle::Parameters& believed,
       settings.cg_shift == neutral.cg_shift)
     return believed;
   if (!(settings.cg_shift < believed.la && settings.cg_shift > -believed.lb))
-    throw InvalidValue(where + ": plant cg_shift", fmt::format("{:.9g}", settings.cg_shift),
+    throw InvalidValue(where + ": plant", fmt::format("cg_shift = {:.9g}", settings.cg_shift),
                        fmt::format("between -lb = {:.9g} and la = {:.9g}, both excluded",
-                                   -believed.lb, believed.la));
+                                   -believed.lb, believed.la),
+                       {"plant.cg_shift", "vehicle.la", "vehicle.lb"});
   vehicle::Parameters driven = believed;
   scale_mass(driven, settings.mass_factor);
   move_cg(driven, settings.cg_shift);
   scale_tyre(driven, settings.friction_factor, settings.cornering_stiffness_factor);
-  vehicle::check(driven, where + ": the plant's vehicle");
+  try {
+    vehicle::check(driven, where + ": the plant's vehicle");
+  } catch (const InvalidValue& error) {
+    throw InvalidValue(error.where(), error.found(), error.expected(),
+                       keys_behind(settings, error));
+  }
   // F_offset keeps its meaning: the force that is left at zero slip and static load stays as it is.
   const auto before = straight_on_forces(believed), after = straight_on_forces(driven);
   driven.F_offset_front += before[0] - after[0];

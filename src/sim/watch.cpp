@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <utility>
 
-#include "slalom/sim/ellipse.hpp"
-
 namespace slalom::sim {
 namespace {
 
@@ -71,6 +69,14 @@ double speed_bound(const vehicle::Dynamics& dynamics, const Stretch& stretch) {
   return 1.1 * speed + 1;
 }
 
+double clearance_of(const world::Obstacle& grown, double t, const State& state) {
+  return world::distance(grown, state[vehicle::X], state[vehicle::Y], t);
+}
+
+double outside(const world::Goal& goal, const State& state) {
+  return goal.outside(state[vehicle::X], state[vehicle::Y]);
+}
+
 /// Loads change by less than this [N/s], five times what full steering and braking give.
 constexpr double kLoadRate = 1e5;
 
@@ -102,30 +108,25 @@ void for_each_low_load(const vehicle::Dynamics& dynamics, const Stretch& s, doub
 
 }  // namespace
 
-Watch::Watch(const Scenario& scenario, const Plant& plant)
-    : plant_(plant),
-      obstacles_(scenario.obstacles),
-      goal_(scenario.goal),
-      sm_crash_(scenario.loop.sm_crash),
-      Fz_failure_(scenario.loop.Fz_failure) {}
+Stretch Stretch::driven(const Plant& plant, const ControlSignal& signal, const State& state,
+                        double t0, double t1) {
+  Stretch stretch{t0, t1, state, {}, [&plant, &signal, state, t0](double t) {
+                    return plant.advance(state, signal, t0, t);
+                  }};
+  stretch.state1 = stretch.at(t1);
+  return stretch;
+}
 
-double Watch::clearance_of(const planner::Obstacle& obstacle, double t, const State& state) const {
-  return signed_distance_to_ellipse(state[vehicle::X] - obstacle.x_at(t),
-                                    state[vehicle::Y] - obstacle.y_at(t), obstacle.a + sm_crash_,
-                                    obstacle.b + sm_crash_);
+Watch::Watch(const Criteria& criteria, const vehicle::Dynamics& dynamics)
+    : dynamics_(dynamics), goal_(criteria.goal), Fz_failure_(criteria.Fz_failure) {
+  for (const auto& obstacle : criteria.obstacles)
+    obstacles_.push_back(obstacle.grown(criteria.margin));
 }
 
 double Watch::clearance(double t, const State& state) const {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& obstacle : obstacles_) least = std::min(least, clearance_of(obstacle, t, state));
   return least;
-}
-
-/// How far outside the goal's square the state is, in the norm whose ball the square is [m];
-/// negative inside.
-double Watch::outside_goal(const State& state) const {
-  return std::max(std::abs(state[vehicle::X] - goal_.x), std::abs(state[vehicle::Y] - goal_.y)) -
-         goal_.sigma;
 }
 
 void Watch::begin(double t, const State& state) {
@@ -153,7 +154,7 @@ std::optional<Event> Watch::pass(const Stretch& stretch) {
 
 std::optional<Event> Watch::first_crash(const Stretch& s) const {
   std::optional<Event> first;
-  const double speed = speed_bound(plant_.dynamics(), s);
+  const double speed = speed_bound(dynamics_, s);
   for (const auto& obstacle : obstacles_) {
     const auto distance = [&](double t) {
       return clearance_of(obstacle, s.t0 + t, s.at(s.t0 + t));
@@ -169,8 +170,8 @@ std::optional<Event> Watch::first_crash(const Stretch& s) const {
 
 std::optional<Event> Watch::first_wheel_lift(const Stretch& s) const {
   std::optional<Event> first;
-  for_each_low_load(plant_.dynamics(), s, Fz_failure_, [&](std::size_t wheel, const Low& low) {
-    const auto spare = [&](double t) { return load(plant_.dynamics(), s, t, wheel) - Fz_failure_; };
+  for_each_low_load(dynamics_, s, Fz_failure_, [&](std::size_t wheel, const Low& low) {
+    const auto spare = [&](double t) { return load(dynamics_, s, t, wheel) - Fz_failure_; };
     const double t = s.t0 + crossing(spare, spare(0), low.t, low.value - Fz_failure_);
     if (!first || t < first->t) first = Event{Outcome::wheel_lift, t, kWheelsInWords[wheel]};
   });
@@ -178,7 +179,7 @@ std::optional<Event> Watch::first_wheel_lift(const Stretch& s) const {
 }
 
 void Watch::note_clearance(const Stretch& s) {
-  const double length = s.t1 - s.t0, speed = speed_bound(plant_.dynamics(), s);
+  const double length = s.t1 - s.t0, speed = speed_bound(dynamics_, s);
   for (const auto& obstacle : obstacles_) {
     const double d0 = clearance_of(obstacle, s.t0, s.state0);
     const double d1 = clearance_of(obstacle, s.t1, s.state1);
@@ -198,16 +199,16 @@ void Watch::note_clearance(const Stretch& s) {
 }
 
 void Watch::note_wheel_loads(const Stretch& s) {
-  for_each_low_load(plant_.dynamics(), s, least_wheel_load_, [&](std::size_t, const Low& low) {
+  for_each_low_load(dynamics_, s, least_wheel_load_, [&](std::size_t, const Low& low) {
     least_wheel_load_ = std::min(least_wheel_load_, low.value);
   });
 }
 
 void Watch::note_goal(const Stretch& s) {
   if (goal_time_) return;
-  const auto outside = [&](double t) { return outside_goal(s.at(s.t0 + t)); };
-  const auto entry = first_entry(outside, s.t1 - s.t0, outside_goal(s.state0),
-                                 outside_goal(s.state1), speed_bound(plant_.dynamics(), s));
+  const auto entry =
+      first_entry([&](double t) { return outside(goal_, s.at(s.t0 + t)); }, s.t1 - s.t0,
+                  outside(goal_, s.state0), outside(goal_, s.state1), speed_bound(dynamics_, s));
   if (entry) goal_time_ = s.t0 + *entry;
 }
 

@@ -75,7 +75,7 @@ Frame make_frame() {
   Model& model = frame.model;
   for (std::size_t i = 0; i < kStates; ++i) model.state[i] = Expr::symbol(kStateNames[i]);
   for (std::size_t i = 0; i < kControls; ++i) model.control[i] = Expr::symbol(kControlNames[i]);
-  model.part.fill(Part::state);
+  model.role.fill(Role::state);
   model.value = model.state;
   model.used.fill(true);
   return frame;
@@ -155,8 +155,8 @@ Model make_dynamic(const Parameters& p, ModelKind kind) {
 /// The 3DoF vehicle whose speed is held: ax and jx are zero, ux is a number.
 Model make_constant_speed(const Parameters& p) {
   Model model = make_dynamic(p, ModelKind::pacejka);
-  model.part[UX] = Part::held;
-  model.part[AX] = Part::derived;
+  model.role[UX] = Role::held;
+  model.role[AX] = Role::derived;
   model.value[AX] = Expr(0.0);
   model.derivative[UX] = model.derivative[AX] = Expr(0.0);
   model.used[JX] = false;
@@ -178,7 +178,7 @@ Model make_kinematic(const Parameters& p) {
   const Expr r = X[UX] * tangent / (p.la + p.lb);
   const Expr r_dot =
       (X[AX] * tangent + X[UX] * model.control[SR] * (1 + square(tangent))) / (p.la + p.lb);
-  model.part[V] = model.part[R] = Part::derived;
+  model.role[V] = model.role[R] = Role::derived;
   model.value[V] = p.lb * r;
   model.value[R] = r;
 

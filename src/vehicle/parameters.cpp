@@ -131,7 +131,8 @@ void check(const Parameters& parameters, const std::string& where) {
   parameter_options().check(parameters, where);
   if (parameters.ux_min >= parameters.ux_max)
     throw InvalidValue(where, fmt::format("ux_min = {}", parameters.ux_min),
-                       fmt::format("a number below ux_max = {}", parameters.ux_max));
+                       fmt::format("a number below ux_max = {}", parameters.ux_max),
+                       {"ux_min", "ux_max"});
   constexpr int kPoints = 100;
   for (int i = 0; i <= kPoints; ++i) {
     const double speed =
@@ -141,7 +142,8 @@ void check(const Parameters& parameters, const std::string& where) {
           where,
           fmt::format("ax_min = {:.6g} m/s^2 at ux = {:.6g} m/s", parameters.ax_min_at(speed),
                       speed),
-          fmt::format("less than ax_max = {:.6g} m/s^2 there", parameters.ax_max_at(speed)));
+          fmt::format("less than ax_max = {:.6g} m/s^2 there", parameters.ax_max_at(speed)),
+          {"ax_min", "ax_max"});
   }
 }
 

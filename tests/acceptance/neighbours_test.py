@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The outcomes hold with the start moved by .1 m in x and y and, in E_C, at tex .25 (P_D at the
-default floor and at 1.2 there; at .7 it runs into a dead end, docs/robustness.md)."""
+default floor and at 1.2 there; at .7 it runs into a dead end, docs/measured/robustness.md)."""
 
 import unittest
 

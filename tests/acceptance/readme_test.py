@@ -33,7 +33,7 @@ class Readme(unittest.TestCase):
         self.assertTrue((self.folder / "run/lorry/report.html").is_file())
 
     def test_links_lead_somewhere(self):
-        pages = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
+        pages = [SOURCE / "README.md", *sorted((SOURCE / "docs").rglob("*.md"))]
         for page in pages:
             for link in re.findall(r"\]\(([^)#\s]+)\)", page.read_text()):
                 if "://" not in link:

@@ -13,6 +13,19 @@ TEST(InvalidValue, SaysWhereWhatAndTheRule) {
   EXPECT_EQ(error.expected(), "a number > 0");
 }
 
+TEST(InvalidValue, KeysCountFromTheOutermostPart) {
+  EXPECT_TRUE(InvalidValue("a", "b", "c").keys().empty());
+  try {
+    check_within("scene", [] {
+      check_within("goal", [] { throw InvalidValue("a", "b", "c", {"x", "sigma"}); });
+    });
+    FAIL() << "nothing thrown";
+  } catch (const InvalidValue& error) {
+    EXPECT_EQ(error.keys(), (std::vector<std::string>{"scene.goal.x", "scene.goal.sigma"}));
+    EXPECT_STREQ(error.what(), "a: found b, expected c");
+  }
+}
+
 TEST(InvalidValue, IsAnErrorAndARuntimeError) {
   EXPECT_THROW(throw InvalidValue("a", "b", "c"), Error);
   EXPECT_THROW(throw Error("text"), std::runtime_error);

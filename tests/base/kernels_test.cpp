@@ -38,6 +38,9 @@ TEST_F(KernelSetTest, ASetTheProcessorLacksIsRefusedAndTheOldOneKept) {
 TEST_F(KernelSetTest, EachSetHasItsName) {
   EXPECT_STREQ(to_string(KernelSet::baseline), "baseline");
   EXPECT_STREQ(to_string(KernelSet::avx2), "avx2");
+  for (const auto set : {KernelSet::baseline, KernelSet::avx2})
+    EXPECT_EQ(kernel_set(to_string(set)), set);
+  EXPECT_THROW((void)kernel_set("best"), InvalidValue);
 }
 
 }  // namespace

@@ -139,7 +139,40 @@ TEST(OptionTable, ChecksSettingsMadeInCode) {
     FAIL() << "nothing thrown";
   } catch (const InvalidValue& error) {
     EXPECT_STREQ(error.what(), "in code: found range = -5, expected a number >= 0");
+    EXPECT_EQ(error.keys(), std::vector<std::string>{"range"});
   }
+}
+
+TEST(OptionTable, EveryRefusalHasItsKey) {
+  const std::vector<std::pair<const char*, OptionValue>> refused = {
+      {"weight", true}, {"weight", -1.0},
+      {"count", 2.5},   {"count", std::int64_t{11}},
+      {"on", 1.0},      {"title", 1.0},
+      {"colour", 1.0},  {"colour", std::string("grey")},
+      {"range", 1.0},   {"range", std::vector<double>{1}}};
+  const auto options = table();
+  for (const auto& [name, value] : refused) {
+    std::vector<std::string> keys;
+    try {
+      (void)options.find(name)->info.checked(value, "here");
+    } catch (const InvalidValue& error) {
+      keys = error.keys();
+    }
+    EXPECT_EQ(keys, std::vector<std::string>{name}) << to_string(value);
+  }
+}
+
+TEST(OptionTable, ElementsOfAnArrayHaveNames) {
+  using Pair = std::array<double, 2>;
+  OptionTable<Pair> options;
+  options.element("first", 0, OptionRange::any(), "m", "One.")
+      .element("second", 1, OptionRange::positive(), "m", "Another.");
+  Pair pair = {1, 2};
+  options.set(pair, *options.find("second"), 3.0, "here");
+  EXPECT_EQ(pair, (Pair{1, 3}));
+  EXPECT_EQ(options.find("first")->get(pair), OptionValue(1.0));
+  pair[1] = 0;
+  EXPECT_THROW(options.check(pair, "here"), InvalidValue);
 }
 
 TEST(OptionTable, AnIntegerBeyondIntIsRefusedWhateverTheRange) {

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "files.hpp"
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 
@@ -211,6 +211,39 @@ TEST(BadScenario, Contradictions) {
                   {"both r and a"});
   expect_contains(message_of_text("start: {x: 0}\ngoal: {x: 0, y: 100}\n"),
                   {"my.yaml:1:8", "without 'y'"});
+}
+
+TEST(BadScenario, ContradictionsBlameTheValueNearestToTheUser) {
+  const auto set = [](const std::string& text, const std::vector<std::string>& assignments) {
+    TemporaryFolder folder;
+    test::write(folder / "my.yaml", text);
+    return message_of({folder / "my.yaml", {}, {}, assignments});
+  };
+  // The command line before the file, the file before a file that it names.
+  expect_contains(set(kGood + "loop: {tex: 9}\n", {"planner.tf_max=8"}),
+                  {"--set planner.tf_max: found tex = 9, expected at most tf_max = 8"});
+  expect_contains(set(kGood + "planner: {base: P_D, tf_max: 0.4}\n", {}),
+                  {"my.yaml:3:30: found tex = 0.5"});
+  expect_contains(set("start: {x: 30, y: 0}\ngoal: {x: 0, y: 100}\n", {"region.x_max=24"}),
+                  {"--set region.x_max: found start x = 30"});
+  expect_contains(set(kGood + "obstacles: [{x: 50, y: 0, r: 3}]\n", {"obstacles.O1.x=1"}),
+                  {"--set obstacles.O1.x: found start (0, 0)", "inside obstacle O1"});
+  expect_contains(set(kGood + "obstacles: [{x: 9, y: 0, r: 3}]\n", {"loop.sm_crash=8"}),
+                  {"--set loop.sm_crash: found start (0, 0)"});
+  expect_contains(set(kGood, {"vehicle.psi_max=1", "start.y=3"}),
+                  {"--set vehicle.psi_max: found start psi = 1.5707"});
+  expect_contains(set(kGood, {"loop.latency=recorded"}),
+                  {"--set loop.latency: found no solve times"});
+  expect_contains(set(kGood, {"loop.Fz_failure=6500"}),
+                  {"--set loop.Fz_failure: found start Fz_r"});
+  expect_contains(set(kGood + "vehicle: {base: hmmwv, m: 1.0e+308}\n", {"plant.mass_factor=10"}),
+                  {"--set plant.mass_factor: found the plant's vehicle m = inf"});
+  expect_contains(set("start: {x: 0, y: 0, ux: 29, ax: 1}\ngoal: {x: 0, y: 100}\n", {}),
+                  {"my.yaml:1:33: found start ax = 1"});
+  // A row that leaves the numbers there are, though its values are in range: the row's place.
+  expect_contains(
+      set(kGood + "obstacles:\n  - {x: 9, y: 9, r: 1, repeat: 3, step: [1.0e+308, 0]}\n", {}),
+      {"my.yaml:4:5: found obstacle O13 x = inf, expected a finite number"});
 }
 
 TEST(BadScenario, AFileThatAScenarioNames) {

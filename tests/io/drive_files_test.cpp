@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "files.hpp"
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 
@@ -58,7 +58,7 @@ sim::Drive made_up_drive() {
     cycle.plan.states.resize(3);
     cycle.plan.controls.resize(3);
     cycle.plan.report.wall_s = index == 0 ? 9 : 0.25 * index;
-    cycle.plan.report.status = "solved";
+    cycle.plan.report.status = planner::PlanStatus::solved;
     cycle.plan.report.worst_constraint = "obstacle[a, \"b\"] at node 3";
     cycle.plan.report.cost_terms = {{"final_time", 2.5}};
     if (index == 2) cycle.plan.report.cost_terms.push_back({"goal", 1.5});

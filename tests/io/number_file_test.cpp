@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "files.hpp"
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 

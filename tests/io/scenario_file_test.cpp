@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "files.hpp"
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::io {
@@ -29,23 +29,11 @@ void expect_same(const sim::Scenario& a, const sim::Scenario& b) {
   EXPECT_EQ(a.name, b.name);
   EXPECT_EQ(a.title, b.title);
   EXPECT_EQ(a.start, b.start);
-  EXPECT_EQ(a.goal.x, b.goal.x);
-  EXPECT_EQ(a.goal.y, b.goal.y);
-  EXPECT_EQ(a.goal.psi, b.goal.psi);
-  EXPECT_EQ(a.goal.sigma, b.goal.sigma);
-  EXPECT_EQ(a.region.x_min, b.region.x_min);
-  EXPECT_EQ(a.region.x_max, b.region.x_max);
-  EXPECT_EQ(a.region.y_min, b.region.y_min);
-  EXPECT_EQ(a.region.y_max, b.region.y_max);
+  expect_same(world::goal_options(), a.goal, b.goal);
+  expect_same(world::region_options(), a.region, b.region);
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
-  for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
-    const auto &p = a.obstacles[i], &q = b.obstacles[i];
-    EXPECT_EQ(p.name, q.name);
-    EXPECT_EQ((std::array{p.x, p.y, p.a, p.b, p.vx, p.vy}),
-              (std::array{q.x, q.y, q.a, q.b, q.vx, q.vy}));
-  }
-  EXPECT_EQ(a.planner.name, b.planner.name);
-  EXPECT_EQ(a.vehicle.name, b.vehicle.name);
+  for (std::size_t i = 0; i < a.obstacles.size(); ++i)
+    expect_same(world::obstacle_options(), a.obstacles[i], b.obstacles[i]);
   expect_same(planner::setting_options(), a.planner, b.planner);
   expect_same(vehicle::parameter_options(), a.vehicle, b.vehicle);
   expect_same(sim::loop_options(), a.loop, b.loop);
@@ -171,6 +159,19 @@ TEST(ScenarioFile, YamlReadsBackToTheSameBits) {
     EXPECT_EQ(to_yaml(scenario), to_yaml(again));
   }
   EXPECT_TRUE(std::signbit(odd.start[vehicle::V]));
+}
+
+TEST(ScenarioFile, EverySettingIsKnownByTheKeyThatSetsIt) {
+  const auto changed = load("E_C", {"planner.w_t=7", "vehicle.m=3000", "loop.tex=0.25",
+                                    "plant.mass_factor=1.5", "sensing.delay=0.5"});
+  std::vector<std::string> overrides;
+  for (const auto& [key, value] : settings_of(changed))
+    overrides.push_back(key + "=" + slalom::to_string(value));
+  EXPECT_EQ(overrides.size(),
+            vehicle::parameter_options().entries().size() +
+                planner::setting_options().entries().size() + sim::loop_options().entries().size() +
+                sim::plant_options().entries().size() + sim::sensing_options().entries().size());
+  expect_same(load("E_C", overrides), changed);
 }
 
 TEST(ScenarioFile, TextIsReadAsItsFileIs) {

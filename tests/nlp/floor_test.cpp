@@ -29,6 +29,7 @@ Solved central_point(SmallProblem& problem, double mu) {
     if (first.answer.point.x.empty()) first = solved;
     for (std::size_t i = 0; i < problem.start.size(); ++i)
       EXPECT_NEAR(solved.answer.point.x[i], first.answer.point.x[i], 0.02);
+    EXPECT_NEAR(solved.residuals.phi, first.residuals.phi, 1e-4 * (1 + mu));
   }
   return first;
 }

@@ -1,4 +1,4 @@
-// Receding horizons: modes, horizons, plants, failures, and how they end.
+// Receding horizons: modes, horizons and plants.
 
 #include "slalom/ocp/mpc.hpp"
 
@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "ocp/cart.hpp"
 #include "ocp/closed_forms.hpp"
 #include "ocp/messages.hpp"
 
@@ -15,26 +16,6 @@ namespace slalom::ocp {
 namespace {
 
 using test::refusal;
-
-/// A cart drawn to x = target with bounded thrust; `wall` keeps v from 0.9 up, say.
-struct Cart {
-  Problem problem{"cart"};
-  Expr x = problem.state("x", {-10, 10}), v = problem.state("v", {-3, 3});
-  Expr u = problem.control("u", {-1, 1}), target = problem.parameter("target", 1);
-  ConstraintId wall = problem.path("wall", v, Bounds::at_most(2.5));
-  Cart() {
-    problem.dynamics(x, v);
-    problem.dynamics(v, u);
-    problem.lagrange("cost", square(x - target) + square(v) / 10 + square(u) / 10);
-    problem.final_time(Bounds::equal(4), 4);
-  }
-  MpcSettings settings() const {
-    return {.solve = {.mesh = Mesh::uniform(20)},
-            .tex = 0.25,
-            .max_cycles = 60,
-            .goal = {{"x", 1, 0.01}, {"v", 0, 0.01}}};
-  }
-};
 
 int iterations(const MpcResult& result) {
   return std::accumulate(result.cycles.begin(), result.cycles.end(), 0,
@@ -160,19 +141,6 @@ TEST(Mpc, JudgesTheGoalWhereAPlanShorterThanACycleEnds) {
   EXPECT_NE(missed.message.find("tolerances from the goal"), std::string::npos);
 }
 
-/// A plant with drag and an actuator that lags, by names of its own order.
-System lagging_cart() {
-  return {
-      "lagging cart",
-      {"thrust", "v", "x"},
-      {"u"},
-      [](double, std::span<const double> x, std::span<const double> u, std::span<double> rates) {
-        rates[0] = (u[0] - x[0]) / 0.05;
-        rates[1] = x[0] - 0.1 * x[1];
-        rates[2] = x[1];
-      }};
-}
-
 TEST(Mpc, DrivesAPlantOtherThanTheModel) {
   Cart cart;
   auto settings = cart.settings();
@@ -240,37 +208,6 @@ TEST(Mpc, ServesAPlantOutside) {
   EXPECT_THROW(mpc.step({x, v}, 100), Error);
 }
 
-TEST(Mpc, AFailedSolveLeavesTheLastPlanOrEnds) {
-  Cart cart;
-  auto settings = cart.settings();
-  int from = 3, to = 4;
-  settings.update = [&](Problem& problem, const MpcCycle& cycle) {
-    const bool fail = cycle.index >= from && cycle.index <= to;
-    problem.final_bounds(cart.x, fail ? Bounds::equal(9.9) : Bounds{});  // out of reach
-  };
-  const auto result = Mpc(cart.problem, settings).run({-2, 0});
-  ASSERT_EQ(result.status, MpcStatus::goal) << result.message;
-  EXPECT_FALSE(result.cycles[2].used);
-  EXPECT_FALSE(result.cycles[3].used);
-  EXPECT_TRUE(result.cycles[4].used);
-  for (const std::size_t k : {2u, 3u})  // the plan of cycle 2, as predicted, was driven
-    EXPECT_NEAR(result.cycles[k].arrived[0], result.cycles[k].x0[0], 1e-7);
-  settings.max_unsolved = 1;
-  const auto twice = Mpc(cart.problem, settings).run({-2, 0});
-  EXPECT_EQ(twice.status, MpcStatus::not_solved);
-  EXPECT_EQ(twice.cycles.size(), 4u);
-  settings.max_unsolved = 3;
-  settings.on_unsolved = OnUnsolved::stop;
-  const auto stopped = Mpc(cart.problem, settings).run({-2, 0});
-  EXPECT_EQ(stopped.status, MpcStatus::not_solved);
-  EXPECT_EQ(stopped.cycles.size(), 3u);
-  EXPECT_EQ(stopped.message.find("cycle 3 was not solved: infeasible, worst at "), 0u)
-      << stopped.message;
-  settings.on_unsolved = OnUnsolved::last_plan;
-  from = 1;  // and there is no last plan
-  EXPECT_EQ(Mpc(cart.problem, settings).run({-2, 0}).cycles.size(), 1u);
-}
-
 TEST(Mpc, TheUpdateMayChangeNumbersAndStructure) {
   Cart cart;
   auto settings = cart.settings();
@@ -283,18 +220,6 @@ TEST(Mpc, TheUpdateMayChangeNumbersAndStructure) {
   EXPECT_EQ(result.status, MpcStatus::goal) << result.message;
   EXPECT_EQ(result.cycles[2].solution.multiplier("wall").values.size(), 41u);
   EXPECT_NE(refusal([&] { (void)result.cycles[4].solution.multiplier("wall"); }), "accepted");
-}
-
-TEST(Mpc, TheCheckStopsIt) {
-  Cart cart;
-  auto settings = cart.settings();
-  settings.check = [](const MpcCycle& cycle) {
-    return cycle.index == 4 ? "a cow on the track" : "";
-  };
-  const auto result = Mpc(cart.problem, settings).run({-2, 0});
-  EXPECT_EQ(result.status, MpcStatus::stopped);
-  EXPECT_EQ(result.message, "a cow on the track");
-  EXPECT_EQ(result.cycles.size(), 4u);
 }
 
 TEST(Mpc, ShiftedPlansAndMultipliersSaveIterations) {
@@ -326,86 +251,6 @@ TEST(Mpc, WarmsUpAndForgetsCyclesWhenTold) {
   const auto last = Mpc(cart.problem, settings).run({-2, 0});
   ASSERT_EQ(last.cycles.size(), 1u);
   EXPECT_EQ(last.cycles[0].index, 3);
-}
-
-TEST(Mpc, AStateBeyondItsBoundsIsPutOnThem) {
-  Cart cart;
-  auto settings = cart.settings();
-  settings.planning = Planning::instant;
-  settings.start_tolerance = {{"x", 0.1}};
-  Mpc mpc(cart.problem, settings);
-  EXPECT_EQ(mpc.step({-10.5, 0.2}, 0), MpcStatus::running) << mpc.message();
-  const MpcCycle& cycle = mpc.cycles().back();
-  EXPECT_EQ(cycle.x0, (std::vector<double>{-10, 0.2}));
-  EXPECT_TRUE(cycle.used);
-  EXPECT_NEAR(cycle.solution.state("x").front(), -9.9, 1e-6);  // what the tolerance is used for
-}
-
-TEST(Mpc, EndsWhereThePlantIsLost) {
-  Cart cart;
-  auto settings = cart.settings();
-  settings.plant = System{
-      "explosive",
-      {"x", "v"},
-      {"u"},
-      [](double, std::span<const double> x, std::span<const double>, std::span<double> rates) {
-        rates[0] = 1 + x[0] * x[0];
-        rates[1] = 0;
-      }};
-  const auto result = Mpc(cart.problem, settings).run({0.9, 0});
-  EXPECT_EQ(result.status, MpcStatus::lost);
-  EXPECT_EQ(result.message.find("explosive cannot be integrated past t = 0.8"), 0u)
-      << result.message;
-  settings.plant_known = true;
-  const auto known = Mpc(cart.problem, settings).run({0.9, 0});
-  EXPECT_EQ(known.status, MpcStatus::lost);
-  EXPECT_NE(known.message.find("cannot predict"), std::string::npos) << known.message;
-}
-
-TEST(MpcErrors, NameWhatIsWrong) {
-  Cart cart;
-  const auto refused = [&](auto change) {
-    auto settings = cart.settings();
-    change(settings);
-    return refusal([&] { (void)Mpc(cart.problem, settings).run({-2, 0}); });
-  };
-  using S = MpcSettings;
-  EXPECT_EQ(refused([](S& s) { s.tex = 0; }), "cart: mpc: found tex = 0, expected a number > 0");
-  EXPECT_NE(refused([](S& s) { s.max_cycles = 0; }), "accepted");
-  EXPECT_EQ(refused([](S& s) { s.goal[0].state = "vv"; }),
-            "cart: mpc: goal: found no state 'vv', expected perhaps 'v'");
-  EXPECT_EQ(refused([](S& s) { s.goal[0].tolerance = -1; }),
-            "cart: mpc: goal x: found 1 with tolerance -1, expected a finite value and a finite "
-            "tolerance >= 0");
-  EXPECT_EQ(refused([](S& s) {
-              s.first_controls = {1, 2};
-            }),
-            "cart: mpc: first_controls: found 2, expected 1, one a control, or none");
-  EXPECT_EQ(refused([](S& s) {
-              s.start_tolerance = {{"y", 1}};
-            }),
-            "cart: mpc: start_tolerance: found no state 'y', expected a state of this problem");
-  EXPECT_EQ(refused([](S& s) {
-              s.plant = lagging_cart();
-              s.plant->controls = {"w"};
-            }),
-            "lagging cart: input: found 'w', expected a control or state of the problem");
-  EXPECT_EQ(
-      refused([](S& s) {
-        s.plant = lagging_cart();
-        s.plant->states = {"thrust", "speed", "x"};
-      }),
-      "lagging cart: state to measure: found 'v', expected a function `measure`, for the plant "
-      "has no such state");
-  Mpc mpc(cart.problem, cart.settings());
-  EXPECT_EQ(refusal([&] { mpc.step({1}, 0); }), "cart: mpc: measured states: found 1, expected 2");
-  EXPECT_EQ(refusal([&] {
-              mpc.step({1, std::nan("")}, 0);
-            }),
-            "cart: mpc: measured states: found v = nan, expected a finite number");
-  cart.problem.initial_time({0, 1}, 0);
-  EXPECT_EQ(refused([](S&) {}),
-            "cart: mpc: found t0 free from 0 to 1, expected a t0 that each cycle can set");
 }
 
 }  // namespace

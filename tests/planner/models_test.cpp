@@ -46,7 +46,7 @@ double worst_defect(const Plan& plan, ModelKind kind) {
     const State a = numbers.rate(plan.states[k], plan.controls[k]);
     const State b = numbers.rate(plan.states[k + 1], plan.controls[k + 1]);
     for (std::size_t i = 0; i < kStates; ++i)
-      if (model.part[i] == Part::state)
+      if (model.role[i] == Role::state)
         worst = std::max(worst, std::fabs(plan.states[k + 1][i] - plan.states[k][i] -
                                           (plan.t[k + 1] - plan.t[k]) / 2 * (a[i] + b[i])));
   }
@@ -58,14 +58,14 @@ TEST(Models, APlanObeysItsOwnModelAndTheNextStartsFromIt) {
     for (const bool near : {false, true}) {
       SCOPED_TRACE(model_names()[static_cast<std::size_t>(kind)] + (near ? ", in range" : ""));
       Scene scene = E_B();
-      scene.settings.model = kind;
+      scene.planner.model = kind;
       if (near) {
         scene.first.X0p[Y] = 85;
         scene.obstacles.clear();
       }
-      Planner planner = scene.planner();
+      Planner planner = Planner(scene);
       const Plan first = planner.plan(scene.first);
-      ASSERT_TRUE(first.report.solved) << first.report.status;
+      ASSERT_TRUE(first.report.solved) << first.report.status_text();
       EXPECT_LT(worst_defect(first, kind), 1e-5);
       const Plan again = planner.plan(scene.first);
       ASSERT_TRUE(again.report.solved);
@@ -77,9 +77,9 @@ TEST(Models, APlanObeysItsOwnModelAndTheNextStartsFromIt) {
 
 TEST(Models, ConstantSpeedPlansSteeringAlone) {
   Scene scene = E_B();
-  scene.settings.model = ModelKind::constant_speed;
+  scene.planner.model = ModelKind::constant_speed;
   scene.first.X0p[UX] = 16.25;
-  const Plan plan = scene.planner().plan(scene.first);
+  const Plan plan = Planner(scene).plan(scene.first);
   ASSERT_TRUE(plan.report.solved);
   for (std::size_t k = 0; k < plan.t.size(); ++k) {
     EXPECT_EQ(plan.states[k][UX], 16.25);
@@ -90,8 +90,8 @@ TEST(Models, ConstantSpeedPlansSteeringAlone) {
 
 TEST(Models, TheKinematicBicycleDoesNotSlip) {
   Scene scene = E_B();
-  scene.settings.model = ModelKind::kinematic;
-  const Plan plan = scene.planner().plan(scene.first);
+  scene.planner.model = ModelKind::kinematic;
+  const Plan plan = Planner(scene).plan(scene.first);
   ASSERT_TRUE(plan.report.solved);
   const Parameters p;
   double steered = 0;

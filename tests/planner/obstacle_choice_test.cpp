@@ -13,7 +13,7 @@
 namespace slalom::planner {
 namespace {
 
-std::vector<std::string> names(const std::vector<Obstacle>& obstacles) {
+std::vector<std::string> names(const std::vector<world::Obstacle>& obstacles) {
   std::vector<std::string> names;
   for (const auto& o : obstacles) names.push_back(o.name);
   return names;
@@ -27,10 +27,10 @@ Settings choosing(ObstacleChoice choice, int count = 5) {
   return s;
 }
 
-const std::vector<Obstacle> kRow = {{"a", 0, 20, 2, 2, 0, 0},
-                                    {"b", 0, 300, 2, 2, 0, -30},
-                                    {"c", 0, 64, 2, 2, 0, 0},
-                                    {"d", 0, 9, 1, 1, 0, 0}};
+const std::vector<world::Obstacle> kRow = {{"a", 0, 20, 2, 2, 0, 0},
+                                           {"b", 0, 300, 2, 2, 0, -30},
+                                           {"c", 0, 64, 2, 2, 0, 0},
+                                           {"d", 0, 9, 1, 1, 0, 0}};
 
 TEST(ObstacleChoice, InReachDropsOnlyWhatNoPlanCanTouch) {
   // From (0, 0) a plan reaches 50 + 5 m and the slacks; "c" begins 64 - 2 - 4 = 58 m away.
@@ -47,11 +47,13 @@ TEST(ObstacleChoice, NearestCountsFromTheEdgeAtTheStartOfThePlanAndKeepsTheOrder
   Request request;
   EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
             (Names{"a", "d"}));
-  request.t0 = 9;  // b stands at 300 - 30 * 9.5 = 15
+  request.t0 = 9;
+  request.t_start = 9.5;  // b stands at 300 - 30 * 9.5 = 15
   EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
             (Names{"b", "d"}));
   EXPECT_EQ(choose_obstacles(choosing(ObstacleChoice::nearest, 9), request, kRow).size(), 4u);
-  const std::vector<Obstacle> long_one = {{"far", 0, 10, 1, 1, 0, 0}, {"long", 40, 0, 38, 1, 0, 0}};
+  const std::vector<world::Obstacle> long_one = {{"far", 0, 10, 1, 1, 0, 0},
+                                                 {"long", 40, 0, 38, 1, 0, 0}};
   EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 1), request, long_one)),
             (Names{"long"}));
 }
@@ -66,7 +68,7 @@ TEST(Groups, ChainsOfOneVelocityBecomeOneEllipse) {
   const auto groups = group_obstacles(s, scene.obstacles);
   EXPECT_EQ(names(groups), (Names{"O1", "O2", "cone1+35"}));
   EXPECT_DOUBLE_EQ(groups[2].y, 87.5);
-  std::vector<Obstacle> moving = {
+  std::vector<world::Obstacle> moving = {
       {"p", 0, 0, 1, 1, 0, 5}, {"q", 0, 3, 1, 1, 0, 5}, {"r", 0, 6, 1, 1, 0, 0}};
   const auto two = group_obstacles(s, moving);
   ASSERT_EQ(names(two), (Names{"p+1", "r"}));
@@ -77,10 +79,10 @@ TEST(Groups, TheEllipseCoversItsMembersAndLittleElse) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-20, 20), size(0.2, 6);
   for (int trial = 0; trial < 50; ++trial) {
-    std::vector<Obstacle> members;
+    std::vector<world::Obstacle> members;
     for (int k = 0; k < 2 + trial % 5; ++k)
       members.push_back({"m", place(random), place(random), size(random), size(random), 0, 0});
-    const Obstacle cover = covering_ellipse(members);
+    const world::Obstacle cover = covering_ellipse(members);
     double most = 0;
     for (const auto& m : members)
       for (int k = 0; k < 5000; ++k) {
@@ -96,13 +98,13 @@ TEST(Groups, TheEllipseCoversItsMembersAndLittleElse) {
 TEST(ObstacleChoice, AChosenProblemHasTheChosenRowsAndPlansGoOnAsTheChoiceChanges) {
   for (const auto choice : {ObstacleChoice::in_reach, ObstacleChoice::nearest}) {
     Scene scene = E_C();
-    scene.settings.obstacle_choice = choice;
-    scene.settings.obstacle_count = 12;
-    auto planner = scene.planner();
+    scene.planner.obstacle_choice = choice;
+    scene.planner.obstacle_count = 12;
+    auto planner = Planner(scene);
     Request request = scene.first;
     for (int cycle = 0; cycle < 8; ++cycle) {
       const Plan plan = planner.plan(request);
-      ASSERT_TRUE(plan.report.solved) << cycle << ": " << plan.report.status;
+      ASSERT_TRUE(plan.report.solved) << cycle << ": " << plan.report.status_text();
       if (choice == ObstacleChoice::in_reach) EXPECT_GE(least_obstacle_row(scene, plan), -1e-6);
       request = next_cycle(request, plan);
     }
@@ -112,24 +114,22 @@ TEST(ObstacleChoice, AChosenProblemHasTheChosenRowsAndPlansGoOnAsTheChoiceChange
 /// What cannot be touched does not move the plan but through the barrier's far tail.
 TEST(ObstacleChoice, InReachPlansAsAllDo) {
   Scene scene = E_C();
-  const Plan all = scene.planner().plan(scene.first);
-  scene.settings.obstacle_choice = ObstacleChoice::in_reach;
-  const Plan some = scene.planner().plan(scene.first);
+  const Plan all = Planner(scene).plan(scene.first);
+  scene.planner.obstacle_choice = ObstacleChoice::in_reach;
+  const Plan some = Planner(scene).plan(scene.first);
   EXPECT_LT(distance(all, some, [](const State& x) { return std::pair(x[0], x[1]); }), 0.1);
 }
 
 TEST(ObstacleChoice, ASolveIsReplayedWithTheObstaclesItHad) {
   Scene scene = E_C();
-  scene.settings.obstacle_choice = ObstacleChoice::nearest;
-  auto planner = scene.planner();
+  scene.planner.obstacle_choice = ObstacleChoice::nearest;
+  auto planner = Planner(scene);
   std::vector<Recording> recordings;
   planner.record({[](const SolveReport&) { return true; },
                   [&](const Recording& r) { recordings.push_back(r); }});
   Request request = scene.first;
   for (int cycle = 0; cycle < 3; ++cycle) request = next_cycle(request, planner.plan(request));
-  for (const auto& r : recordings)
-    EXPECT_TRUE(
-        replay(r, scene.settings, scene.vehicle, scene.goal, scene.region, scene.obstacles).same);
+  for (const auto& r : recordings) EXPECT_TRUE(replay(r, scene).same);
 }
 
 }  // namespace

@@ -15,8 +15,7 @@ namespace slalom::planner {
 namespace {
 
 TrajectoryProblem problem_of(const Scene& scene, bool in_range) {
-  TrajectoryProblem problem(scene.settings, scene.vehicle, scene.goal, scene.region,
-                            scene.obstacles, in_range);
+  TrajectoryProblem problem(scene, in_range);
   problem.update(scene.first);
   return problem;
 }
@@ -27,7 +26,7 @@ struct Names {
 
   Names(const Scene& scene, bool in_range) {
     const auto problem = problem_of(scene, in_range);
-    ocp::Transcription t(problem.problem(), ocp::Mesh::uniform(scene.settings.N),
+    ocp::Transcription t(problem.problem(), ocp::Mesh::uniform(scene.planner.N),
                          ocp::trapezoidal());
     for (std::size_t r = 0; r < t.structure().rows; ++r) rows.push_back(t.row_name(r));
     for (const auto& [name, value] : t.cost_terms(t.point(t.straight_guess())))
@@ -59,7 +58,7 @@ TEST(FirstOcp, PublishedSolutionsToAllPrintedDigits) {
     for (const auto& backend : nlp::backends()) {
       SCOPED_TRACE(std::string(c.name) + " with " + backend);
       const auto problem = problem_of(c.scene, false);
-      ocp::SolveSettings settings{.mesh = ocp::Mesh::uniform(c.scene.settings.N),
+      ocp::SolveSettings settings{.mesh = ocp::Mesh::uniform(c.scene.planner.N),
                                   .scheme = ocp::trapezoidal(),
                                   .backend = backend};
       settings.options.floor = 0.8;
@@ -113,7 +112,7 @@ TEST(Rows, GoalInRange) {
 TEST(Rows, OptionalOnesAreAbsentByDefault) {
   Scene scene = E_A();
   EXPECT_EQ(Names(scene, false).rows_with("tyre force"), 0u);
-  scene.settings.tyre_force_limit = 7500;
+  scene.planner.tyre_force_limit = 7500;
   EXPECT_EQ(Names(scene, false).rows_with("tyre force"), 22u);
   scene.obstacles.clear();
   EXPECT_EQ(Names(scene, false).rows_with("obstacle"), 0u);
@@ -126,16 +125,16 @@ TEST(CostTerms, OfWeightZeroAreAbsent) {
             (Terms{"final_time", "goal", "wheel_load", "heading_area", "initial_slack"}));
   EXPECT_EQ(Names(scene, true).terms,
             (Terms{"final_time", "wheel_load", "heading_area", "initial_slack", "final_slack"}));
-  scene.settings.w_t = 0;  // P_A
+  scene.planner.w_t = 0;  // P_A
   EXPECT_FALSE(Names(scene, false).has_term("final_time"));
-  scene.settings.w_ce = 1;
+  scene.planner.w_ce = 1;
   EXPECT_TRUE(Names(scene, false).has_term("control_effort"));
   EXPECT_FALSE(Names(scene, false).has_term("acceleration"));
-  scene.settings.w_ax = 0.1;
-  scene.settings.w_psi = 0.1;
+  scene.planner.w_ax = 0.1;
+  scene.planner.w_psi = 0.1;
   EXPECT_TRUE(Names(scene, false).has_term("acceleration"));
   EXPECT_TRUE(Names(scene, false).has_term("heading"));
-  scene.settings.w_g = scene.settings.w_Fz = scene.settings.w_haf = 0;
+  scene.planner.w_g = scene.planner.w_Fz = scene.planner.w_haf = 0;
   for (const char* term : {"goal", "wheel_load", "heading_area"})
     EXPECT_FALSE(Names(scene, false).has_term(term)) << term;
 }
@@ -143,9 +142,9 @@ TEST(CostTerms, OfWeightZeroAreAbsent) {
 /// The cost terms of section 3 written out a second time, at a straight plan of known states.
 TEST(CostTerms, AreTheFormulationsOnes) {
   Scene scene = E_C();
-  scene.settings.w_ax = 0.1;
+  scene.planner.w_ax = 0.1;
   const auto problem = problem_of(scene, false);
-  const int N = scene.settings.N;
+  const int N = scene.planner.N;
   ocp::Transcription t(problem.problem(), ocp::Mesh::uniform(N), ocp::trapezoidal());
   const double tf = 4;
   const State from{6, 8, 0.2, 0.05, 1.5, 0.02, 17, 0.4}, to{9, 90, -0.1, 0.1, 1.7, -0.01, 20, 0.2};

@@ -20,8 +20,8 @@ Bits drive_a_while() {
   const auto add = [&](double v) { bits.push_back(std::bit_cast<std::uint64_t>(v)); };
   for (auto* scene : {&E_B, &E_C}) {
     Scene s = scene();
-    s.settings.solver = SolverChoice::interior_point;
-    auto planner = s.planner();
+    s.planner.solver = SolverChoice::interior_point;
+    auto planner = Planner(s);
     Request request = s.first;
     for (int cycle = 0; cycle < 3; ++cycle) {
       const Plan plan = planner.plan(request);
@@ -30,7 +30,9 @@ Bits drive_a_while() {
       add(plan.report.phi);
       for (const auto& state : plan.states)
         for (const double v : state) add(v);
-      request.t0 += request.tex;
+      const double tex = request.t_start - request.t0;
+      request.t0 += tex;
+      request.t_start += tex;
       request.X0p = plan.states[1];
     }
   }

@@ -23,23 +23,16 @@ inline std::vector<SolverChoice> solvers() {
 }
 
 /// What a planner plans in.
-struct Scene {
-  Settings settings;
-  vehicle::Parameters vehicle;
-  Goal goal;
-  Region region;
-  std::vector<Obstacle> obstacles;
+struct Scene : Task {
   Request first;
-
-  Planner planner() const { return {settings, vehicle, goal, region, obstacles}; }
 };
 
 /// The paper's E_A with planner P_B (section 4 of docs/formulation.md).
 inline Scene E_A() {
   Scene scene;
-  scene.settings.w_ce = 0;
-  scene.settings.moving_avoidance = false;
-  scene.settings.floor = 0.8;
+  scene.planner.w_ce = 0;
+  scene.planner.moving_avoidance = false;
+  scene.planner.floor = 0.8;
   scene.goal = {.x = 200, .y = 125, .sigma = 15};
   scene.obstacles = {
       {"O1", 205, 57, 5, 5, 0, 0}, {"O2", 180, 75, 4, 4, 0, 0}, {"O3", 200, 63, 2, 2, 0, 0}};
@@ -50,8 +43,8 @@ inline Scene E_A() {
 /// E_A's obstacles, moving, with planner P_D.
 inline Scene E_B() {
   Scene scene = E_A();
-  scene.settings.w_ce = 1;
-  scene.settings.moving_avoidance = true;
+  scene.planner.w_ce = 1;
+  scene.planner.moving_avoidance = true;
   const double vx[] = {-2, -1, -0.5}, vy[] = {0, 1, 6};
   for (std::size_t i = 0; i < 3; ++i) {
     scene.obstacles[i].vx = vx[i];
@@ -63,10 +56,10 @@ inline Scene E_B() {
 /// The paper's E_C with planner P_D.
 inline Scene E_C() {
   Scene scene;
-  scene.settings.floor = 0.8;
-  scene.settings.N = 15;
-  scene.settings.L_range = 90;
-  scene.settings.kappa = 10;
+  scene.planner.floor = 0.8;
+  scene.planner.N = 15;
+  scene.planner.L_range = 90;
+  scene.planner.kappa = 10;
   scene.goal = {.x = 18, .y = 700, .sigma = 25};
   scene.region.x_min = 0;
   scene.region.x_max = 24;
@@ -125,8 +118,10 @@ inline State integrate(const Plan& plan, double time, Controls kind = Controls::
 /// The next cycle of a vehicle that follows `plan` from its own first state.
 inline Request next_cycle(const Request& request, const Plan& plan) {
   Request next = request;
-  next.t0 = request.t0 + request.tex;
-  next.X0p = integrate(plan, request.tex);
+  const double tex = request.t_start - request.t0;
+  next.t0 = request.t_start;
+  next.t_start = next.t0 + tex;
+  next.X0p = integrate(plan, tex);
   return next;
 }
 
@@ -144,7 +139,7 @@ double distance(const Plan& a, const Plan& b, Map map) {
 /// ((x - xo) / (a + sm))^2 + ((y - yo) / (b + sm))^2 - 1, least over nodes after the first.
 inline double least_obstacle_row(const Scene& scene, const Plan& plan) {
   double least = 1e300;
-  const auto& s = scene.settings;
+  const auto& s = scene.planner;
   for (std::size_t k = 1; k < plan.t.size(); ++k)
     for (const auto& o : scene.obstacles) {
       const double t =

@@ -13,12 +13,10 @@ namespace slalom::planner {
 class TranscribedScene {
  public:
   explicit TranscribedScene(Scene s, bool in_range = false)
-      : scene(std::move(s)),
-        problem_(scene.settings, scene.vehicle, scene.goal, scene.region, scene.obstacles,
-                 in_range) {
+      : scene(std::move(s)), problem_(scene, in_range) {
     problem_.update(scene.first);
     nlp = std::make_unique<ocp::Transcription>(
-        problem_.problem(), ocp::Mesh::uniform(scene.settings.N), ocp::trapezoidal());
+        problem_.problem(), ocp::Mesh::uniform(scene.planner.N), ocp::trapezoidal());
   }
 
   void update(const Request& request) {

@@ -17,7 +17,7 @@ TEST(Run, ComesToTheKnownValueByALocalAndAGlobalScheme) {
   for (const char* name : {"brachistochrone", "goddard", "moon-lander", "bryson-denham", "gas-oil"})
     for (const char* scheme : {"hermite_simpson", "lgr"}) {
       SCOPED_TRACE(std::string(name) + " by " + scheme);
-      const Entry& entry = find(name);
+      const Entry& entry = find(library(), name);
       const auto result = run(entry, {.scheme = scheme});
       EXPECT_EQ(result.status, RefineStatus::converged);
       EXPECT_TRUE(result.agrees) << result.value;
@@ -38,28 +38,29 @@ TEST(Run, SolvesEveryProblemOnItsFirstMesh) {
 }
 
 TEST(Run, AnAnswerOfACoarseMeshDiffers) {
-  const auto result =
-      run(find("brachistochrone"), {.scheme = "trapezoidal", .intervals = 5, .refined = false});
+  const auto result = run(find(library(), "brachistochrone"),
+                          {.scheme = "trapezoidal", .intervals = 5, .refined = false});
   EXPECT_EQ(result.status, RefineStatus::mesh_limit);
   EXPECT_FALSE(result.agrees);
   EXPECT_GT(std::fabs(result.difference), 1e-5);
 }
 
 TEST(Run, AMaximumHasItsSourcesSign) {
-  EXPECT_GT(run(find("goddard"), {.refined = false}).value, 1);
+  EXPECT_GT(run(find(library(), "goddard"), {.refined = false}).value, 1);
 }
 
 TEST(Run, TakesSchemeMeshAndBackEnd) {
-  const auto result =
-      run(find("hager"), {.scheme = "lgl", .points = 5, .intervals = 3, .refined = false});
+  const auto result = run(find(library(), "hager"),
+                          {.scheme = "lgl", .points = 5, .intervals = 3, .refined = false});
   EXPECT_EQ(result.meshes.front().intervals, 3u);
   EXPECT_EQ(result.meshes.front().points, 13u);
   for (const auto& backend : nlp::backends())
-    EXPECT_EQ(run(find("hager"), {.backend = backend}).backend.substr(0, backend.size()), backend);
-  EXPECT_THROW((void)run(find("hager"), {.scheme = "simpson"}), InvalidValue);
-  EXPECT_THROW((void)run(find("hager"), {.intervals = -1}), InvalidValue);
-  EXPECT_THROW((void)run(find("hager"), {.tolerance = 2}), InvalidValue);
-  EXPECT_THROW((void)run(find("hager"), {.backend = "knitro?"}), InvalidValue);
+    EXPECT_EQ(run(find(library(), "hager"), {.backend = backend}).backend.substr(0, backend.size()),
+              backend);
+  EXPECT_THROW((void)run(find(library(), "hager"), {.scheme = "simpson"}), InvalidValue);
+  EXPECT_THROW((void)run(find(library(), "hager"), {.intervals = -1}), InvalidValue);
+  EXPECT_THROW((void)run(find(library(), "hager"), {.tolerance = 2}), InvalidValue);
+  EXPECT_THROW((void)run(find(library(), "hager"), {.backend = "knitro?"}), InvalidValue);
 }
 
 }  // namespace

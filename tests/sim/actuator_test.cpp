@@ -16,7 +16,7 @@ using vehicle::Control;
 ControlSignal ramp(double t, double jerk) {
   planner::Request request;
   request.t0 = t;
-  request.tex = 0;
+  request.t_start = t;
   return ControlSignal(testing::plan_of(
       request,
       [jerk](double at) {

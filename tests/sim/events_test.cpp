@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sim/fakes.hpp"
-#include "slalom/sim/ellipse.hpp"
+#include "slalom/world/ellipse.hpp"
 
 namespace slalom::sim {
 namespace {
@@ -95,9 +95,10 @@ TEST(Events, ClearanceIsSignedDistanceToTheNearestGrownEdgeOrInfinite) {
   const Drive d = drive(s, straight_on);
   ASSERT_GT(d.plant.size(), 100u);
   for (const auto& p : d.plant)
-    EXPECT_NEAR(p.clearance,
-                signed_distance_to_ellipse(p.state[0] - 10 - .5 * p.t, p.state[1] - 20 + p.t, 6, 3),
-                1e-12);
+    EXPECT_NEAR(
+        p.clearance,
+        world::signed_distance_to_ellipse(p.state[0] - 10 - .5 * p.t, p.state[1] - 20 + p.t, 6, 3),
+        1e-12);
 }
 
 TEST(Events, GoalEndsTheDriveAtTheCheckAndItsCrossingIsLocated) {

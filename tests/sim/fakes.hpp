@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <vector>
 
 #include "slalom/sim/closed_loop.hpp"
 #include "slalom/sim/control_signal.hpp"
@@ -22,8 +23,8 @@ inline Scenario open_field() {
   return s;
 }
 
-inline planner::Obstacle circle(const char* name, double x, double y, double r, double vx = 0,
-                                double vy = 0) {
+inline world::Obstacle circle(const char* name, double x, double y, double r, double vx = 0,
+                              double vy = 0) {
   return {name, x, y, r, r, vx, vy};
 }
 
@@ -33,7 +34,7 @@ inline planner::Plan plan_of(const planner::Request& request,
                              const std::function<vehicle::Control(double)>& control, double tf = 2,
                              int intervals = 10) {
   planner::Plan plan;
-  plan.t_start = request.t0 + request.tex;
+  plan.t_start = request.t_start;
   plan.tf = tf;
   for (int k = 0; k <= intervals; ++k) {
     plan.t.push_back(tf * k / intervals);
@@ -41,7 +42,7 @@ inline planner::Plan plan_of(const planner::Request& request,
     plan.controls.push_back(control(plan.t.back()));
   }
   plan.report.solved = true;
-  plan.report.status = "solved";
+  plan.report.status = planner::PlanStatus::solved;
   return plan;
 }
 
@@ -52,7 +53,7 @@ inline planner::Plan straight_on(const planner::Request& request) {
 inline planner::Plan unsolved(const planner::Request& request) {
   auto plan = straight_on(request);
   plan.report.solved = false;
-  plan.report.status = "iteration limit";
+  plan.report.status = planner::PlanStatus::iteration_limit;
   return plan;
 }
 
@@ -67,5 +68,16 @@ inline planner::Plan wavy(const planner::Request& request) {
       },
       2.3, 9);
 }
+
+/// What a fake planner was asked.
+struct Requests {
+  std::vector<planner::Request> all;
+  PlanFunction answering(const PlanFunction& plan) {
+    return [this, plan](const planner::Request& request) {
+      all.push_back(request);
+      return plan(request);
+    };
+  }
+};
 
 }  // namespace slalom::sim::testing

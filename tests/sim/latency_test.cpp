@@ -53,7 +53,7 @@ TEST(Latency, ALatePlanTakesEffectWhenItIsReadyAndTheOldOneRunsOn) {
     EXPECT_NEAR(d.cycles[k].t0, begins[k], 1e-12) << k;
     EXPECT_NEAR(d.cycles[k].t_swap, swaps[k], 1e-12) << k;
     EXPECT_EQ(asked[k].t0, d.cycles[k].t0);
-    EXPECT_EQ(asked[k].tex, 0.5);
+    EXPECT_EQ(asked[k].t_start, asked[k].t0 + 0.5);
     // Until the swap the plan before drives, after it this one.
     EXPECT_NEAR(jerk_after(d, swaps[k] - 0.1), 0.01 * static_cast<double>(k), 1e-9) << k;
     EXPECT_NEAR(jerk_after(d, swaps[k]), 0.01 * static_cast<double>(k + 1), 1e-9) << k;
@@ -106,7 +106,7 @@ TEST(Latency, InstantPlansStartWhereThePlantStands) {
   const auto d = drive(s, numbered(asked));
   ASSERT_EQ(d.cycles.size(), 4U);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(asked[k].tex, 0);
+    EXPECT_EQ(asked[k].t_start, asked[k].t0);
     EXPECT_EQ(asked[k].t0, 0.5 * static_cast<double>(k));
     EXPECT_EQ(d.cycles[k].t_swap, d.cycles[k].t0);
     EXPECT_TRUE(d.cycles[k].used);

@@ -117,7 +117,7 @@ TEST(PlantSettings, BadOnesAreRefusedByName) {
   EXPECT_NE(message({.friction_factor = -1}).find("friction_factor = -1"), std::string::npos);
   EXPECT_NE(message({.cornering_stiffness_factor = std::nan("")}).find("nan"), std::string::npos);
   EXPECT_NE(message({.actuator_delay = -0.1}).find("actuator_delay = -0.1"), std::string::npos);
-  EXPECT_NE(message({.cg_shift = 1.6}).find("plant cg_shift: found 1.6, expected between"),
+  EXPECT_NE(message({.cg_shift = 1.6}).find("plant: found cg_shift = 1.6, expected between"),
             std::string::npos);
   EXPECT_NE(message({.cg_shift = -1.72}).find("FzF0"), std::string::npos);  // no load in front
   EXPECT_EQ(message({.mass_factor = 1.2, .cg_shift = 0.2}), "accepted");

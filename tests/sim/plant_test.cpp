@@ -28,7 +28,7 @@ TEST(ControlSignal, StraightOnIsZeroForAllTime) {
 TEST(ControlSignal, LinearBetweenKnotsAtAbsoluteTimeAndHeldOutside) {
   planner::Request request;
   request.t0 = 3;
-  request.tex = .5;
+  request.t_start = 3.5;
   const ControlSignal signal(plan_of(
       request,
       [](double t) {
@@ -92,7 +92,7 @@ TEST(Plant, OneLongStretchIsAsAccurateAsManyShortOnes) {
   const Plant plant(vehicle::Parameters{}, 1e-9, .02);
   const State start = {0, 0, .1, .05, 1.5, .03, 17, .2};
   planner::Request request;
-  request.tex = 0;
+  request.t_start = 0;
   const ControlSignal signal(plan_of(
       request,
       [](double t) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "sim/fakes.hpp"
@@ -12,16 +13,21 @@
 namespace slalom::sim {
 namespace {
 
-std::string message(const std::function<void(Scenario&)>& change) {
+std::optional<InvalidValue> refusal(const std::function<void(Scenario&)>& change) {
   Scenario s = testing::open_field();
   s.obstacles = {testing::circle("O1", 3, 30, 4)};
   change(s);
   try {
     check(s, "E.yaml");
-  } catch (const InvalidValue& e) {
-    return e.what();
+  } catch (const InvalidValue& error) {
+    return error;
   }
-  return "accepted";
+  return std::nullopt;
+}
+
+std::string message(const std::function<void(Scenario&)>& change) {
+  const auto refused = refusal(change);
+  return refused ? refused->what() : "accepted";
 }
 
 void expect_refused(const std::function<void(Scenario&)>& change, const std::string& part) {
@@ -47,15 +53,15 @@ TEST(Scenario, DefaultsAndLimitsAreAccepted) {
 }
 
 TEST(Scenario, StartOutsideItsBoundsIsRefused) {
-  expect_refused([](Scenario& s) { s.start[vehicle::PSI] = 7; }, "start psi: found 7, expected");
-  expect_refused([](Scenario& s) { s.start[vehicle::SA] = -.6; }, "start sa: found -0.6");
-  expect_refused([](Scenario& s) { s.start[vehicle::UX] = 29.5; }, "start ux: found 29.5");
-  expect_refused([](Scenario& s) { s.start[vehicle::UX] = 0; }, "start ux: found 0");
-  expect_refused([](Scenario& s) { s.start[vehicle::AX] = 2; }, "start ax: found 2");
-  expect_refused([](Scenario& s) { s.start[vehicle::AX] = -6; }, "start ax: found -6");
-  expect_refused([](Scenario& s) { s.region.x_min = .5; }, "start x: found 0");
-  expect_refused([](Scenario& s) { s.region.y_max = -1; }, "start y: found 0");
-  expect_refused([](Scenario& s) { s.start[vehicle::V] = kNaN; }, "start v: found nan");
+  expect_refused([](Scenario& s) { s.start[vehicle::PSI] = 7; }, "start: found psi = 7, expected");
+  expect_refused([](Scenario& s) { s.start[vehicle::SA] = -.6; }, "start: found sa = -0.6");
+  expect_refused([](Scenario& s) { s.start[vehicle::UX] = 29.5; }, "start: found ux = 29.5");
+  expect_refused([](Scenario& s) { s.start[vehicle::UX] = 0; }, "start: found ux = 0");
+  expect_refused([](Scenario& s) { s.start[vehicle::AX] = 2; }, "start: found ax = 2");
+  expect_refused([](Scenario& s) { s.start[vehicle::AX] = -6; }, "start: found ax = -6");
+  expect_refused([](Scenario& s) { s.region.x_min = .5; }, "start: found x = 0");
+  expect_refused([](Scenario& s) { s.region.y_max = -1; }, "start: found y = 0");
+  expect_refused([](Scenario& s) { s.start[vehicle::V] = kNaN; }, "start: found v = nan");
   expect_refused([](Scenario& s) { s.loop.Fz_failure = 6500; }, "Fz_r");
 }
 
@@ -66,13 +72,14 @@ TEST(Scenario, StartInsideAGrownObstacleIsRefused) {
 }
 
 TEST(Scenario, ObstaclesGoalAndRegionAreChecked) {
-  expect_refused([](Scenario& s) { s.obstacles[0].a = 0; }, "obstacle O1 a: found 0");
-  expect_refused([](Scenario& s) { s.obstacles[0].b = -4; }, "obstacle O1 b: found -4");
-  expect_refused([](Scenario& s) { s.obstacles[0].vy = kNaN; }, "obstacle O1 vy: found nan");
-  expect_refused([](Scenario& s) { s.obstacles[0].x = 1 / 0.; }, "obstacle O1 x: found inf");
-  expect_refused([](Scenario& s) { s.goal.sigma = 0; }, "goal sigma: found 0");
-  expect_refused([](Scenario& s) { s.goal.y = kNaN; }, "goal y");
-  expect_refused([](Scenario& s) { s.goal.psi = kNaN; }, "goal psi");
+  expect_refused([](Scenario& s) { s.obstacles[0].a = 0; }, "obstacle O1: found a = 0");
+  expect_refused([](Scenario& s) { s.obstacles[0].b = -4; }, "obstacle O1: found b = -4");
+  expect_refused([](Scenario& s) { s.obstacles[0].vy = kNaN; }, "obstacle O1: found vy = nan");
+  expect_refused([](Scenario& s) { s.obstacles[0].x = 1 / 0.; }, "obstacle O1: found x = inf");
+  expect_refused([](Scenario& s) { s.goal.sigma = 0; },
+                 "goal: found sigma = 0, expected a number > 0");
+  expect_refused([](Scenario& s) { s.goal.y = kNaN; }, "goal: found y = nan");
+  expect_refused([](Scenario& s) { s.goal.psi = kNaN; }, "goal: found psi = nan");
   expect_refused(
       [](Scenario& s) {
         s.region.x_min = 3;
@@ -94,6 +101,45 @@ TEST(Scenario, SettingsOfEveryPartAreChecked) {
   expect_refused([](Scenario& s) { s.loop.sample_step = .1; }, "sample_step");
   expect_refused([](Scenario& s) { s.planner.kappa = 60; }, "L_range");
   expect_refused([](Scenario& s) { s.vehicle.Izz = 0; }, "Izz = 0");
+}
+
+/// Keys of the values at fault.
+std::vector<std::string> keys(const std::function<void(Scenario&)>& change) {
+  const auto refused = refusal(change);
+  return refused ? refused->keys() : std::vector<std::string>();
+}
+
+TEST(Scenario, RefusalsHaveTheKeysOfTheValuesAtFault) {
+  using Keys = std::vector<std::string>;
+  EXPECT_EQ(keys([](Scenario& s) { s.goal.sigma = 0; }), Keys{"goal.sigma"});
+  EXPECT_EQ(keys([](Scenario& s) { s.obstacles[0].a = 0; }), Keys{"obstacles.O1.a"});
+  EXPECT_EQ(keys([](Scenario& s) { s.start[vehicle::V] = kNaN; }), Keys{"start.v"});
+  EXPECT_EQ(keys([](Scenario& s) { s.vehicle.Izz = 0; }), Keys{"vehicle.Izz"});
+  EXPECT_EQ(keys([](Scenario& s) { s.planner.N = 0; }), Keys{"planner.N"});
+  EXPECT_EQ(keys([](Scenario& s) { s.loop.timeout = 0; }), Keys{"loop.timeout"});
+  EXPECT_EQ(keys([](Scenario& s) { s.plant.mass_factor = 0; }), Keys{"plant.mass_factor"});
+  EXPECT_EQ(keys([](Scenario& s) { s.sensing.delay = -1; }), Keys{"sensing.delay"});
+  EXPECT_EQ(keys([](Scenario& s) { s.loop.latency = LatencyRule::recorded; }),
+            (Keys{"loop.latency", "loop.solve_times"}));
+  EXPECT_EQ(keys([](Scenario& s) { s.loop.tex = 10.5; }), (Keys{"loop.tex", "planner.tf_max"}));
+  EXPECT_EQ(keys([](Scenario& s) { s.planner.kappa = 60; }),
+            (Keys{"planner.L_range", "planner.kappa"}));
+  EXPECT_EQ(keys([](Scenario& s) { s.vehicle.ux_min = 30; }),
+            (Keys{"vehicle.ux_min", "vehicle.ux_max"}));
+  EXPECT_EQ(keys([](Scenario& s) { s.region.x_max = s.region.x_min; }),
+            (Keys{"region.x_min", "region.x_max"}));
+  EXPECT_EQ(keys([](Scenario& s) { s.region.y_max = -1; }), (Keys{"start.y", "region.y_max"}));
+  EXPECT_EQ(keys([](Scenario& s) { s.plant.cg_shift = 2; }),
+            (Keys{"plant.cg_shift", "vehicle.la", "vehicle.lb"}));
+  // What the plant's factors make of the vehicle.
+  EXPECT_EQ(keys([](Scenario& s) {
+              s.vehicle.m = 1e308;
+              s.plant.mass_factor = 10;
+              s.plant.actuator_delay = 1;
+            }),
+            (Keys{"plant.mass_factor", "vehicle.m"}));
+  EXPECT_EQ(keys([](Scenario& s) { s.obstacles[0] = testing::circle("O1", 5.9, 0, 4); }),
+            (Keys{"start", "obstacles.O1", "loop.sm_crash"}));
 }
 
 TEST(Scenario, DriveRefusesWhatCheckRefuses) {

@@ -81,8 +81,8 @@ TEST(Sensors, TheLateralSpeedIsThatOfTheBelievedCentreOfGravity) {
 TEST(Sensors, ObstaclesStandWhereTheyAreAndErrFromThereOn) {
   SensingSettings settings;
   settings.obstacle_velocity_factor = 0.7;
-  const std::vector<planner::Obstacle> real = {testing::circle("O1", 10, 20, 3, -2, 5),
-                                               testing::circle("cone", 1, 2, 0.5)};
+  const std::vector<world::Obstacle> real = {testing::circle("O1", 10, 20, 3, -2, 5),
+                                             testing::circle("cone", 1, 2, 0.5)};
   const double t0 = 6.5;
   const auto believed = Sensors(settings, 0).believed(real, 2, t0);
   ASSERT_EQ(believed.size(), 2u);
@@ -98,7 +98,7 @@ TEST(Sensors, ObstaclesStandWhereTheyAreAndErrFromThereOn) {
 
 TEST(Sensors, ObstaclesHaveNoiseOfTheirOwn) {
   const Sensors sensors(noisy(), 0);
-  const std::vector<planner::Obstacle> real(3, testing::circle("O", 10, 20, 3));
+  const std::vector<world::Obstacle> real(3, testing::circle("O", 10, 20, 3));
   double square = 0;
   constexpr int kCycles = 1000;
   for (int k = 0; k < kCycles; ++k) {

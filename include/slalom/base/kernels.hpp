@@ -16,5 +16,7 @@ KernelSet current_kernels();
 void select_kernels(KernelSet set);
 /// "baseline" or "avx2".
 const char* to_string(KernelSet set);
+/// The set of that name; throws InvalidValue for another name.
+KernelSet kernel_set(const std::string& name);
 
 }  // namespace slalom

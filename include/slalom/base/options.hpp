@@ -35,7 +35,7 @@ struct OptionRange {
   std::string to_string() const;
 };
 
-/// Everything about one option but how to reach it in its struct.
+/// Everything about one option except how to reach it in its struct.
 struct OptionInfo {
   std::string name;  ///< key in files and on the command line
   OptionKind kind = OptionKind::real;
@@ -46,7 +46,10 @@ struct OptionInfo {
   std::size_t length = 0;            ///< for OptionKind::vector: required length, 0 = any
   std::string source;                ///< where the default comes from (paper's table, equation)
 
-  /// Throws InvalidValue(where, ...) unless `value` has this option's kind and lies in its range.
+  /// What values it takes, as messages have it: "a number > 0", "one of off, tex".
+  std::string rule() const;
+  /// Throws InvalidValue(where, ...), with the name as its key, unless `value` has this option's
+  /// kind and lies in its range.
   /// Returns the value converted to the option's own kind (an integer given for a real).
   OptionValue checked(const OptionValue& value, const std::string& where) const;
 };
@@ -54,8 +57,8 @@ struct OptionInfo {
 /// Text of a value as files have it: 0.5, true, [1, 2].
 std::string to_string(const OptionValue& value);
 
-/// The options of a settings struct S: one registration gives name, kind, bounds, unit, reason and
-/// access; files, command line and documentation all read this table.
+/// The options of a settings struct S. Each is registered once, with name, kind, bounds, unit,
+/// reason and access; files, command line and documentation all read this table.
 template <class S>
 class OptionTable {
  public:
@@ -140,6 +143,15 @@ class OptionTable {
                 }});
   }
 
+  /// The number at `index` of a settings struct that is an array.
+  OptionTable& element(std::string name, std::size_t index, OptionRange range, std::string unit,
+                       std::string doc) {
+    return add(
+        {{std::move(name), OptionKind::real, range, std::move(unit), std::move(doc), {}, 0, ""},
+         [index](S& s, const OptionValue& v) { s[index] = std::get<double>(v); },
+         [index](const S& s) -> OptionValue { return s[index]; }});
+  }
+
   /// A list of reals of any length; `range` holds for every element.
   OptionTable& numbers(std::string name, std::vector<double> S::*member, OptionRange range,
                        std::string unit, std::string doc, std::string source = "") {
@@ -181,8 +193,10 @@ class OptionTable {
   std::vector<Entry> entries_;
 };
 
-/// The candidate nearest to `word` by edit distance; empty when none is near (distance above a
-/// third of the length, at least 2, or nothing of `word` left).
+/// The candidate nearest to `word` by edit distance. Empty when none is near: when the distance is
+/// more than 2 and more than a third of the length, or nothing of `word` is left.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
+/// "one of a, b, c (did you mean 'b'?)": what was expected where `word` is none of `names`.
+std::string one_of(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace slalom

@@ -10,7 +10,7 @@
 
 namespace slalom::expr {
 
-/// Derivatives as somebody states them, to be held against differences of the values. A pattern
+/// Derivatives as somebody states them, to be compared with differences of the values. A pattern
 /// also states that every entry outside it is zero. Sizes: x is `variables` long, values and
 /// weights `outputs` long, entries as long as their pattern.
 struct StatedDerivatives {
@@ -31,8 +31,8 @@ struct StatedDerivatives {
 
 struct DerivativeCheckOptions {
   double tolerance = 1e-7;  ///< largest relative error that passes
-  /// Weights of the outputs in the Hessian; empty: 1, 1.62, 1.24, ..., different for neighbours,
-  /// so that the errors of two outputs do not cancel.
+  /// Weights of the outputs in the Hessian. Empty: 1, 1.62, 1.24, ..., which differ between
+  /// neighbours so that the errors of two outputs do not cancel.
   std::vector<double> weights{};
   std::vector<std::string> variable_names{}, output_names{};  ///< for a Function, which has none
 };
@@ -61,18 +61,18 @@ std::string to_string(const DerivativeReport& report);
 /// matrices, whether in the pattern or not:
 ///   Jacobian: central differences of the values, extrapolated to step 0 (Ridders, Adv. Eng.
 ///             Software 4(2), 1982); good to about 1e-10 of a smooth function's scale.
-///   Hessian:  the same differences of weights' * Jacobian, the stated one: first derivatives that
-///             are wrong therefore show in both parts, and the Jacobian's is the one to mend first.
+///   Hessian:  the same differences of weights' * Jacobian, with the stated Jacobian. Wrong first
+///             derivatives therefore show in both parts; mend the Jacobian first.
 /// Error of an entry: |stated - measured| / max(|stated|, |measured|, floor), where the floor is a
 /// thousandth of (largest value met in the row's function) / max(1, |x_col|), since rounding in the
 /// values hides anything far smaller.
 ///
 /// Where it does not apply: at a kink (abs, min, max, select, sign at the switch) a difference
-/// measures the mean of both sides, while the derivative is one side's, so the entry fails though
-/// it is as documented. Steps are halved from 0.11 max(1, |x|) until both ends lie in the
+/// measures the mean of both sides, while the derivative is that of one side, so the entry fails
+/// although it is as documented. Steps are halved from 0.11 max(1, |x|) until both ends lie in the
 /// function's domain (finite values); on its very edge (sqrt or log at 0) there is no such step and
-/// the entry fails as not finite. A wrong entry can pass where the right one happens to vanish:
-/// take several points without zeros and symmetries.
+/// the entry fails as not finite. A wrong entry can pass where the right one happens to vanish, so
+/// take several points, without zeros or symmetries.
 ///
 /// Throws Error for a pattern entry out of range, listed twice or above the diagonal of the
 /// Hessian, for no point at all, for a point, weights or names of the wrong length, and for a

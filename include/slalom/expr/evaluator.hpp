@@ -9,8 +9,8 @@
 namespace slalom::expr {
 
 /// A function made ready for many evaluations at a fixed number of lanes. What depends on data
-/// alone is computed once a change of data; variables are read where they stand; memory is taken at
-/// construction, none by evaluate (for the combinations of results that `prepare` was given).
+/// alone is computed once after each change of data. Variables are read where they stand. Memory is
+/// taken at construction and by `prepare`; evaluate takes none for what `prepare` was given.
 ///
 /// Arrays are structure-of-arrays: element i of lane l stands at [i * lanes + l].
 class Evaluator {

@@ -7,7 +7,7 @@
 
 namespace slalom::expr {
 
-/// Elementary operations. Derivatives at kinks are documented in expr.hpp beside each function.
+/// Elementary operations. Each function below documents its derivative at kinks.
 enum class Op : std::uint8_t {
   constant,
   symbol,
@@ -104,11 +104,10 @@ Expr min(const Expr& a, const Expr& b);  ///< derivative at a = b: b's
 Expr max(const Expr& a, const Expr& b);  ///< derivative at a = b: b's
 /// condition > 0 ? if_positive : otherwise; the condition itself has derivative 0. So has the
 /// branch not taken, even where it is undefined: select(x, sqrt(x), 0) is safe to differentiate at
-/// x <= 0. (Guaranteed for up to eight selects within one another and eight that share a
-/// subexpression.)
+/// x <= 0. (Guaranteed for up to eight nested selects, and up to eight that share a subexpression.)
 Expr select(const Expr& condition, const Expr& if_positive, const Expr& otherwise);
 
-/// A node of the graph; what differentiation and compilation walk over.
+/// A node of the graph, over which differentiation and compilation walk.
 class Node {
  public:
   Node(Op op, double value, std::string name, std::vector<Expr> args);
@@ -132,8 +131,8 @@ class Node {
 std::vector<Expr> substitute(const std::vector<Expr>& outputs, const std::vector<Expr>& symbols,
                              const std::vector<Expr>& replacements);
 
-/// The same functions with equal subexpressions shared as one node and algebraic rules applied, as
-/// Function has them.
+/// The same functions, with equal subexpressions shared as one node and algebraic rules applied, as
+/// Function does.
 std::vector<Expr> simplified(const std::vector<Expr>& outputs);
 
 /// The symbols on which `outputs` depend, in order of first appearance.

@@ -42,8 +42,8 @@ class Function {
   const std::vector<Entry>& hessian_pattern() const;
 
   /// x: variables x lanes; p: data x lanes; weights: outputs x lanes, used for the Hessian alone;
-  /// values: outputs x lanes; jacobian, hessian: pattern size x lanes. What is not wanted may be
-  /// empty. For many evaluations at the same number of lanes use an Evaluator.
+  /// values: outputs x lanes; jacobian, hessian: pattern size x lanes. Spans that are not wanted
+  /// may be empty. For many evaluations at the same number of lanes use an Evaluator.
   void evaluate(std::size_t lanes, std::span<const double> x, std::span<const double> p,
                 std::span<const double> weights, Wanted wanted, std::span<double> values,
                 std::span<double> jacobian, std::span<double> hessian) const;
@@ -52,8 +52,8 @@ class Function {
   void operator()(std::span<const double> x, std::span<const double> p,
                   std::span<double> values) const;
 
-  /// The outputs as expressions of others: `variables` and `data` in place of the inputs. Throws
-  /// Error for other numbers of them.
+  /// The outputs as expressions, with `variables` and `data` in place of the inputs. Throws Error
+  /// unless there are as many as inputs.
   std::vector<Expr> operator()(const std::vector<Expr>& variables,
                                const std::vector<Expr>& data) const;
 

@@ -6,7 +6,6 @@
 
 #include "slalom/sim/drive.hpp"
 #include "slalom/sim/scenario.hpp"
-#include "slalom/study/reproduction.hpp"
 
 namespace slalom::io {
 
@@ -27,12 +26,6 @@ void write_drive(const std::filesystem::path& folder, const sim::Scenario& scena
 /// solve before it, or nullptr if there was none.
 void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenario,
                 const sim::Cycle& cycle, const sim::Cycle* warm_up);
-
-/// Writes index.html and the figures of a reproduction; the drives stand in folders of their own.
-void write_reproduction(const std::filesystem::path& folder,
-                        const std::vector<study::ReproducedDrive>& drives,
-                        const study::PaperData& paper,
-                        const std::vector<study::ConceptCase>& cases = {});
 
 /// The contents of single files, for tests and --json. A cell with a comma or quote is quoted.
 /// plant_csv: t [s] absolute, the state, the control, wheel loads [N], clearance [m].

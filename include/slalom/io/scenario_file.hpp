@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slalom/sim/scenario.hpp"
@@ -29,6 +30,10 @@ sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& req
 
 /// The whole scenario as one YAML file that load_scenario reads back to the same bits.
 std::string to_yaml(const sim::Scenario& scenario);
+
+/// The settings of loop, plant, sensing, planner and vehicle by key ("planner.w_t"), in the order
+/// of files.
+std::vector<std::pair<std::string, OptionValue>> settings_of(const sim::Scenario& scenario);
 
 /// A built-in configuration file.
 struct BuiltIn {

@@ -9,19 +9,19 @@
 
 namespace slalom::kkt {
 
-/// H + sum over inequality rows r of w_r J_r' J_r: the rows leave the system before it is
+/// H + sum over inequality rows r of w_r J_r' J_r. This eliminates the rows before the system is
 /// factorised, in time linear in their number, and no matrix grows with them.
 class CondensedHessian {
  public:
-  /// `hessian`: one triangle of H; `rows`: the Jacobian by row blocks, of which those whose first
-  /// row is an inequality are condensed.
+  /// `hessian`: one triangle of H. `rows`: the Jacobian by row blocks; those whose first row is an
+  /// inequality are condensed.
   CondensedHessian(std::span<const std::uint32_t> hessian_row,
                    std::span<const std::uint32_t> hessian_col, const RowBlocks& rows,
                    std::span<const char> inequality);
 
-  /// Places of the sum; those of H first, in its order.
+  /// Places of the sum's entries: those of H first, in its order.
   const std::vector<Pattern::Place>& places() const { return places_; }
-  /// `weights`: one a row, >= 0. `out`: one a place.
+  /// `weights`: one for each row, >= 0. `out`: one for each place.
   void sum(std::span<const double> hessian, std::span<const double> jacobian,
            std::span<const double> weights, std::span<double> out) const;
 

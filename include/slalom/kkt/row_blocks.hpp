@@ -7,16 +7,16 @@
 
 namespace slalom::kkt {
 
-/// A sparse matrix seen as blocks of consecutive rows of one shape. Where its entries come in runs,
-/// row after row, with columns that stay or step along, products run over vectors; any other order
-/// of entries works too, slower.
+/// A sparse matrix seen as blocks of consecutive rows of one shape. Products run over vectors where
+/// entries come in runs, row after row, with columns that stay the same or move on by a fixed step.
+/// Any other order of entries works too, but slower.
 class RowBlocks {
  public:
   /// Entry t stands at (row[t], col[t]); each place once. Rows of different `kind` share no block.
   RowBlocks(std::size_t rows, std::span<const std::uint32_t> row,
             std::span<const std::uint32_t> col, std::span<const char> kind = {});
 
-  /// out = A x; `out` has one number a row.
+  /// out = A x; `out` has one number for each row.
   void multiply(std::span<const double> values, std::span<const double> x,
                 std::span<double> out) const;
   /// out += A' y.
@@ -44,7 +44,7 @@ class RowBlocks {
   std::vector<Entry> entries_;
 };
 
-/// A symmetric matrix given by one triangle, in runs likewise.
+/// A symmetric matrix given by one triangle, seen as runs in the same way.
 class SymmetricRuns {
  public:
   SymmetricRuns(std::span<const std::uint32_t> row, std::span<const std::uint32_t> col);

@@ -16,12 +16,12 @@ namespace slalom::nlp {
 ///   min f(x)   subject to   gl <= g(x) <= gu,   xl <= x <= xu
 ///
 /// Every variable belongs to a stage or, with stage number `stages`, to all of them (final time,
-/// static parameters, lifted copies): a global. Variables, rows and entries come in any order;
-/// where one formula stands at many stages, its entries best follow each other stage by stage, for
-/// then solvers run over them as over one vector.
+/// static parameters, lifted copies); the latter is called global. Variables, rows and entries may
+/// come in any order. Where one formula stands at many stages, its entries best follow each other
+/// stage by stage, since solvers then run over them as over one vector.
 struct Structure {
-  /// Tells structures apart, so that a solver may keep its workspace from one solve to the next:
-  /// next_id() for one that does not change any more; 0 keeps none.
+  /// Tells structures apart, so that a solver may keep its workspace from one solve to the next.
+  /// Set it to next_id() once the structure no longer changes; with 0 no workspace is kept.
   std::uint64_t id = 0;
   std::size_t variables = 0;
   std::size_t rows = 0;
@@ -29,7 +29,7 @@ struct Structure {
   std::vector<std::uint32_t> variable_stage;
   /// Of each row: the first stage it touches; `stages` for one that spans many.
   std::vector<std::uint32_t> row_stage;
-  std::vector<std::uint32_t> jacobian_row, jacobian_col;  ///< one an entry, each place once
+  std::vector<std::uint32_t> jacobian_row, jacobian_col;  ///< one for each entry, each place once
   std::vector<std::uint32_t> hessian_row, hessian_col;    ///< lower triangle, each place once
   std::vector<double> variable_scale;                     ///< user's value = scale * x
   std::vector<double> row_scale;                          ///< row here = scale * the user's row

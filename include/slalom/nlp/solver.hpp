@@ -49,8 +49,8 @@ struct Options {
   double constraint_tol = 1e-6;  ///< at a floor: rows and defects [their units]
   double floor_tol = 0.01;       ///< at a floor: |s z / mu - 1|
   int max_iterations = 500;
-  /// Deadline: this thread's processor time [s], callbacks not counted. interior_point takes no
-  /// step that its longest one so far would carry past it.
+  /// Deadline: this thread's processor time [s], without callbacks. interior_point starts a step
+  /// only if one as long as its longest so far would still end in time.
   double time_limit = std::numeric_limits<double>::infinity();
   bool warm_start = false;                           ///< the start's multipliers are used
   BarrierRule barrier_rule = BarrierRule::adaptive;  ///< of interior_point, without a floor
@@ -76,9 +76,10 @@ struct Start {
   std::vector<double> x, y, zl, zu;
 };
 
-/// A point and how it was reached: the solution where solved; else of interior_point the best point
-/// met (the least barrier function among those that meet the rows to constraint_tol, else the least
-/// violation), of other back ends the last one.
+/// A point and how it was reached. It is the solution where solved. Otherwise, interior_point gives
+/// the best point it met: the one with the least barrier function among those that meet the rows to
+/// constraint_tol, or if none does, the one with the least violation. Other back ends give the
+/// last.
 struct Answer {
   Status status = Status::numerical_failure;
   std::string backend;
@@ -87,18 +88,18 @@ struct Answer {
   Start point;          ///< primal and dual
   double objective = 0;
   double violation = 0;       ///< largest, of a row at the point, in the user's unit
-  std::size_t worst_row = 0;  ///< where: Problem::row_name tells; meaningless for violation 0
+  std::size_t worst_row = 0;  ///< its row, see Problem::row_name; meaningless for violation 0
   int iterations = 0;
   double cpu_s = 0, wall_s = 0;  ///< of this thread, and by the clock
   double callback_s = 0;         ///< thread time in callbacks, not counted against the deadline
   double longest_step_s = 0;     ///< thread time of the longest iteration (interior_point)
 };
 
-/// A method that solves stage-structured programs. Not thread-safe; one a thread.
+/// A method that solves stage-structured programs. Not thread-safe; use one for each thread.
 class Solver {
  public:
   virtual ~Solver() = default;
-  /// `start` needs x, and for a warm start y, zl and zu too; throws InvalidValue for other sizes.
+  /// `start` needs x, and for a warm start y, zl and zu too; throws InvalidValue for wrong sizes.
   /// Reuses the memory of `answer`: interior_point allocates nothing when the last solve had a
   /// problem of the same structure (Structure::id).
   virtual void solve(Problem& problem, const Start& start, const Options& options,
@@ -113,11 +114,11 @@ class Solver {
 /// Throws InvalidValue unless `start` has the sizes of `structure`; duals only where `with_duals`.
 void check_sizes(const Start& start, const Structure& structure, bool with_duals);
 
-/// Names of the back ends this build has. Beside them, nl runs any solver that reads AMPL's .nl
-/// files, if the machine has one: Options::nl_solver.
+/// Names of the back ends this build has. A further one, nl, is not among them: it runs any solver
+/// that reads AMPL's .nl files, if the machine has one (Options::nl_solver).
 std::vector<std::string> backends();
-/// The default, interior_point, where no name is given. Throws InvalidValue for a back end this
-/// build lacks, naming those it has.
+/// A solver by its back end's name; without one, interior_point. Throws InvalidValue for a back end
+/// that this build lacks, naming those it has.
 std::unique_ptr<Solver> make_solver(const std::string& backend = "");
 
 }  // namespace slalom::nlp

@@ -9,32 +9,32 @@
 
 namespace slalom::ocp {
 
-/// How far a solution's states are from the dynamics, found by integrating these anew
-/// (Bulirsch & Stoer's extrapolation) with the solution's own controls. Errors are relative:
-/// |error of state i| / (scale_i + largest |state i|), the measure of Patterson, Hager & Rao,
-/// Optim. Control Appl. Meth. 36(4), 2015, eq. 27, with the state's scale for 1. The cost's
-/// integral and the problem's integrals count as states, relative to the sum of all that adds up to
-/// them (and to the whole objective), so that a quadrature is judged too.
+/// How far a solution's states are from the dynamics, found by integrating these anew (Bulirsch &
+/// Stoer's extrapolation) with the solution's own controls. Errors are relative: |error of state i|
+/// / (scale_i + largest |state i|), the measure of Patterson, Hager & Rao, Optim. Control Appl.
+/// Meth. 36(4), 2015, eq. 27, with the state's scale in place of 1. The cost's integral and the
+/// problem's integrals count as states, so that a quadrature is judged too; their errors are
+/// relative to the sum of all that adds up to them (and to the whole objective).
 struct ErrorEstimate {
-  std::vector<double> interval;    ///< of each, from its own begin: largest over the states
+  std::vector<double> interval;    ///< largest over the states, each from its own begin
   std::vector<std::string> state;  ///< the state, or "the cost's integral", where it stands
   double largest = 0;              ///< over the intervals
   std::size_t worst = 0;           ///< that interval
-  double horizon = 0;              ///< largest at a node, integrated from t0 on without a restart
+  double horizon = 0;              ///< largest at a node when integrated from t0 without restarts
   /// `horizon` over the sum of the intervals' errors: about 1 where dynamics are neutral, large
   /// where they are unstable and so no open-loop control can reproduce the states.
   double amplification = 0;
 };
 
-/// `tolerance` is of the integrator, absolute in units of each state's scale and relative. What
-/// cannot be integrated to an interval's end (blow-up, NaN) has an infinite error.
+/// `tolerance` is the integrator's, relative and, in units of each state's scale, absolute. A state
+/// that cannot be integrated to an interval's end (blow-up, NaN) has an infinite error.
 ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution,
                               double tolerance = 1e-12);
 
-/// By interval, how much of a control its polynomial cannot follow, such as a jump or kink within
-/// it: where it meets the polynomials of both neighbours badly, (h / T)^2 times the gap in value
-/// and slope at the better of its two ends, over the control's range; the cost's error falls as
-/// fast.
+/// For each interval, how much of a control its polynomial cannot follow, such as a jump or kink
+/// within the interval. It is large where the polynomial meets those of both neighbours badly:
+/// (h / T)^2 times the gap in value and slope at the better of its two ends, over the control's
+/// range. The cost's error falls as fast as this number.
 std::vector<double> unresolved_controls(const Problem& problem, const Solution& solution);
 
 /// The largest violation of a bound of a state or control or of a path constraint.
@@ -44,8 +44,7 @@ struct Violation {
   double time = 0;
 };
 
-/// Looks at `samples` equal steps of each interval, the nodes included, on the scheme's
-/// polynomials.
+/// Looks at the scheme's polynomials, at `samples` equal steps of each interval and at the nodes.
 Violation largest_violation(const Problem& problem, const Solution& solution, int samples = 20);
 
 /// H = L + costate' f at the mesh nodes [cost per time unit], with the sign of Solution::costates:

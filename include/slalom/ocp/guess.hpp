@@ -16,45 +16,46 @@ namespace slalom::ocp {
 /// in the middle of their bounds; t0 and tf as the problem guesses them.
 Trajectory straight_guess(const Problem& problem);
 
-/// Throws InvalidValue unless `guess` is one of `problem`: as many states and controls at each
-/// point as it has, no more of what has one value, finite numbers, taus that do not fall, tf not
-/// before t0.
+/// Throws InvalidValue unless `guess` fits `problem`: as many states and controls at each point as
+/// the problem has, no more static parameters, slacks and integrals than it has, finite numbers,
+/// taus that do not fall, tf not before t0.
 void check_guess(const Trajectory& guess, const Problem& problem);
 
 /// How an earlier answer becomes a guess.
 struct Carry {
-  /// Names here, with theirs in the earlier problem where these differ.
+  /// Pairs of a name here and the name in the earlier problem, where these differ.
   std::map<std::string, std::string> names = {};
-  /// At equal times instead of equal taus, beyond its ends the nearer end's values; t0 and tf stay
-  /// as they are.
+  /// Values are taken at equal times instead of equal taus, beyond the answer's ends those of the
+  /// nearer end; t0 and tf are not taken.
   bool by_time = false;
 };
 
-/// Puts a guess together, variable by variable and by name: it begins as straight_guess, and each
-/// call replaces what it names. To be used where a Trajectory is wanted:
+/// Puts a guess together, variable by variable and by name. It begins as straight_guess, and each
+/// call replaces what it names. Use it where a Trajectory is wanted:
 ///
 ///   solve(problem, {.guess = Guess(problem).line("x", 0, 10).constant("u", 1)})
 ///
-/// A name that the problem has not throws InvalidValue, naming the nearest.
+/// A name that the problem lacks throws InvalidValue, which names the nearest.
 class Guess {
  public:
-  /// `points` equal steps apart, at which functions are sampled; throws InvalidValue below 2.
+  /// `points`: how many points, equal steps apart, functions are sampled at. Throws InvalidValue
+  /// below 2.
   explicit Guess(const Problem& problem, int points = 101);
 
   Guess& times(double t0, double tf);
-  /// Of a state or control, or of what has one value: a static parameter, slack or integral.
+  /// Of a state or control, or of a static parameter, slack or integral.
   Guess& constant(const std::string& name, double value);
   /// Of a state or control, over time.
   Guess& line(const std::string& name, double first, double last);
-  /// Of a state or control; t is between t0 and tf as they are in the end.
+  /// Of a state or control; t runs between the t0 and tf of the finished guess.
   Guess& function(const std::string& name, std::function<double(double t)> value);
-  /// All variables that the earlier problem has too, by its polynomials, and t0 and tf; its points
-  /// become points of the guess. The mesh and scheme may be others.
+  /// All variables that the earlier problem has too, by its polynomials, and t0 and tf. Its points
+  /// become points of the guess; its mesh and scheme may be any.
   Guess& from(const Problem& earlier, const Solution& solution, const Carry& carry = {});
-  /// The same of a trajectory, linear between its points.
+  /// The same from a trajectory, linear between its points.
   Guess& from(const Problem& earlier, const Trajectory& trajectory, const Carry& carry = {});
-  /// States and controls by simulation from x0 over t0 ... tf, as these are now. Throws
-  /// InvalidValue when it does not come to tf.
+  /// States and controls by simulation from x0, over t0 ... tf as set so far. Throws InvalidValue
+  /// when the simulation does not reach tf.
   Guess& simulated(const std::vector<double>& x0, const Controls& controls,
                    double tolerance = 1e-9);
 

@@ -9,12 +9,12 @@
 
 namespace slalom::ocp {
 
-/// A trajectory between its points, by the scheme's own polynomials: on each interval the controls
-/// interpolate those at the collocated points, and the states are the begin's plus the integral of
-/// the polynomial through the rates there (Hairer, Norsett & Wanner 1993, section II.7). So states
-/// are quadratic and controls linear for the trapezoidal rule, cubic and quadratic for
-/// Hermite-Simpson, of degree n and n - 1 for LGR and n for LGL with n points; backward Euler holds
-/// its control.
+/// A trajectory between its points, by the scheme's own polynomials. On each interval the controls
+/// interpolate those at the collocated points; the states are those at the begin plus the integral
+/// of the polynomial through the rates at the collocated points (Hairer, Norsett & Wanner 1993,
+/// section II.7). So states are quadratic and controls linear for the trapezoidal rule, cubic and
+/// quadratic for Hermite-Simpson, of degree n and n - 1 for LGR and n for LGL with n points;
+/// backward Euler holds its control.
 class Interpolant {
  public:
   /// `trajectory` must stand at the points of mesh and schemes; throws InvalidValue otherwise.
@@ -24,14 +24,14 @@ class Interpolant {
   Interpolant(Interpolant&&) noexcept;
   Interpolant& operator=(Interpolant&&) noexcept;
 
-  /// At time t, within t0 ... tf (the nearer end's values beyond).
+  /// At time t, within t0 ... tf; beyond, the values at the nearer end.
   std::vector<double> states(double t) const;
   std::vector<double> controls(double t) const;
   /// At local time c (0 ... 1) of an interval: at a break, the limit from within that interval.
   std::vector<double> states(std::size_t interval, double c) const;
   std::vector<double> controls(std::size_t interval, double c) const;
 
-  /// The trajectory on another mesh, as a guess for it: states, controls, all else as it was.
+  /// The trajectory on another mesh, as a guess for it. What is neither state nor control is kept.
   Trajectory resampled(const Mesh& mesh, const Schemes& schemes) const;
 
  private:

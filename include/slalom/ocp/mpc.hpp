@@ -18,31 +18,31 @@ namespace slalom::ocp {
 /// From where a cycle that begins at time t plans.
 enum class Planning {
   predicted,  ///< from the state predicted for t + tex, where the plan takes effect
-  measured,   ///< from the state at t; the plan takes effect at t + tex, tex into it
+  measured,   ///< from the state at t; the plan takes effect at t + tex, when tex of it has passed
   instant,    ///< from the state at t, where the plan takes effect: solving takes no time
 };
 
 /// Where the plans end.
 enum class Horizon {
-  moving,     ///< the bounds of tf move along with t0: fixed or free, as long as the problem says
+  moving,     ///< the bounds of tf move along with t0, whether tf is fixed or free
   shrinking,  ///< the bounds of tf stand still
 };
 
 /// What is driven when a solve failed.
 enum class OnUnsolved {
-  last_plan,  ///< the last plan that was solved, for at most `max_unsolved` cycles on end
-  stop,       ///< nothing: plans are optimal only
+  last_plan,  ///< the last plan that was solved, for at most `max_unsolved` cycles in a row
+  stop,       ///< nothing: only solved plans are driven
 };
 
-/// How a receding horizon stands or ended.
+/// Whether a receding horizon still runs, and else how it ended.
 enum class MpcStatus {
   running,
   goal,           ///< the goal is reached
-  expanded_goal,  ///< the plan ended within a cycle, at the goal but for expanded tolerances
-  goal_missed,    ///< the plan ended within a cycle, and not even there
+  expanded_goal,  ///< the plan ended within a cycle, at the goal only by expanded tolerances
+  goal_missed,    ///< the plan ended within a cycle, and not even within these
   horizon_over,   ///< shrinking: no time is left to plan for
   cycle_limit,    ///< `max_cycles` were planned
-  not_solved,     ///< a solve failed, and no plan is to be driven instead
+  not_solved,     ///< a solve failed, and there is no plan to drive instead
   stopped,        ///< the check asked for it
   lost,           ///< the plant or the prediction could not be integrated
 };
@@ -65,8 +65,8 @@ struct MpcCycle {
   std::vector<double> x0;  ///< states planned from: predicted or measured, within their bounds
   Solution solution;
   bool used = false;            ///< solved, so that it takes effect
-  std::vector<double> arrived;  ///< states at t + tex, when the next cycle began; x0 missed them by
-                                ///< the prediction's error
+  std::vector<double> arrived;  ///< states at t + tex, when the next cycle began; they differ from
+                                ///< x0 by the prediction's error
 };
 
 struct MpcSettings {
@@ -77,31 +77,31 @@ struct MpcSettings {
   Horizon horizon = Horizon::moving;
   OnUnsolved on_unsolved = OnUnsolved::last_plan;
   int max_unsolved = 3;
-  bool warm_start = true;   ///< multipliers too are shifted from plan to plan
-  bool warm_up = false;     ///< one solve more before the first, from the same state
+  bool warm_start = true;   ///< multipliers are shifted from plan to plan, too
+  bool warm_up = false;     ///< one additional solve before the first, from the same state
   double expand_goal = 2;   ///< factor of the goal's tolerances for MpcStatus::expanded_goal
   double tolerance = 1e-9;  ///< of the integrator, as SimulateSettings::tolerance
   int samples = 10;         ///< of the plant's record, in each cycle
-  bool keep_cycles = true;  ///< all cycles are kept; else the last alone
-  std::vector<StateGoal> goal = {};  ///< all of them at once, at a cycle's begin; none: no goal
+  bool keep_cycles = true;  ///< all cycles are kept; otherwise only the last
+  std::vector<StateGoal> goal = {};  ///< all must hold at once, at a cycle's begin; none: no goal
   std::vector<double> first_controls = {};  ///< until the first plan takes effect; empty: 0
-  /// By state, how far the plan's initial state may be from x0; left out: 0.
+  /// For each state, how far the plan's initial state may be from x0; 0 for states left out.
   std::map<std::string, double> start_tolerance = {};
-  /// Where x0 enters the problem otherwise (as parameters, by `update`): Mpc leaves the initial
-  /// bounds as they are.
+  /// For problems into which x0 enters otherwise (as parameters, by `update`): Mpc then does not
+  /// touch the initial bounds.
   bool free_start = false;
 
-  /// What run() drives; empty: the problem's own dynamics. Its inputs are controls of the problem
-  /// by name, or states, which it then takes as planned.
+  /// What run() drives; empty: the problem's own dynamics. Its inputs are named after controls of
+  /// the problem, or after states, which it then takes as planned.
   std::optional<System> plant = {};
-  /// The problem's states from the plant's; empty: by name.
+  /// Computes the problem's states from the plant's; empty: they are matched by name.
   std::function<std::vector<double>(std::span<const double> plant)> measure = {};
-  /// run() predicts by the plant itself, for the price of knowing it.
+  /// run() predicts with the plant itself instead of the problem's model.
   bool plant_known = false;
 
-  /// Called before each solve, with the cycle as far as it is known: may change the problem.
+  /// Called before each solve, with what is known of the cycle by then; may change the problem.
   std::function<void(Problem& problem, const MpcCycle& cycle)> update = {};
-  /// Called after each solve: a reason to stop, or nothing.
+  /// Called after each solve; returns a reason to stop, or nothing.
   std::function<std::string(const MpcCycle& cycle)> check = {};
 };
 
@@ -122,25 +122,26 @@ struct MpcResult {
 /// and drives the plans one after the other (Febbo, Jayakumar, Stein & Ersal, NLOptControl, arXiv
 /// 2003.00142, 2020; section 4 of docs/formulation.md is one such loop). Times are absolute: each
 /// solve sets t0, and the bounds of tf as `horizon` says. The guess of a solve is the last plan at
-/// the same times, its end held.
+/// the same times, with its end held.
 class Mpc {
  public:
-  /// Throws InvalidValue for settings out of range, names that the problem has not, and a problem
+  /// Throws InvalidValue for settings out of range, names that the problem lacks, and a problem
   /// whose t0 is free.
   Mpc(const Problem& problem, MpcSettings settings);
   ~Mpc();
   Mpc(Mpc&&) noexcept;
   Mpc& operator=(Mpc&&) noexcept;
 
-  /// One cycle for a plant outside: begins at `time` with the problem's states as measured there.
-  /// To be called each tex. Ends the loop instead of planning where there is nothing more to plan,
-  /// such as at the goal; throws Error when it has ended. Where the plan in effect ends within this
-  /// cycle no other follows: drive it to its end, plan_end(), and call then.
+  /// One cycle for a plant of your own. It begins at `time`, with the problem's states as measured
+  /// then; call it each tex. Where there is nothing more to plan, such as at the goal, it ends the
+  /// loop instead; throws Error when the loop has ended. Where the plan in effect ends within this
+  /// cycle, no other follows: drive it to its end, plan_end(), and call step then.
   MpcStatus step(const std::vector<double>& measured, double time);
-  /// The problem's controls, to be applied at `time`: of the plan in effect, past its end the last.
+  /// The problem's controls to apply at `time`: those of the plan in effect, and past its end its
+  /// last ones.
   std::vector<double> controls(double time) const;
-  /// When the plan in effect ends, where the goal will be judged; infinite if the next cycle's plan
-  /// takes over before.
+  /// When the plan in effect ends and the goal will be judged; infinite if the next cycle's plan
+  /// takes over before that.
   double plan_end() const;
   MpcStatus status() const;
   const std::string& message() const;  ///< one sentence on how it ended

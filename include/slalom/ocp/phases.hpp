@@ -15,21 +15,21 @@
 namespace slalom::ocp {
 
 /// Several phases, each an optimal-control problem with states, controls, times and parameters of
-/// its own, and what links their ends. The objective is the sum of theirs. All set-up errors are
-/// exceptions that name the phase and the offending item.
+/// its own, and the links between their ends. The objective is the sum of the phases' objectives.
+/// All set-up errors are exceptions that name the phase and the offending item.
 class PhasedProblem {
  public:
   explicit PhasedProblem(std::string name);
 
   /// Appends a phase; their names must differ. Returns its number, from 0.
   std::size_t add(Problem phase);
-  /// The same phase with other numbers: bounds, scales, guesses, parameters.
+  /// Replaces a phase by the same one with other numbers: bounds, scales, guesses, parameters.
   void replace(std::size_t number, Problem phase);
   /// A constraint between phases: an expression of initial(), final(), initial_time(),
   /// final_time(), static parameters and integrals of any of them.
   void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));
-  /// The states that both phases have by name are continuous from the end of `from` to the begin of
-  /// `to`, and so is time. Throws InvalidValue when they have none.
+  /// Makes time, and the states whose names both phases have, continuous from the end of `from` to
+  /// the begin of `to`. Throws InvalidValue when they have none.
   void connect(std::size_t from, std::size_t to);
 
   struct Link {
@@ -49,8 +49,9 @@ class PhasedProblem {
   std::vector<Link> links_;
 };
 
-/// A phased problem made into one stage-structured NLP: the phases' stages one after the other,
-/// each phase's own times, parameters and integrals at its last stage, where they are eliminated.
+/// A phased problem made into one stage-structured NLP. The phases' stages follow one after the
+/// other; each phase's own times, parameters and integrals count as part of its last stage, where
+/// they are eliminated.
 class PhasedTranscription final : public nlp::Problem {
  public:
   /// How a phase is discretised.
@@ -58,8 +59,8 @@ class PhasedTranscription final : public nlp::Problem {
     Mesh mesh = Mesh::uniform(40);
     Schemes schemes = hermite_simpson();
   };
-  /// One grid a phase. Throws InvalidValue for another number, for a phase that no link touches
-  /// (of several), and for a link of a foreign symbol.
+  /// One grid for each phase. Throws InvalidValue for another number of grids, for a phase that no
+  /// link touches (where there are several), and for a link with a foreign symbol.
   PhasedTranscription(const PhasedProblem& problem, const std::vector<Grid>& grids);
   ~PhasedTranscription() override;
 

@@ -9,23 +9,24 @@
 
 namespace slalom::ocp {
 
-/// A problem to be solved again and again with other numbers: transcribed once, by one solver that
-/// keeps its memory and what it found out about the structure. Not thread-safe; one a thread.
+/// A problem to be solved again and again with other numbers. It is transcribed once and solved by
+/// one solver, which keeps its memory and what it found out about the structure. Not thread-safe;
+/// use one for each thread.
 class Prepared {
  public:
-  /// Mesh, scheme, options and back end of all solves; the guess, or straight lines, settles the
-  /// scales that the problem leaves open. Throws InvalidValue as solve() does.
+  /// `settings` has mesh, scheme, options and back end of all solves. Its guess, or straight lines,
+  /// determines the scales that the problem leaves open. Throws InvalidValue as solve() does.
   Prepared(const Problem& problem, const SolveSettings& settings);
   ~Prepared();
   Prepared(Prepared&&) noexcept;
   Prepared& operator=(Prepared&&) noexcept;
 
-  /// Takes over changed parameters, bounds, guesses and members of families. What is changed beyond
-  /// that (constraints switched, more members, ...) is transcribed anew.
+  /// Takes over changed parameters, bounds, guesses and members of families. Where more has changed
+  /// (constraints switched, more members, ...), the problem is transcribed anew.
   void update(const Problem& problem);
   /// From a guess; from straight lines if it is empty.
   [[nodiscard]] Solution solve(const Trajectory& guess = {});
-  /// From a guess with multipliers, their taus those of the guess.
+  /// From a guess with multipliers, whose taus are of the guess's t0 ... tf.
   [[nodiscard]] Solution solve(const Trajectory& guess, const Duals& duals);
 
   const nlp::Options& options() const;

@@ -12,7 +12,7 @@ namespace slalom::ocp {
 
 using expr::Expr;
 
-/// A variable's scale where none is given: solve() finds one.
+/// Stands for a scale that is not given: solve() finds one.
 inline constexpr double kAutomaticScale = 0;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -21,7 +21,7 @@ struct Bounds {
   double lower = -kInfinity;
   double upper = kInfinity;
 
-  /// Whether there is a side.
+  /// Whether either side is present.
   bool bounded() const { return lower > -kInfinity || upper < kInfinity; }
 
   static Bounds equal(double value) { return {value, value}; }
@@ -29,7 +29,7 @@ struct Bounds {
   static Bounds at_most(double value) { return {-kInfinity, value}; }
 };
 
-/// The points at which a path constraint stands.
+/// The points at which a path constraint holds.
 enum class Points { all, after_first };
 
 /// The end of the horizon at which a slack lives.
@@ -42,20 +42,20 @@ enum class ControlForm {
   constant,  ///< held over the interval; a node's value is that of the interval after it
 };
 
-/// What the excess e over a soft constraint's bounds costs: `weight` e or `weight` e^2, for a path
-/// row integrated over time.
+/// What the excess e over a soft constraint's bounds costs: `weight` e (l1) or `weight` e^2 (l2),
+/// integrated over time for a path row.
 enum class Norm { l1, l2 };
 
-/// How a constraint is softened: what goes beyond its bounds by more than `tolerance` [its unit]
-/// costs. An l1 cost with a weight above the hard constraint's multiplier leaves the optimum as it
-/// was (exact penalty; Nocedal & Wright 2006, section 17.2); an l2 cost always gives a little.
+/// How a constraint is softened: going beyond its bounds by more than `tolerance` [its unit] costs.
+/// An l1 cost with a weight above the hard constraint's multiplier leaves the optimum where it was
+/// (exact penalty; Nocedal & Wright 2006, section 17.2); an l2 cost always gives way a little.
 struct Soft {
   Norm norm = Norm::l1;
   double weight = 1;
   double tolerance = 0;
 };
 
-/// Handle of a constraint, for switching and for the data of families.
+/// Handle of a constraint, to switch it, soften it or change a family's members.
 struct ConstraintId {
   std::size_t index;
 };
@@ -76,20 +76,20 @@ class Problem {
   Expr state(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
   /// A control with bounds at every point.
   Expr control(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
-  /// How a control runs between the nodes; as the scheme has it if never called.
+  /// Sets how a control runs between the nodes; ControlForm::scheme if never called.
   void control_form(const Expr& control, ControlForm form);
   /// A constant to optimise.
   Expr static_parameter(const std::string& name, Bounds bounds, double guess,
                         double scale = kAutomaticScale);
-  /// An extra variable at one end of the horizon, for softened boundary conditions.
+  /// An additional variable at one end of the horizon, for softened boundary conditions.
   Expr slack(const std::string& name, End end, Bounds bounds, double guess = 0);
 
-  /// The integral over time of `integrand`, with bounds: an isoperimetric constraint, and a number
-  /// to use wherever a static parameter may stand.
+  /// The integral of `integrand` over time, with bounds (an isoperimetric constraint). The result
+  /// may be used wherever a static parameter may.
   Expr integral(const std::string& name, const Expr& integrand, Bounds bounds = {},
                 double scale = kAutomaticScale);
 
-  /// The scale of any variable, t0 and tf among them.
+  /// Sets the scale of any variable, t0 and tf included.
   void set_scale(const Expr& variable, double scale);
 
   // --- given quantities --------------------------------------------------------------------
@@ -102,56 +102,57 @@ class Problem {
   Expr tau() const { return tau_; }    ///< (t - t0) / (tf - t0), 0 ... 1
   Expr initial_time() const { return t0_; }
   Expr final_time() const { return tf_; }
-  /// A state's value at t0, to be used anywhere (also at other points).
+  /// A state's value at t0, which may be used anywhere (also at other points).
   Expr initial(const Expr& state) const;
   /// A state's value at tf, likewise.
   Expr final(const Expr& state) const;
 
   // --- dynamics, cost, constraints ---------------------------------------------------------
-  /// The time derivative of a state: one for each.
+  /// The time derivative of a state; each state needs one.
   void dynamics(const Expr& state, const Expr& rate);
-  /// A cost term at the ends: of initial(), final(), slacks, t0, tf, static parameters, integrals.
+  /// A cost term at the ends: an expression of initial(), final(), slacks, t0, tf, static
+  /// parameters and integrals.
   void mayer(const std::string& name, const Expr& term);
-  /// A cost term under the integral over time.
+  /// A cost term that is integrated over time.
   void lagrange(const std::string& name, const Expr& integrand);
-  /// A constraint at the points of the mesh: of states, controls, time and all that has one value.
+  /// A constraint at the points of the mesh, on an expression of states, controls, time and what
+  /// mayer may use.
   ConstraintId path(const std::string& name, const Expr& value, Bounds bounds,
                     Points points = Points::all);
-  /// A constraint on what mayer may use.
+  /// A constraint on an expression of what mayer may use.
   ConstraintId boundary(const std::string& name, const Expr& value, Bounds bounds);
 
-  /// One path row a member: `value` is an expression of `symbols` (made by Expr::symbol), which
-  /// take each member's numbers. Thirty-eight obstacles are one family of one formula.
+  /// One path row for each member: `value` is an expression of `symbols` (made by Expr::symbol),
+  /// which take each member's numbers. Thirty-eight obstacles, for example, are one family.
   ConstraintId path_family(const std::string& name, const std::vector<Expr>& symbols,
                            const Expr& value, Bounds bounds, Points points = Points::all);
-  /// The members' names and numbers (one list a member, one number a symbol). The number of members
-  /// may change between transcriptions; the numbers between solves.
+  /// Sets the members' names and numbers (one list for each member, one number for each symbol).
+  /// How many members there are may change between transcriptions, their numbers between solves.
   void set_members(ConstraintId family, std::vector<std::string> names,
                    std::vector<std::vector<double>> values);
 
   /// A constraint's typical size: the solver sees value / scale.
   void set_scale(ConstraintId constraint, double scale);
-  /// Makes a constraint soft, with a cost term "soft NAME"; and hard again. The weight alone may
-  /// change between the solves of one transcription.
+  /// Makes a constraint soft, with a cost term "soft NAME", or hard again. Between the solves of
+  /// one transcription, only the weight may change.
   void soften(ConstraintId constraint, Soft soft);
   void harden(ConstraintId constraint);
 
-  /// The constraint of that name; throws InvalidValue, naming the nearest.
+  /// The constraint of that name. Throws InvalidValue for an unknown name, naming the nearest.
   ConstraintId constraint_named(const std::string& name) const;
-  /// A constraint switched off is absent from the next transcription, not zeroed.
+  /// Switches a constraint on or off. Off, it is absent from the next transcription, not zeroed.
   void enable(ConstraintId constraint, bool enabled);
-  /// Likewise for a cost term.
+  /// The same for a cost term.
   void enable_cost(const std::string& name, bool enabled);
 
   // --- ends --------------------------------------------------------------------------------
   /// Bounds of t0, and its guess; fixed at 0 if never called.
   void initial_time(Bounds bounds, double guess);
-  /// Bounds of tf, and its guess; fixed at 1 if never called. Time runs forward: tf >= t0, whatever
-  /// their bounds.
+  /// Bounds of tf, and its guess; fixed at 1 if never called. Whatever the bounds, tf >= t0.
   void final_time(Bounds bounds, double guess);
-  /// Extra bounds of a state at t0; Bounds::equal fixes it.
+  /// Additional bounds of a state at t0; Bounds::equal fixes it.
   void initial_bounds(const Expr& state, Bounds bounds);
-  /// Extra bounds of a state at tf, likewise.
+  /// Additional bounds of a state at tf; Bounds::equal fixes it.
   void final_bounds(const Expr& state, Bounds bounds);
   /// Fixes a state at both ends.
   void fix(const Expr& state, double initial, double final);
@@ -165,7 +166,7 @@ class Problem {
     double guess = 0;
 
     bool scaled() const { return scale != kAutomaticScale; }
-    double unit() const { return scaled() ? scale : 1; }  ///< of the solver
+    double unit() const { return scaled() ? scale : 1; }  ///< what the solver takes as 1
   };
   struct State : Variable {
     Bounds initial, final;

@@ -20,7 +20,7 @@ Quadrature legendre_gauss_lobatto(int n);
 /// 46(3), 2004).
 class Interpolation {
  public:
-  /// Throws InvalidValue unless the points are distinct and there is one at least.
+  /// Throws InvalidValue unless there is at least one point and all are distinct.
   explicit Interpolation(std::vector<double> points);
 
   /// Value of each basis polynomial at x: 1 at its own point, 0 at the others.

@@ -9,22 +9,22 @@
 
 namespace slalom::ocp {
 
-/// How a mesh gets finer where its error is too large.
+/// How a mesh is made finer where its error is too large.
 enum class Refinement {
-  h,   ///< an interval is cut, by its scheme's order: Betts 2010, section 4.7
-  hp,  ///< its degree rises, and it is cut past `max_points`: Patterson, Hager & Rao 2015
+  h,   ///< an interval is cut, by its scheme's order (Betts 2010, section 4.7)
+  hp,  ///< its degree rises; past `max_points` it is cut (Patterson, Hager & Rao 2015)
 };
 
 struct RefineRules {
   double tolerance = 1e-6;  ///< of ErrorEstimate::largest
   Refinement refinement = Refinement::h;
   /// Intervals whose control is not resolved to the tolerance (unresolved_controls) are cut too,
-  /// until the objective moves by less than the tolerance, relative, from mesh to mesh.
+  /// until the objective's relative change from mesh to mesh is below the tolerance.
   bool resolve_controls = true;
   int max_meshes = 15;
-  int max_size = 20000;  ///< points of a mesh, of all phases
-  int min_points = 3;    ///< hp: of a scheme in a new interval
-  int max_points = 12;   ///< hp: of a scheme
+  int max_size = 20000;  ///< points of a mesh, over all phases
+  int min_points = 3;    ///< hp: of the scheme in a new interval
+  int max_points = 12;   ///< hp: of the scheme in any interval
 };
 
 /// How a refinement ended.
@@ -44,7 +44,7 @@ struct MeshRecord {
   double wall_s = 0;  ///< of the solve
   double objective = 0;
   double largest_error = 0;  ///< ErrorEstimate::largest
-  std::string worst_phase;   ///< where; empty with one phase alone
+  std::string worst_phase;   ///< the phase with that error; empty if there is only one
   std::size_t worst_interval = 0;
   std::size_t unresolved = 0;  ///< intervals whose control is not resolved
 };
@@ -64,7 +64,7 @@ struct Refined {
 
 struct PhasedRefined {
   RefineStatus status = RefineStatus::not_solved;
-  PhasedSolution solution;            ///< likewise
+  PhasedSolution solution;            ///< as in Refined
   std::vector<ErrorEstimate> errors;  ///< of each phase
   std::vector<MeshRecord> meshes;
 
@@ -74,8 +74,8 @@ struct PhasedRefined {
 
 /// Solves on one mesh after another, each from the last one's polynomials and multipliers, until
 /// the errors are within the tolerance. `start` has the first mesh, scheme and guess, and the
-/// options and back end of all. Throws InvalidValue for rules out of range, and for hp with a
-/// scheme that has one degree only.
+/// options and back end for all meshes. Throws InvalidValue for rules out of range, and for hp with
+/// a scheme that has only one degree.
 [[nodiscard]] Refined refine(const Problem& problem, const SolveSettings& start = {},
                              const RefineRules& rules = {});
 [[nodiscard]] PhasedRefined refine(const PhasedProblem& problem, const PhasedSettings& start = {},

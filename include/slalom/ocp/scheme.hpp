@@ -27,20 +27,21 @@ class Mesh {
 ///
 ///   sum_j state[i][j] x_j - h sum_j rate[i][j] f_j = 0,     integral of L = h sum_j weight[j] L_j
 ///
-/// Interior points (all but the first and last) carry states and controls of their own; in
-/// compressed form only controls, their states being Hermite's interpolant of the ends.
+/// Interior points (all but the first and last) have states and controls of their own. In
+/// compressed form they have only controls; their states are Hermite's interpolant of the ends.
 struct Scheme {
   std::string name;
   int order = 0;                           ///< of the states at the breakpoints
   std::vector<double> points;              ///< c_j
-  std::vector<std::vector<double>> state;  ///< one row a defect
+  std::vector<std::vector<double>> state;  ///< one row for each defect
   std::vector<std::vector<double>> rate;
   std::vector<double> weight;
   bool compressed = false;
 
   std::size_t interior() const { return points.size() - 2; }
   std::size_t defects() const { return state.size(); }
-  /// Whether the rates at point j count: there the polynomial of the states satisfies the dynamics.
+  /// Whether the rates at point j enter, so that the states' polynomial satisfies the dynamics
+  /// there.
   bool collocates(std::size_t j) const;
 };
 
@@ -50,19 +51,20 @@ const Scheme& trapezoidal();
 /// 4.4): the midpoint's state is a variable tied by Hermite's interpolant.
 const Scheme& hermite_simpson();
 /// Hermite-Simpson in compressed form (ibid.; Kelly 2017, eq. 4.5): the midpoint's state is put
-/// into Simpson's rule, which leaves one defect an interval. Path rows stand at the midpoint too.
+/// into Simpson's rule, which leaves one defect in each interval. Path rows stand at the midpoint
+/// too.
 Scheme hermite_simpson_compressed();
 /// Implicit Euler, order 1: x_1 - x_0 - h f_1.
 Scheme backward_euler();
-/// Legendre-Gauss-Radau collocation at n >= 1 points, the interval's begin among them and its end
-/// not, in integration form: x_i - x_0 - h sum_j A_ij f_j (Garg et al., Automatica 46(11), 2010,
-/// section 4.2). Order 2 n - 1.
+/// Legendre-Gauss-Radau collocation at n >= 1 points, which include the interval's begin and not
+/// its end, in integration form: x_i - x_0 - h sum_j A_ij f_j (Garg et al., Automatica 46(11),
+/// 2010, section 4.2). Order 2 n - 1.
 Scheme lgr(int n);
 /// The same points and polynomial in differentiation form: sum_j D_ij x_j - h f_i (ibid., section
 /// 4.1).
 Scheme lgr_differential(int n);
-/// Legendre-Gauss-Lobatto collocation at n >= 2 points, both ends among them, in integration form
-/// (Lobatto IIIA; Hairer, Norsett & Wanner 1993, section II.7). Order 2 n - 2; n = 2 is the
+/// Legendre-Gauss-Lobatto collocation at n >= 2 points, which include both ends, in integration
+/// form (Lobatto IIIA; Hairer, Norsett & Wanner 1993, section II.7). Order 2 n - 2; n = 2 is the
 /// trapezoidal rule, n = 3 Hermite-Simpson's.
 Scheme lgl(int n);
 
@@ -72,11 +74,12 @@ const std::vector<std::string>& scheme_names();
 /// naming the nearest.
 Scheme scheme(const std::string& name, int points = 4);
 
-/// The scheme of each interval of a mesh: one for all, or one each, such as LGR of other degrees.
+/// The scheme of each interval of a mesh: one scheme for all intervals, or one for each, such as
+/// LGR of different degrees.
 class Schemes {
  public:
   Schemes(const Scheme& scheme) : list_{scheme} {}  // NOLINT(google-explicit-constructor)
-  /// Throws InvalidValue for none.
+  /// Throws InvalidValue for an empty list.
   explicit Schemes(std::vector<Scheme> list);
 
   /// Throws InvalidValue unless it has one scheme, or as many as the mesh has intervals.

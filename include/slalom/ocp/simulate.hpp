@@ -24,11 +24,11 @@ struct System {
   std::vector<double> scales = {};    ///< typical sizes of the states; empty: all 1
 };
 
-/// A problem's dynamics. What they use beside states, controls and time is as in `fixed`: t0, tf,
-/// static parameters, integrals (those that it has not: as the problem guesses them) and, where it
-/// has states, their first ones for initial(). Run-time parameters are taken as they are now.
-/// Throws InvalidValue for a state without dynamics and for dynamics that use final(): a simulation
-/// cannot know it.
+/// A problem's dynamics. What they use besides states, controls and time is taken from `fixed`: t0,
+/// tf, static parameters, integrals and, where `fixed` has states, the first of them for initial().
+/// What it lacks is taken from the problem's guesses. Run-time parameters have their values of now.
+/// Throws InvalidValue for a state without dynamics, and for dynamics that use final(), which a
+/// simulation cannot know.
 System system_of(const Problem& problem, const Trajectory& fixed = {});
 
 /// What drives a simulation.
@@ -43,29 +43,30 @@ struct Controls {
 Controls constant_controls(std::vector<double> values);
 Controls controls_of_time(std::function<std::vector<double>(double t)> law,
                           std::vector<double> corners = {});
-/// A solution's own, by its scheme's polynomials; beyond its ends the nearer end's.
+/// A solution's own controls, by its scheme's polynomials; beyond its ends, those at the nearer
+/// end.
 Controls controls_of(const Problem& problem, const Solution& solution);
 
 struct SimulateSettings {
-  std::optional<double> t0 = {};  ///< of a problem its guess if left out; of a system 0
-  std::optional<double> tf = {};  ///< likewise; of a system 1
-  int steps = 100;                ///< equal steps between the points; corners are points too
-  double tolerance = 1e-9;        ///< absolute, in units of each state's scale, and relative
+  std::optional<double> t0 = {};  ///< if left out: a problem's guess; 0 for a system
+  std::optional<double> tf = {};  ///< if left out: a problem's guess; 1 for a system
+  int steps = 100;                ///< equal steps from point to point; corners are points too
+  double tolerance = 1e-9;        ///< relative and, in units of each state's scale, absolute
 };
 
-/// A simulated trajectory. Where a control jumps, a point has the one that follows.
+/// A simulated trajectory. Where a control jumps, a point has the control that follows.
 struct Simulation {
   Trajectory trajectory;
-  bool complete = false;  ///< to tf; else the points end, and tf is, where the states were lost
+  bool complete = false;  ///< it reached tf; otherwise tf and the points end where states were lost
   std::string message;    ///< one sentence on where; empty when complete
 };
 
 /// Integrates from x0 (Bulirsch & Stoer's extrapolation with adaptive order and steps; Hairer,
 /// Norsett & Wanner 1993, section II.9) from corner to corner of the controls. Throws InvalidValue
-/// for numbers of states or controls that do not match, numbers not finite, and t0 above tf.
+/// for the wrong number of states or controls, numbers that are not finite, and t0 above tf.
 [[nodiscard]] Simulation simulate(const System& system, const std::vector<double>& x0,
                                   const Controls& controls, const SimulateSettings& settings = {});
-/// The same of a problem's own dynamics; the trajectory has its static parameters' guesses.
+/// The same for a problem's own dynamics; static parameters are as the problem guesses them.
 [[nodiscard]] Simulation simulate(const Problem& problem, const std::vector<double>& x0,
                                   const Controls& controls, const SimulateSettings& settings = {});
 

@@ -23,30 +23,30 @@ struct SolveSettings {
   nlp::Options options = {};   ///< tol, floor, limits, ...
   std::string backend = {};    ///< of nlp::make_solver; empty: the default one
   Trajectory guess = {};       ///< empty: straight lines between the bounds at both ends
-  nlp::Start warm_start = {};  ///< a Solution's `point`, of the same mesh and scheme; beats guess
+  nlp::Start warm_start = {};  ///< a Solution's `point` on the same mesh and scheme; beats guess
   /// A solution on any mesh and scheme whose trajectory and multipliers are carried to this one;
   /// beats the two above. It must outlive the call.
   const Solution* previous = nullptr;
 };
 
-/// A solved problem, in the user's units. `solved()` is the independent checker's word too.
+/// An answer, in the user's units. `solved()` needs the consent of the independent checker.
 struct Solution {
   nlp::Status status = nlp::Status::numerical_failure;
   nlp::Fault fault;  ///< for Status::invalid_number
   double objective = 0;
   std::vector<std::pair<std::string, double>> cost_terms;  ///< they sum to the objective
   Trajectory trajectory;
-  Mesh mesh = Mesh::uniform(1);  ///< and scheme, of the trajectory's points
+  Mesh mesh = Mesh::uniform(1);  ///< mesh and scheme are those of `trajectory`
   Schemes scheme = trapezoidal();
-  /// dJ*/dx at the mesh nodes, [node][state]: positive where more of a state costs more. Read off
-  /// the defects' multipliers; second order accurate at least where no path row is active.
+  /// dJ*/dx at the mesh nodes, [node][state]: positive where more of a state costs more. Taken from
+  /// the defects' multipliers; accurate to second order at least where no path row is active.
   std::vector<std::vector<double>> costates;
   CollocatedCostates collocated_costates;
   std::vector<Multipliers> multipliers;  ///< of constraints and bounds, by name
   std::vector<Excesses> excesses;        ///< of soft constraints, by name
   nlp::Residuals residuals;              ///< recomputed from the point; names the worst constraint
   nlp::Options options;                  ///< those it was solved with
-  std::string backend;                   ///< that solved it, with its factorisation
+  std::string backend;                   ///< the one that solved it, with its factorisation
   nlp::Start point;                      ///< of the NLP, for warm starts
   int iterations = 0;
   double wall_s = 0;
@@ -57,13 +57,13 @@ struct Solution {
   double tf() const { return trajectory.tf; }
   std::vector<double> time() const;  ///< of each point
 
-  // One number a point; an unknown name throws InvalidValue that names the nearest.
+  // One number for each point; an unknown name throws InvalidValue, which names the nearest.
   std::vector<double> state(const std::string& name) const;
   std::vector<double> control(const std::string& name) const;
   double static_parameter(const std::string& name) const;
   double slack(const std::string& name) const;
   double cost_term(const std::string& name) const;
-  std::vector<double> costate(const std::string& state_name) const;  ///< one number a mesh node
+  std::vector<double> costate(const std::string& state_name) const;  ///< one for each mesh node
   const Multipliers& multiplier(const std::string& name) const;
   const Excesses& excess(const std::string& name) const;
 
@@ -77,23 +77,23 @@ struct Solution {
 
 struct PhasedSolution;
 
-/// How to solve a phased problem; lists have one entry a phase, or none for defaults.
+/// How to solve a phased problem; lists have one entry for each phase, or are empty for defaults.
 struct PhasedSettings {
   std::vector<PhasedTranscription::Grid> grids = {};
   nlp::Options options = {};
   std::string backend = {};
   std::vector<Trajectory> guesses = {};
-  nlp::Start warm_start = {};  ///< a PhasedSolution's `point`, of the same grids; beats guesses
+  nlp::Start warm_start = {};  ///< a PhasedSolution's `point` on the same grids; beats guesses
   const PhasedSolution* previous = nullptr;  ///< as SolveSettings::previous
 };
 
-/// A solved phased problem.
+/// An answer to a phased problem.
 struct PhasedSolution {
   nlp::Status status = nlp::Status::numerical_failure;
   nlp::Fault fault;
   double objective = 0;
   std::vector<Solution> phases;  ///< each with its own share of the objective
-  /// By link: dJ* over a change of its bounds, with the sign of nlp::Start.
+  /// For each link: the change of J* per change of its bounds, with the sign of nlp::Start.
   std::vector<std::pair<std::string, double>> link_multipliers;
   nlp::Residuals residuals;
   nlp::Options options;

@@ -17,17 +17,17 @@ namespace slalom::ocp {
 
 /// The multipliers of one constraint or of a variable's bounds, in user's units.
 struct Multipliers {
-  /// A constraint, "family[member]", a state, control, slack, static parameter or integral (for its
-  /// bounds), t0 or tf.
+  /// A constraint, "family[member]", or a variable with bounds: a state, control, slack, static
+  /// parameter, integral, t0 or tf.
   std::string name;
   std::vector<std::size_t> points;  ///< of the mesh and scheme; empty for what has one value
-  /// How much less the objective is per unit by which the bound at that point alone is raised:
-  /// >= 0 at an upper bound, <= 0 at a lower one, 0 at neither.
+  /// How much the objective falls per unit by which the bound is raised at that point alone: >= 0
+  /// at an upper bound, <= 0 at a lower one, 0 at neither.
   std::vector<double> values;
 };
 
-/// How far a soft constraint goes beyond its bounds and tolerance, one number a point (and, point
-/// by point, a member): > 0 above the upper bound, < 0 below the lower one.
+/// How far a soft constraint goes beyond its bounds and tolerance, one number for each point (for a
+/// family, for each member at each point): > 0 above the upper bound, < 0 below the lower one.
 struct Excesses {
   std::string name;
   std::vector<std::size_t> points;
@@ -40,9 +40,9 @@ struct CollocatedCostates {
   std::vector<std::vector<double>> values;  ///< [point][state], dJ*/dx
 };
 
-/// What is carried from a solution to another mesh beside its trajectory.
+/// What is carried from a solution to another mesh besides its trajectory.
 struct Duals {
-  std::vector<double> tau;  ///< of the points that the multipliers number
+  std::vector<double> tau;  ///< of all points; Multipliers::points are places in it
   CollocatedCostates costates;
   std::vector<Multipliers> multipliers;
 };
@@ -50,15 +50,15 @@ struct Duals {
 /// A problem made into a stage-structured NLP on a mesh by a collocation scheme.
 ///
 /// Stage k holds node k (slacks of that end, states, controls) and the interior points of interval
-/// k (a control that the scheme leaves out, such as the last one of LGR, is held from the point
-/// beside it); the globals are t0, tf, static parameters and one copy of every end value that a
-/// function at another point uses (lifted, tied by an equation at its own stage). Everything
-/// nonlinear is evaluated in batches: one pass over all points for each function.
+/// k. A control that the scheme leaves out, such as the last one of LGR, is held from the point
+/// next to it. The globals are t0, tf, static parameters and one copy of every end value that a
+/// function at another point uses (it is lifted, and an equation at its own stage ties the two).
+/// Everything nonlinear is evaluated in batches: one pass over all points for each function.
 class Transcription final : public nlp::Problem {
  public:
-  /// Throws InvalidValue for what no single declaration shows: a state without dynamics, no states,
-  /// a function of a foreign symbol, no tf after t0, more equations than unknowns, a constraint
-  /// that no variable can change.
+  /// Throws InvalidValue for mistakes that no single declaration shows: a state without dynamics,
+  /// no states, a function of a foreign symbol, no tf after t0, more equations than unknowns, a
+  /// constraint that no variable can change.
   Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes);
   ~Transcription() override;
 
@@ -67,7 +67,7 @@ class Transcription final : public nlp::Problem {
   /// InvalidValue otherwise.
   void update(const ocp::Problem& problem);
 
-  /// The primal start for a guess (end slacks from the problem when the guess has none).
+  /// The primal start for a guess; end slacks are the problem's when the guess has none.
   std::vector<double> point(const Trajectory& guess) const;
   /// A guess of straight lines between the bounds given at both ends (or the bounds' middle).
   Trajectory straight_guess() const;
@@ -76,26 +76,26 @@ class Transcription final : public nlp::Problem {
   std::vector<std::pair<std::string, double>> cost_terms(std::span<const double> x);
 
   /// Costates at the mesh nodes, [node][state]: dJ*/dx, user's units. The Lagrangian is f + y' g
-  /// with defects x_(k+1) - x_k - ..., so minus the defects' y estimate the costate within an
-  /// interval; at a node it is the derivative of what lies after the node (its interval's
-  /// quadrature and defects), averaged with minus that of what lies before: they differ by active
-  /// rows there.
+  /// with defects x_(k+1) - x_k - ..., so within an interval, minus the defects' y estimates the
+  /// costate. At a node it is the mean of two numbers: the derivative of what lies after the node
+  /// (its interval's quadrature and defects), and minus the derivative of what lies before. The two
+  /// differ by active rows at the node.
   std::vector<std::vector<double>> costates(std::span<const double> x, std::span<const double> y);
   CollocatedCostates collocated_costates(std::span<const double> y) const;
-  /// A warm start: the guess's point, and multipliers whose costates and densities over time are
-  /// those of `duals`.
+  /// A warm start: the guess's point, and multipliers with the costates and the densities over time
+  /// of `duals`.
   nlp::Start carried(const Trajectory& guess, const Duals& duals);
   /// Of all enabled constraints and of all variables with bounds, by name.
   std::vector<Multipliers> multipliers(const nlp::Start& point) const;
   std::vector<Excesses> excesses(std::span<const double> x) const;
-  /// Row of interval k's last defect of a state.
+  /// Row of the last defect of a state in an interval.
   std::size_t defect_row(std::size_t state, std::size_t interval) const;
 
-  /// The variable behind an end value, t0, tf, a static parameter or an integral; none for another
-  /// symbol.
+  /// The variable behind an end value, t0, tf, a static parameter or an integral; none for any
+  /// other symbol.
   std::optional<std::size_t> end_variable(const Expr& symbol) const;
 
-  /// Of each variable, whether it is no excess of a soft row.
+  /// For each variable, whether it is anything but the excess of a soft row.
   std::vector<char> regular_variables() const;
 
   const nlp::Structure& structure() const override;

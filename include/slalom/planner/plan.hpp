@@ -4,14 +4,35 @@
 #include <utility>
 #include <vector>
 
+#include "slalom/nlp/solver.hpp"
 #include "slalom/vehicle/state.hpp"
 
 namespace slalom::planner {
 
+/// How planning ended: as the solver did, unless the last two say otherwise.
+enum class PlanStatus {
+  solved = static_cast<int>(nlp::Status::solved),
+  iteration_limit = static_cast<int>(nlp::Status::iteration_limit),
+  time_limit = static_cast<int>(nlp::Status::time_limit),
+  infeasible = static_cast<int>(nlp::Status::infeasible),
+  unbounded = static_cast<int>(nlp::Status::unbounded),
+  invalid_number = static_cast<int>(nlp::Status::invalid_number),
+  too_few_freedoms = static_cast<int>(nlp::Status::too_few_freedoms),
+  interrupted = static_cast<int>(nlp::Status::interrupted),
+  numerical_failure = static_cast<int>(nlp::Status::numerical_failure),
+  not_confirmed,  ///< the solver says solved, and the residuals deny it
+  no_prediction,  ///< there was no state to plan from, for it could not be predicted
+};
+/// The word that files have: the solver's, "not_confirmed" or "no prediction".
+const char* to_string(PlanStatus status);
+/// What the solver says, taken over.
+PlanStatus plan_status(nlp::Status status);
+
 /// Residuals and cost of one solve, in the user's units.
 struct SolveReport {
-  bool solved = false;        ///< the solver says so, and so do the residuals below
-  std::string status;         ///< of the solver; "not_confirmed" where the residuals deny it
+  bool solved = false;  ///< the solver says so, and so do the residuals below
+  PlanStatus status = PlanStatus::numerical_failure;
+  std::string detail;         ///< what the status leaves open: why there is no prediction
   bool best_iterate = false;  ///< not solved, and within Request::best_iterate_tol: to be driven
   std::string backend;        ///< which solver answered
   int iterations = 0;
@@ -24,6 +45,9 @@ struct SolveReport {
   std::string worst_constraint;  ///< its name, e.g. "obstacle[O2] at node 3"
   double stationarity = 0;       ///< largest component of the Lagrangian's gradient
   double complementarity = 0;    ///< largest |s z / mu - 1|, or |s z| without floor
+
+  /// The status in a word, with ": " and the detail behind it where there is one.
+  std::string status_text() const;
 };
 
 /// A planned trajectory at its mesh nodes. Controls are linear between nodes.

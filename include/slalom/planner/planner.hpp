@@ -5,37 +5,33 @@
 #include <memory>
 #include <vector>
 
-#include "slalom/planner/goal.hpp"
-#include "slalom/planner/obstacle.hpp"
 #include "slalom/planner/plan.hpp"
 #include "slalom/planner/recording.hpp"
-#include "slalom/planner/settings.hpp"
-#include "slalom/vehicle/parameters.hpp"
+#include "slalom/planner/task.hpp"
 
 namespace slalom::planner {
 
 /// What one planning cycle knows.
 struct Request {
-  vehicle::State X0p{};                                         ///< predicted state at t0 + tex
-  double t0 = 0;                                                ///< absolute time of planning [s]
-  double tex = 0.5;                                             ///< execution horizon [s]
+  vehicle::State X0p{};  ///< predicted state at t_start
+  double t0 = 0;         ///< absolute time of planning [s]
+  double t_start = 0.5;  ///< absolute time at which the plan begins: t0 + tex [s]
   double time_limit = std::numeric_limits<double>::infinity();  ///< thread time of planning [s]
   /// A plan that is not solved, but violates no row or bound by more than this [its unit], is one
   /// to be driven, and the next solve starts from it. Negative: none is.
   double best_iterate_tol = -1;
   /// As measured in this cycle, in the order and with the names that the planner was made with;
   /// empty: as it was made.
-  std::vector<Obstacle> obstacles;
+  std::vector<world::Obstacle> obstacles;
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
 
-/// Plans one trajectory a cycle by solving the OCP of section 3, warm-started from the last plan
-/// that was solved, or was to be driven without, or that was cut short. Not thread-safe;
-/// use one planner a thread.
+/// Plans one trajectory in each cycle by solving the OCP of section 3. The solve starts warm from
+/// the last plan that was solved, that was to be driven although unsolved, or whose solve was
+/// cut short (by the deadline or an interrupt). Not thread-safe; use one planner for each thread.
 class Planner {
  public:
-  Planner(const Settings& settings, const vehicle::Parameters& vehicle, const Goal& goal,
-          const Region& region, const std::vector<Obstacle>& obstacles);
+  explicit Planner(const Task& task);
   ~Planner();
   Planner(Planner&&) noexcept;
   Planner& operator=(Planner&&) noexcept;

@@ -5,12 +5,10 @@
 
 #include "slalom/base/kernels.hpp"
 #include "slalom/nlp/solver.hpp"
-#include "slalom/planner/goal.hpp"
-#include "slalom/planner/obstacle.hpp"
 #include "slalom/planner/plan.hpp"
-#include "slalom/planner/settings.hpp"
-#include "slalom/vehicle/parameters.hpp"
+#include "slalom/planner/task.hpp"
 #include "slalom/vehicle/state.hpp"
+#include "slalom/world/obstacle.hpp"
 
 namespace slalom::planner {
 
@@ -18,7 +16,7 @@ namespace slalom::planner {
 /// enough to solve it again to the same bits.
 struct Recording {
   vehicle::State X0p{};  ///< of the Request
-  double t0 = 0, tex = 0.5;
+  double t0 = 0, t_start = 0.5;
   bool goal_in_range = false;  ///< which form of the OCP
   KernelSet kernels = KernelSet::baseline;
   nlp::Options options;  ///< without callbacks
@@ -26,10 +24,10 @@ struct Recording {
 
   nlp::Status status = nlp::Status::numerical_failure;
   int iterations = 0;
-  double phi = 0;                   ///< of nlp::check at `end`
-  double cpu_s = 0, wall_s = 0;     ///< of the solve
-  nlp::Start end;                   ///< the answer's point
-  std::vector<Obstacle> obstacles;  ///< of the Request
+  double phi = 0;                          ///< of nlp::check at `end`
+  double cpu_s = 0, wall_s = 0;            ///< of the solve
+  nlp::Start end;                          ///< the answer's point
+  std::vector<world::Obstacle> obstacles;  ///< of the Request
 };
 
 /// Which solves a planner records, and where to.
@@ -49,8 +47,6 @@ struct Replayed {
 /// Solves a recording again with the kernel set it names, which stays selected. A solve that was
 /// cut off by time or by the user ends at the same iteration instead. Throws Error for a kernel set
 /// that the processor lacks, InvalidValue for a start that is none of this problem.
-Replayed replay(const Recording& recording, const Settings& settings,
-                const vehicle::Parameters& vehicle, const Goal& goal, const Region& region,
-                const std::vector<Obstacle>& obstacles);
+Replayed replay(const Recording& recording, const Task& task);
 
 }  // namespace slalom::planner

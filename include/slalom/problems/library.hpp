@@ -12,11 +12,11 @@
 
 namespace slalom::problems {
 
-/// What a problem exercises. Those before `phases` are what makes one hard.
+/// What a problem exercises. The tags before `phases` say what makes it hard.
 enum class Tag {
   singular_arc,           ///< a control that the Hamiltonian does not determine
   state_constraint,       ///< an active constraint on states, of first order
-  high_order_constraint,  ///< likewise of second order or more
+  high_order_constraint,  ///< an active constraint on states, of second order or more
   stiff,                  ///< time scales far apart, or dynamics unstable both ways
   bang_bang,              ///< controls that jump between their bounds
   local_optima,           ///< several local optima or stationary points
@@ -25,7 +25,7 @@ enum class Tag {
   free_final_time,
 };
 const char* to_string(Tag tag);
-/// Of all tags, in their order.
+/// All tags, in the enum's order.
 const std::vector<Tag>& all_tags();
 /// Whether the tag says what makes a problem hard.
 bool is_hard(Tag tag);
@@ -45,13 +45,14 @@ struct ClosedForm {
   std::string formula;
 };
 
-/// A stated problem; `guesses` one a phase, or none for straight lines between the bounds.
+/// A stated problem. `guesses` has one for each phase, or none for straight lines between the
+/// bounds.
 struct Statement {
   std::variant<ocp::Problem, ocp::PhasedProblem> problem;
   std::vector<ocp::Trajectory> guesses = {};
 };
 
-/// One problem of the library. Values are of what the source minimises, or maximises.
+/// One problem of the library. Values are those of what the source minimises, or maximises.
 struct Entry {
   std::string name;  ///< on the command line
   std::string title;
@@ -61,27 +62,29 @@ struct Entry {
   bool maximised = false;  ///< its value is minus the objective that is solved for
   std::optional<Published> published = {};
   std::optional<ClosedForm> closed_form = {};
-  /// The limit of refined meshes by two schemes and two solvers, where the print is of a mesh or
-  /// wrong, or there is none; `remark` has the figures.
+  /// The limit of refined meshes by two schemes and two solvers. Given where the printed value is
+  /// that of a mesh, is wrong, or does not exist; `remark` has the figures.
   std::optional<double> converged = {};
   std::string remark = {};
-  double refinement = 1e-6;  ///< tolerance of the refinement: the default but where it gives less
-  double tol = 1e-8;         ///< nlp::Options::tol, likewise
-  bool resolve_controls = true;  ///< ocp::RefineRules::resolve_controls, likewise
+  /// Tolerance of the refinement; this and the next two are the defaults unless these give less.
+  double refinement = 1e-6;
+  double tol = 1e-8;             ///< nlp::Options::tol
+  bool resolve_controls = true;  ///< ocp::RefineRules::resolve_controls
   int intervals = 40;            ///< of the first mesh (of each phase) by a local scheme
   std::function<Statement()> state = {};
 
   bool has(Tag tag) const;
   /// What an answer is compared with: the closed form, else the converged value, else the print.
   double reference() const;
-  /// How near an answer must come: relative 1e-5, or half the last printed digit where the print is
-  /// the reference; absolute for a reference of 0.
+  /// How near an answer must come: 1e-5 of the reference (1e-5 for a reference of 0), or half the
+  /// last printed digit if that is more and the printed value is the reference.
   double tolerance() const;
 };
 
-/// All problems, in the order of the documentation.
+/// All published problems, in the order of the documentation.
 const std::vector<Entry>& library();
-/// By name; throws InvalidValue that names the nearest.
-const Entry& find(const std::string& name);
+/// The one of `entries` with this name. Throws InvalidValue for an unknown name, which names the
+/// nearest.
+const Entry& find(const std::vector<Entry>& entries, const std::string& name);
 
 }  // namespace slalom::problems

@@ -14,16 +14,16 @@ struct RunSettings {
   int points = 4;                          ///< of lgr, lgr_differential and lgl
   int intervals = 0;         ///< of the first mesh, of each phase; 0: the problem's own number
   double tolerance = 0;      ///< of the refinement; 0: the problem's own
-  bool refined = true;       ///< false: the first mesh alone
+  bool refined = true;       ///< false: only the first mesh is solved
   std::string backend = {};  ///< of nlp::make_solver; empty: the default one
 };
 
-/// A solved problem, compared.
+/// A problem's answer, compared with its reference.
 struct Run {
   ocp::RefineStatus status = ocp::RefineStatus::not_solved;
   std::string backend;
   double value = 0;       ///< with the source's sign
-  double difference = 0;  ///< of value and Entry::reference(), over it; absolute where it is 0
+  double difference = 0;  ///< of value from Entry::reference(), relative; absolute where that is 0
   double error = 0;       ///< ErrorEstimate::largest of the last mesh
   std::vector<ocp::MeshRecord> meshes;
   double wall_s = 0;  ///< of all solves
@@ -32,7 +32,8 @@ struct Run {
   bool agrees = false;
 };
 
-/// By default options but for `settings`. Throws InvalidValue for settings out of range.
+/// Solves and compares a problem. Options are the defaults except for `settings`. Throws
+/// InvalidValue for settings out of range.
 [[nodiscard]] Run run(const Entry& entry, const RunSettings& settings = {});
 
 }  // namespace slalom::problems

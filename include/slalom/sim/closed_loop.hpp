@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "slalom/planner/planner.hpp"
 #include "slalom/sim/drive.hpp"
@@ -31,5 +32,18 @@ Drive drive(const Scenario& scenario, const LoopHooks& hooks = {});
 /// The same with any planning function. Its first call is the warm-up solve if the scenario says
 /// so; then one call a cycle.
 Drive drive(const Scenario& scenario, const PlanFunction& plan, const LoopHooks& hooks = {});
+
+/// The first cycle of a drive, not driven, and the warm-up solve before it.
+struct FirstPlan {
+  std::optional<Cycle> warm_up;  ///< none if the scenario wants none
+  std::optional<Cycle> cycle;    ///< none if interrupted before it
+};
+
+/// Plans as drive() does in its first cycle, to the same bits, and does not drive; throws likewise.
+/// `interrupted` is polled before each solve and in its iterations.
+FirstPlan first_plan(const Scenario& scenario, const std::function<bool()>& interrupted = {});
+/// The same with any planning function.
+FirstPlan first_plan(const Scenario& scenario, const PlanFunction& plan,
+                     const std::function<bool()>& interrupted = {});
 
 }  // namespace slalom::sim

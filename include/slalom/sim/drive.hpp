@@ -29,15 +29,16 @@ struct PlantSample {
 
 /// One planning cycle.
 struct Cycle {
-  int index = 0;         ///< 1 is the first; 0 the warm-up solve, if any
-  double t0 = 0;         ///< when planning started [s]
-  double tex = 0;        ///< execution horizon [s]
-  double charged = 0;    ///< time until the plan was there, by the latency rule [s]
-  double t_swap = 0;     ///< when the plan took effect, or would have [s]
-  vehicle::State X0p{};  ///< state from which it plans: predicted for t0 + tex, unless instant
-  planner::Plan plan;    ///< with its solve report; nodes as the solver left them
-  bool used = false;     ///< the plant took this plan over at t_swap (false: warm-up, failed, or
-                         ///< the drive ended first)
+  int index = 0;          ///< 1 is the first; 0 the warm-up solve, if any
+  double t0 = 0;          ///< when planning started [s]
+  double tex = 0;         ///< execution horizon [s]
+  double solve_time = 0;  ///< of planning, by the clock or a scripted latency rule [s]
+  double charged = 0;     ///< time until the plan was there, by the latency rule [s]
+  double t_swap = 0;      ///< when the plan took effect, or would have [s]
+  vehicle::State X0p{};   ///< state from which it plans: predicted for t0 + tex, unless instant
+  planner::Plan plan;     ///< with its solve report; nodes as the solver left them
+  bool used = false;      ///< the plant took this plan over at t_swap (false: warm-up, failed, or
+                          ///< the drive ended first)
 };
 
 /// A closed-loop drive.

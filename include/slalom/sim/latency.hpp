@@ -1,10 +1,10 @@
 #pragma once
 
-#include "slalom/sim/scenario.hpp"
+#include "slalom/sim/loop_settings.hpp"
 
 namespace slalom::sim {
 
-/// What a planning cycle costs the loop in time, by the scenario's rule (LatencyRule).
+/// What a planning cycle costs the loop in time, by the rule of the loop's settings (LatencyRule).
 class Latency {
  public:
   /// Throws InvalidValue naming `loop.solve_times` when the rule is `recorded` and there are none.

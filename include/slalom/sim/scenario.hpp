@@ -1,75 +1,29 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "slalom/base/options.hpp"
-#include "slalom/planner/goal.hpp"
-#include "slalom/planner/obstacle.hpp"
-#include "slalom/planner/settings.hpp"
+#include "slalom/planner/task.hpp"
+#include "slalom/sim/loop_settings.hpp"
 #include "slalom/sim/plant_settings.hpp"
 #include "slalom/sim/sensing.hpp"
-#include "slalom/vehicle/parameters.hpp"
 #include "slalom/vehicle/state.hpp"
 
 namespace slalom::sim {
 
-/// What the vehicle does in a cycle whose NLP is not solved.
-enum class OnFailure { stop, last_plan, best_iterate };
-
-/// What planning may take of this thread's time: no limit of its own, or the execution horizon.
-enum class Deadline { off, tex };
-
-/// When a plan takes effect, and from which state it starts.
-enum class LatencyRule {
-  instant,   ///< at once: the plant waits, nothing is predicted
-  paper,     ///< at t0 + tex, however long planning took
-  measured,  ///< at t0 + tex, or when it is ready if that is later, by the wall clock
-  recorded,  ///< the same by recorded solve times
-  model      ///< the same by drawn solve times
-};
-
-/// Settings of the closed loop; section 4 of docs/formulation.md.
-struct LoopSettings {
-  double tex = 0.5;               ///< execution horizon [s]
-  double timeout = 60;            ///< longest drive [s]
-  double solve_time_limit = 300;  ///< of one solve, wall clock [s]
-  Deadline deadline = Deadline::off;
-  LatencyRule latency = LatencyRule::paper;
-  std::vector<double>
-      solve_times;              ///< `recorded`: one a cycle, again from the first after the last
-  double latency_median = 0.1;  ///< `model`: of the lognormal distribution [s]
-  double latency_spread = 0.5;  ///< standard deviation of its logarithm
-  int latency_seed = 0;
-  OnFailure on_failure = OnFailure::stop;
-  double best_iterate_tol = 1e-3;  ///< largest violation of a best iterate to be driven [its unit]
-  bool warm_up = true;             ///< solve the first OCP once before the clock starts
-  double sm_crash = 2;             ///< margin by which obstacles grow in the crash check [m]
-  double Fz_failure = 100;         ///< least wheel load in the plant [N]
-  double plant_tolerance = 1e-9;   ///< relative and absolute, of the adaptive integrator
-  double sample_step = 0.02;       ///< longest step between recorded plant samples [s]
-};
-
-const OptionTable<LoopSettings>& loop_options();
-
-/// Everything a drive needs. Obstacles are what they are; `vehicle` is what the planner believes,
-/// and what is driven but for `plant`.
-struct Scenario {
+/// Everything a drive needs: a planner's task, a start, and the loop around them. Obstacles are
+/// what they are; `vehicle` is what the planner believes, and what is driven but for `plant`.
+struct Scenario : planner::Task {
   std::string name;
   std::string title;
   vehicle::State start = {0, 0, 0, 0, 1.5707963267948966, 0, 17, 0};
-  planner::Goal goal;
-  planner::Region region;
-  std::vector<planner::Obstacle> obstacles;
-  vehicle::Parameters vehicle;
-  planner::Settings planner;
   LoopSettings loop;
   PlantSettings plant;
   SensingSettings sensing;
 };
 
-/// Throws InvalidValue for contradictions no single option shows: start outside its bounds or
-/// inside a grown obstacle, tex above tf_max, L_range <= kappa. `where` names the file.
+/// Throws InvalidValue for a value outside its registered range and for contradictions no single
+/// option shows: start outside its bounds or inside a grown obstacle, tex above tf_max, L_range <=
+/// kappa. `where` names the file; keys count from the scenario ("goal.sigma", "obstacles.O2.a").
 void check(const Scenario& scenario, const std::string& where);
 
 }  // namespace slalom::sim

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "slalom/base/options.hpp"
-#include "slalom/planner/obstacle.hpp"
 #include "slalom/vehicle/state.hpp"
+#include "slalom/world/obstacle.hpp"
 
 namespace slalom::sim {
 
@@ -35,8 +35,8 @@ class Sensors {
   vehicle::State measured(vehicle::State state, int index) const;
   /// Obstacles as believed in cycle `index`: where they are at t0 [s], but for noise, and from
   /// there on at the velocity believed. Empty when they are believed as they are.
-  std::vector<planner::Obstacle> believed(const std::vector<planner::Obstacle>& obstacles,
-                                          int index, double t0) const;
+  std::vector<world::Obstacle> believed(const std::vector<world::Obstacle>& obstacles, int index,
+                                        double t0) const;
 
  private:
   SensingSettings settings_;

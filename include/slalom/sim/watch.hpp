@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "slalom/planner/goal.hpp"
-#include "slalom/planner/obstacle.hpp"
 #include "slalom/sim/drive.hpp"
 #include "slalom/sim/plant.hpp"
-#include "slalom/sim/scenario.hpp"
+#include "slalom/world/goal.hpp"
+#include "slalom/world/obstacle.hpp"
 
 namespace slalom::sim {
 
@@ -19,6 +18,19 @@ struct Stretch {
   double t0 = 0, t1 = 0;                     ///< absolute times of its ends [s]
   vehicle::State state0{}, state1{};         ///< states there
   std::function<vehicle::State(double)> at;  ///< state at any time in between
+
+  /// What `plant` drives on `signal` from `state` at t0 to t1; both outlive it. Throws PlantError,
+  /// and so may `at`.
+  static Stretch driven(const Plant& plant, const ControlSignal& signal,
+                        const vehicle::State& state, double t0, double t1);
+};
+
+/// What a drive, or a plan that is rolled out, is watched for.
+struct Criteria {
+  std::vector<world::Obstacle> obstacles;
+  double margin = 0;  ///< by which they grow [m]
+  world::Goal goal;
+  double Fz_failure = 0;  ///< a wheel that bears less lifts [N]
 };
 
 /// What ends a drive while the plant moves.
@@ -35,7 +47,8 @@ struct Event {
 /// speeds allow it to matter. A graze between two samples is therefore not missed.
 class Watch {
  public:
-  Watch(const Scenario& scenario, const Plant& plant);
+  /// `dynamics`, of the vehicle that drives, outlive it.
+  Watch(const Criteria& criteria, const vehicle::Dynamics& dynamics);
 
   /// Takes in the start of the drive.
   void begin(double t, const vehicle::State& state);
@@ -44,7 +57,7 @@ class Watch {
   std::optional<Event> pass(const Stretch& stretch);
 
   /// Signed distance [m] from the front axle's centre to the edge of the nearest obstacle, grown by
-  /// sm_crash, at time t [s]; infinity without obstacles.
+  /// the margin, at time t [s]; infinity without obstacles.
   double clearance(double t, const vehicle::State& state) const;
 
   /// When the goal's square was first entered [s].
@@ -55,19 +68,16 @@ class Watch {
   double least_wheel_load() const { return least_wheel_load_; }  ///< [N]
 
  private:
-  double clearance_of(const planner::Obstacle& obstacle, double t,
-                      const vehicle::State& state) const;
-  double outside_goal(const vehicle::State& state) const;
   std::optional<Event> first_crash(const Stretch& stretch) const;
   std::optional<Event> first_wheel_lift(const Stretch& stretch) const;
   void note_clearance(const Stretch& stretch);
   void note_wheel_loads(const Stretch& stretch);
   void note_goal(const Stretch& stretch);
 
-  const Plant& plant_;
-  std::vector<planner::Obstacle> obstacles_;
-  planner::Goal goal_;
-  double sm_crash_, Fz_failure_;
+  const vehicle::Dynamics& dynamics_;
+  std::vector<world::Obstacle> obstacles_;  ///< grown by the margin
+  world::Goal goal_;
+  double Fz_failure_;
   std::optional<double> goal_time_;
   double least_clearance_ = std::numeric_limits<double>::infinity();
   double least_clearance_t_ = 0;

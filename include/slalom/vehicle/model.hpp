@@ -12,26 +12,28 @@
 
 namespace slalom::vehicle {
 
-/// The models there are. `pacejka`: the 3DoF vehicle of sections 1 and 2 of docs/formulation.md,
-/// which plant and prediction always are. The others are for planners: `linear_tyre`, with tyre
-/// forces linear in the slip angle; `constant_speed`, the 3DoF vehicle whose speed stays what it
-/// is; `kinematic`, the bicycle whose wheels do not slip.
+/// The models of a vehicle. `pacejka` is the 3DoF vehicle of sections 1 and 2 of
+/// docs/formulation.md; plant and prediction always use it. The others are for planners:
+/// `linear_tyre` has tyre forces linear in the slip angle, `constant_speed` is the 3DoF vehicle at
+/// a speed that does not change, `kinematic` is a bicycle whose wheels do not slip.
 enum class ModelKind { pacejka, linear_tyre, constant_speed, kinematic };
 
-/// What an entry of the state is to a model: a state with a derivative of its own, a number held
+/// What an entry of the state is in a model: a state with a derivative of its own, a number held
 /// over the horizon, or a function of the states.
-enum class Part { state, held, derived };
+enum class Role { state, held, derived };
 
-/// A vehicle as expressions: what OCP, prediction and plant evaluate.
+/// A vehicle as expressions, which OCP, prediction and plant evaluate.
 struct Model {
   std::array<expr::Expr, kStates> state;       ///< symbols
   std::array<expr::Expr, kControls> control;   ///< symbols
-  std::array<expr::Expr, kStates> derivative;  ///< state'; 0 for what is held or derived
-  std::array<Part, kStates> part{};            ///< what each entry of the state is
-  std::array<expr::Expr, kStates> value;       ///< of what is derived, in the states' symbols
-  std::array<bool, kControls> used{};          ///< a control that the model lacks is zero
-  expr::Expr Fyf, Fyr;  ///< lateral axle forces [N], left positive; none of a kinematic model
-  /// Linear part of the tyre forces, cornering stiffness times slip angle [N]; likewise.
+  std::array<expr::Expr, kStates> derivative;  ///< state'; 0 for entries held or derived
+  std::array<Role, kStates> role{};            ///< what each entry of the state is
+  std::array<expr::Expr, kStates> value;       ///< of derived entries, in the states' symbols
+  std::array<bool, kControls> used{};          ///< controls that the model lacks are zero
+  /// Lateral axle forces [N], left positive; a kinematic model has none.
+  expr::Expr Fyf, Fyr;
+  /// Linear part of the tyre forces, cornering stiffness times slip angle [N]; again none if
+  /// kinematic.
   expr::Expr Fyf_linear, Fyr_linear;
   expr::Expr alpha_f, alpha_r;                  ///< slip angles as in section 2 [rad]
   std::array<expr::Expr, kWheels> wheel_loads;  ///< rl, rr, fl, fr [N]

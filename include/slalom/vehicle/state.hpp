@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "slalom/base/options.hpp"
+
 namespace slalom::vehicle {
 
 /// States of the 3DoF model in their order everywhere: x, y [m] of the front axle's centre, lateral
@@ -25,5 +27,8 @@ inline constexpr std::array<const char*, kStates> kStateNames = {"x",   "y",  "v
 inline constexpr std::array<const char*, kControls> kControlNames = {"sr", "jx"};
 inline constexpr std::array<const char*, kWheels> kWheelNames = {"Fz_rl", "Fz_rr", "Fz_fl",
                                                                  "Fz_fr"};
+
+/// The registered options of State, by kStateNames, with unit and meaning.
+const OptionTable<State>& state_options();
 
 }  // namespace slalom::vehicle

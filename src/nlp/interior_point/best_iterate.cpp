@@ -1,10 +1,12 @@
 #include "best_iterate.hpp"
 
+#include <algorithm>
+
 namespace slalom::nlp::ipm {
 
-void BestIterate::begin(const Model& model, double tolerance) {
-  w_.resize(model.primal());
-  y_.resize(model.rows());
+void BestIterate::begin(const SlackForm& form, double tolerance) {
+  w_.resize(form.primal());
+  y_.resize(form.rows());
   known_ = false;
   tolerance_ = tolerance;
 }
@@ -22,14 +24,15 @@ void BestIterate::offer(const Iterate& at, double violation, double barrier) {
   barrier_ = barrier;
 }
 
-void BestIterate::restore(const Model& model, double mu, Iterate& at) const {
-  at.w = w_;
-  at.y = y_;
-  for (std::size_t k = 0; k < model.segments().count; ++k) {
-    const Segment& s = model.segments().first[k];
+void BestIterate::restore(const SlackForm& form, double mu, Point& point) const {
+  std::copy(w_.begin(), w_.end(), point.change_w().begin());
+  std::copy(y_.begin(), y_.end(), point.change_y().begin());
+  const auto zl = point.change_zl(), zu = point.change_zu();
+  for (std::size_t k = 0; k < form.segments().count; ++k) {
+    const Segment& s = form.segments().first[k];
     for (std::size_t i = s.begin; i < s.end; ++i) {
-      if (s.lower) at.zl[i] = mu / (w_[i] - model.lower()[i]);
-      if (s.upper) at.zu[i] = mu / (model.upper()[i] - w_[i]);
+      if (s.lower) zl[i] = mu / (w_[i] - form.lower()[i]);
+      if (s.upper) zu[i] = mu / (form.upper()[i] - w_[i]);
     }
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "line_search.hpp"
+#include "point.hpp"
 
 namespace slalom::nlp::ipm {
 
@@ -9,13 +9,13 @@ namespace slalom::nlp::ipm {
 /// it keeps those of the rows; those of bounds are mu / slack.
 class BestIterate {
  public:
-  void begin(const Model& model, double tolerance);
+  void begin(const SlackForm& form, double tolerance);
   /// `violation`: largest, in the user's units; `barrier`: at the last mu.
   void offer(const Iterate& at, double violation, double barrier);
   bool empty() const { return !known_; }
   bool feasible() const { return known_ && violation_ <= tolerance_; }
-  /// Copies the point into `at`, with mu / slack for the multipliers of bounds.
-  void restore(const Model& model, double mu, Iterate& at) const;
+  /// Sets `point` to it, with mu / slack for the multipliers of bounds.
+  void restore(const SlackForm& form, double mu, Point& point) const;
 
  private:
   std::vector<double> w_, y_;

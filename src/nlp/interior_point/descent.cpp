@@ -18,136 +18,153 @@ double longest_within(double reach) {
 
 }  // namespace
 
-Descent::Descent(Problem& problem, const Elastic* elastic)
-    : model(problem, elastic), newton(model), search(model), surveyor_(model) {
-  point.resize(model);
-  step.resize(model.primal(), model.rows());
-  predictor_.resize(model.primal(), model.rows());
-  over_lower_.resize(model.primal());
-  over_upper_.resize(model.primal());
+Descent::Descent(SlackForm& form)
+    : form_(form),
+      newton_(form),
+      estimate_(form, newton_.backend()),
+      search_(form),
+      surveyor_(form),
+      point_(form),
+      over_lower_(form.primal()),
+      over_upper_(form.primal()) {
+  for (auto* list : {&terms_.sigma, &terms_.slope}) list->resize(form.primal());
+  for (auto* one : {&step_, &predictor_}) one->resize(form.primal(), form.rows());
 }
 
-bool Descent::complete() {
-  const Parts missing{!point.have.values, !point.have.derivatives, !point.have.hessian};
-  if (missing.values || missing.derivatives || missing.hessian) {
-    if (!model.evaluate(point.at, missing, point.e)) return false;
-    point.have = {true, true, true};
-  }
-  if (!point.measured) measure(model, point);
+void Descent::begin(BarrierRule rule, double mu, double least) {
+  barrier_.begin(rule, mu, least);
+  newton_.restart();
+  search_.filter().clear();
+}
+
+bool Descent::start() {
+  if (!complete()) return false;
+  search_.reset(point_.violation());
   return true;
 }
 
 void Descent::update_barrier() {
-  if (barrier.update(survey)) search.filter().clear();
+  if (barrier_.update(survey_)) search_.filter().clear();
 }
 
-/// Sigma, and the slope at the barrier's mu, of the point.
-void Descent::set_barrier_terms() {
-  vector_kernels().barrier(model.segments(), point.local.bounded(model, point.at), barrier.mu(),
-                           point.local.sigma.data(), point.local.slope.data());
+void Descent::set_terms() {
+  terms_.mu = barrier_.mu();
+  vector_kernels().barrier(form_.segments(), point_.bounded(), terms_.mu, terms_.sigma.data(),
+                           terms_.slope.data());
 }
 
 bool Descent::find_step() {
-  set_barrier_terms();
-  if (!newton.factorize(point.e, point.local, barrier.mu())) return false;
-  if (barrier.free() && survey.mean_product > 0 && predict() && corrected_step()) return true;
-  const double mu = barrier.mu();
-  const bool finite = newton.step(point.e, point.local, point.at, mu, step);
-  if (finite && newton.accurate()) return true;
-  return newton.factorize_as_singular(point.e, point.local, mu) &&
-         newton.step(point.e, point.local, point.at, mu, step);
+  set_terms();
+  if (!newton_.factorize(point_, terms_)) return false;
+  if (barrier_.free() && survey_.mean_product > 0 && predict() && corrected_step()) return true;
+  const bool finite = newton_.step(point_, terms_, step_);
+  if (finite && newton_.accurate()) return true;
+  return newton_.factorize_as_singular(point_, terms_) && newton_.step(point_, terms_, step_);
 }
 
 /// Mu by how far a step towards mu = 0 gets, where it gets far; what that step adds to the products
 /// beyond first order is then known too (Mehrotra, SIAM J. Optim. 2(4), 1992).
 bool Descent::predict() {
-  const auto& kernels = vector_kernels();
-  const BoundedVector bounded = point.local.bounded(model, point.at);
-  std::fill(point.local.slope.begin(), point.local.slope.end(), 0.0);
-  bool far = newton.step(point.e, point.local, point.at, 0, predictor_);
+  terms_.mu = 0;
+  std::fill(terms_.slope.begin(), terms_.slope.end(), 0.0);
+  bool far = newton_.step(point_, terms_, predictor_);
   const double primal = longest_within(predictor_.reach.primal),
                dual = longest_within(predictor_.reach.dual);
   far = far && std::min(primal, dual) >= kFar;
   if (far) {
-    const double sum =
-        kernels.products_after(model.segments(), bounded, primal, dual, predictor_.w.data(),
-                               predictor_.zl.data(), predictor_.zu.data());
-    barrier.follow_predictor(survey.mean_product, sum / survey.bounds);
+    const double sum = vector_kernels().products_after(form_.segments(), point_.bounded(), primal,
+                                                       dual, predictor_.w.data(),
+                                                       predictor_.zl.data(), predictor_.zu.data());
+    barrier_.follow_predictor(survey_.mean_product, sum / survey_.bounds);
   } else {
-    barrier.follow_spread(survey);
+    barrier_.follow_spread(survey_);
   }
-  search.filter().clear();
-  set_barrier_terms();
+  search_.filter().clear();
+  set_terms();
   return far;
 }
 
 /// The step towards mu less the second-order terms of the predictor.
 bool Descent::corrected_step() {
   const auto& kernels = vector_kernels();
-  const BoundedVector bounded = point.local.bounded(model, point.at);
-  kernels.second_order(model.segments(), bounded, predictor_.w.data(), predictor_.zl.data(),
-                       predictor_.zu.data(), over_lower_.data(), over_upper_.data(),
-                       point.local.slope.data());
-  const bool finite = newton.step(point.e, point.local, point.at, barrier.mu(), step);
-  step.reach = kernels.correct_duals(model.segments(), bounded, step.w.data(), over_lower_.data(),
-                                     over_upper_.data(), step.zl.data(), step.zu.data());
-  set_barrier_terms();
-  return finite && newton.accurate() && std::isfinite(step.reach.primal + step.reach.dual);
+  kernels.second_order(form_.segments(), point_.bounded(), predictor_.w.data(),
+                       predictor_.zl.data(), predictor_.zu.data(), over_lower_.data(),
+                       over_upper_.data(), terms_.slope.data());
+  const bool finite = newton_.step(point_, terms_, step_);
+  step_.reach =
+      kernels.correct_duals(form_.segments(), point_.bounded(), step_.w.data(), over_lower_.data(),
+                            over_upper_.data(), step_.zl.data(), step_.zu.data());
+  set_terms();
+  return finite && newton_.accurate() && std::isfinite(step_.reach.primal + step_.reach.dual);
 }
 
 bool Descent::take_step() {
-  last = search.search(newton, barrier.mu(), step, point);
-  if (last.accepted) move_duals();
-  return last.accepted;
+  last_ = search_.search(newton_, terms_, step_, point_);
+  if (last_.accepted) move_bound_multipliers();
+  return last_.accepted;
 }
 
 bool Descent::leap() {
-  last = {};
-  if (!search.leap(barrier.mu(), step, point, last)) return false;
-  move_duals();
+  last_ = {};
+  if (!search_.leap(barrier_.mu(), step_, point_, last_)) return false;
+  move_bound_multipliers();
   return true;
 }
 
-void Descent::move_duals() {
-  vector_kernels().reciprocals(model.segments(), point.local.bounded(model, point.at),
-                               point.local.over_lower.data(), point.local.over_upper.data());
-  vector_kernels().move_duals(model.segments(), point.local.bounded(model, point.at), barrier.mu(),
-                              last.alpha_dual, kKappaSigma, step.zl.data(), step.zu.data(),
-                              point.at.zl.data(), point.at.zu.data());
-  point.measured = true;  // the line search has done the rest
+void Descent::go_back(const Point& point, const LineSearch::Result& last) {
+  point_ = point;
+  last_ = last;
+}
+
+void Descent::move_bound_multipliers() {
+  vector_kernels().move_duals(form_.segments(), point_.bounded(), barrier_.mu(), last_.alpha_dual,
+                              kKappaSigma, step_.zl.data(), step_.zu.data(),
+                              point_.change_zl().data(), point_.change_zu().data());
+}
+
+bool Descent::pays(const Merit& before, double slope, double alpha) {
+  if (!search_.acceptable(before, merit(), slope, alpha)) return false;
+  search_.leave(before, slope, alpha);
+  return true;
 }
 
 bool Descent::tiny_step() const {
   constexpr double kTiny = 10 * std::numeric_limits<double>::epsilon();
-  for (std::size_t i = 0; i < model.primal(); ++i)
-    if (std::fabs(step.w[i]) > kTiny * (1 + std::fabs(point.at.w[i]))) return false;
+  const std::vector<double>& w = point_.at().w;
+  for (std::size_t i = 0; i < w.size(); ++i)
+    if (std::fabs(step_.w[i]) > kTiny * (1 + std::fabs(w[i]))) return false;
   return true;
 }
 
-void Descent::centre_multipliers(double mu) {
+void Descent::centre_multipliers() {
+  const double mu = barrier_.mu();
   const auto central = [mu](double slack, double z) {
     const double ratio = slack * z / mu;
     return ratio > 1 / kCentral && ratio < kCentral ? z : mu / slack;
   };
-  Iterate& at = point.at;
-  for (std::size_t k = 0; k < model.segments().count; ++k) {
-    const Segment& s = model.segments().first[k];
+  const std::vector<double>& w = point_.at().w;
+  const auto zl = point_.change_zl(), zu = point_.change_zu();
+  for (std::size_t k = 0; k < form_.segments().count; ++k) {
+    const Segment& s = form_.segments().first[k];
     for (std::size_t i = s.begin; i < s.end; ++i) {
-      if (s.lower) at.zl[i] = central(at.w[i] - model.lower()[i], at.zl[i]);
-      if (s.upper) at.zu[i] = central(model.upper()[i] - at.w[i], at.zu[i]);
+      if (s.lower) zl[i] = central(w[i] - form_.lower()[i], zl[i]);
+      if (s.upper) zu[i] = central(form_.upper()[i] - w[i], zu[i]);
     }
   }
 }
 
 void Descent::estimate_multipliers() {
-  Iterate& at = point.at;
-  const std::size_t n = model.variables();
-  for (std::size_t r = 0; r < model.rows(); ++r)
-    at.y[r] = model.equation(r) ? 0 : at.zu[n + r] - at.zl[n + r];
-  if (model.equations().empty() || !newton.fit_multipliers(point.e, at, step)) return;
+  const Iterate& at = point_.at();
+  const auto y = point_.change_y();
+  const std::size_t n = form_.variables();
+  for (std::size_t r = 0; r < form_.rows(); ++r)
+    y[r] = form_.equation(r) ? 0 : at.zu[n + r] - at.zl[n + r];
+  if (form_.equations().empty()) return;
+  const std::vector<double>* fit = estimate_(point_);
+  if (fit == nullptr) return;
   double largest = 0;
-  for (const auto r : model.equations()) largest = std::max(largest, std::fabs(step.y[r]));
-  if (largest <= kMostMultiplier) std::copy(step.y.begin(), step.y.end(), at.y.begin());
+  for (const auto r : form_.equations()) largest = std::max(largest, std::fabs((*fit)[r]));
+  if (largest <= kMostMultiplier) std::copy(fit->begin(), fit->end(), y.begin());
 }
 
 }  // namespace slalom::nlp::ipm

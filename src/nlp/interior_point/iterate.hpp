@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "vector_kernels.hpp"
+
 namespace slalom::nlp::ipm {
 
 /// A point of the primal-dual method, or a step. The primal part is one vector w = (x, s), or
@@ -17,6 +19,11 @@ struct Iterate {
     for (auto* list : {&w, &zl, &zu}) list->assign(primal, 0.0);
     y.assign(rows, 0.0);
   }
+};
+
+/// Change of each part of an Iterate, and how far it may go.
+struct Step : Iterate {
+  StepReach reach;
 };
 
 }  // namespace slalom::nlp::ipm

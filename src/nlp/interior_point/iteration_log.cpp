@@ -9,16 +9,16 @@ IterationInfo iteration_info(const Descent& d, int iteration, bool restoration) 
   const auto& kernels = vector_kernels();
   info.iteration = iteration;
   info.restoration = restoration;
-  info.objective = d.point.e.objective / d.model.objective_scale();
-  info.violation = kernels.largest_magnitude(d.model.rows(), d.point.local.residuals.data());
-  info.dual = d.survey.dual;
-  info.mu = d.barrier.mu();
-  info.step = kernels.largest_magnitude(d.model.primal(), d.step.w.data());
-  info.delta_w = d.newton.regularisation();
-  info.delta_c = d.newton.row_regularisation();
-  info.alpha_primal = d.last.alpha;
-  info.alpha_dual = d.last.alpha_dual;
-  info.trials = d.last.trials;
+  info.objective = d.point().functions().objective / d.form().objective_scale();
+  info.violation = kernels.largest_magnitude(d.form().rows(), d.point().residuals().data());
+  info.dual = d.survey().dual;
+  info.mu = d.barrier().mu();
+  info.step = kernels.largest_magnitude(d.form().primal(), d.step().w.data());
+  info.delta_w = d.newton().regularisation();
+  info.delta_c = d.newton().row_regularisation();
+  info.alpha_primal = d.last().alpha;
+  info.alpha_dual = d.last().alpha_dual;
+  info.trials = d.last().trials;
   return info;
 }
 

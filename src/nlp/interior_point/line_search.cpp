@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <vector>
 
 namespace slalom::nlp::ipm {
 namespace {
@@ -32,38 +32,16 @@ double longest(double reach, double mu) {
 
 }  // namespace
 
-void Point::resize(const Model& model) {
-  at.resize(model.primal(), model.rows());
-  e.gradient.resize(model.variables());
-  e.rows.resize(model.rows());
-  e.jacobian.resize(model.shape().jacobian_row.size());
-  e.hessian.resize(model.shape().hessian_row.size());
-  local.resize(model);
-  have = {};
-}
-
 double boundary_fraction(double mu) {
   return std::max(kTau, 1 - mu);
 }
 
-void measure(const Model& model, Point& point) {
-  const auto& kernels = vector_kernels();
-  const BoundedVector bounded = point.local.bounded(model, point.at);
-  kernels.reciprocals(model.segments(), bounded, point.local.over_lower.data(),
-                      point.local.over_upper.data());
-  point.logs = kernels.log_slacks(model.segments(), bounded);
-  point.local.violation = model.residuals(point.e, point.at.w, point.local.residuals);
-  point.measured = true;
+Merit merit(const Point& point, double mu) {
+  return {point.violation(), barrier_function(point, mu)};
 }
 
-double barrier_function(const Point& point, double mu) {
-  return point.e.objective - mu * point.logs;
-}
-
-LineSearch::LineSearch(Model& model) : model_(model) {
-  trial_.resize(model);
-  corrected_.resize(model.primal(), model.rows());
-  residuals_.resize(model.rows());
+LineSearch::LineSearch(SlackForm& form) : form_(form), trial_(form), residuals_(form.rows()) {
+  corrected_.resize(form.primal(), form.rows());
 }
 
 void LineSearch::reset(double violation_at_start) {
@@ -84,95 +62,91 @@ void LineSearch::note_blocked(bool by_filter, const Merit& now) {
   blocked_ = 0;
 }
 
-Merit LineSearch::merit(const Point& point, double mu) const {
-  return {point.local.violation, barrier_function(point, mu)};
+double LineSearch::slope(const Point& point, const BarrierTerms& terms, const Step& step) const {
+  return form_.derivative_along(point.functions(), terms.slope, step.w);
 }
 
-double LineSearch::slope(const Point& point, const Step& step) const {
-  const auto& kernels = vector_kernels();
-  double slope = kernels.dot(model_.variables(), point.e.gradient.data(), step.w.data()) +
-                 kernels.dot(model_.primal(), point.local.slope.data(), step.w.data());
-  if (model_.elastic())
-    for (std::size_t i = model_.p(0); i < model_.primal(); ++i)
-      slope += model_.elastic()->rho * step.w[i];
-  return slope;
+bool LineSearch::acceptable(const Merit& now, const Merit& trial, double slope,
+                            double alpha) const {
+  return filter_.accepts(trial) && progresses(now, trial, slope, alpha);
+}
+
+void LineSearch::leave(const Merit& now, double slope, double alpha) {
+  if (!armijo(now, slope, alpha)) filter_.add(now);
+}
+
+/// Whether the step is one of descent, on which the barrier function alone judges (eq. 19).
+bool LineSearch::armijo(const Merit& now, double slope, double alpha) const {
+  const bool descent =
+      slope < 0 && alpha * std::pow(-slope, kSPhi) > kDelta * std::pow(now.violation, kSTheta);
+  return descent && now.violation <= small_violation_;
+}
+
+bool LineSearch::progresses(const Merit& now, const Merit& trial, double slope,
+                            double alpha) const {
+  if (armijo(now, slope, alpha))
+    return trial.barrier <= now.barrier + kEta * alpha * slope + rounding(now.barrier);
+  return trial.violation <= (1 - kGammaTheta) * now.violation ||
+         trial.barrier <= now.barrier - kGammaPhi * now.violation + rounding(now.barrier);
 }
 
 /// Evaluates trial_ = from + alpha step.
 bool LineSearch::try_step(const Point& from, const Step& step, double alpha, double mu,
                           bool derivatives, Merit& merit) {
-  const auto& kernels = vector_kernels();
   const double y_alpha = row_alpha(alpha, longest(step.reach.dual, mu),
-                                   kernels.largest_magnitude(model_.rows(), step.y.data()));
-  kernels.combine(model_.primal(), from.at.w.data(), alpha, step.w.data(), trial_.at.w.data());
-  kernels.combine(model_.rows(), from.at.y.data(), y_alpha, step.y.data(), trial_.at.y.data());
-  trial_.logs = kernels.log_slacks(model_.segments(), trial_.local.bounded(model_, trial_.at));
-  trial_.measured = false;
-  if (!std::isfinite(trial_.logs)) return false;
-  trial_.have = {.values = true, .derivatives = derivatives, .hessian = derivatives};
-  if (!model_.evaluate(trial_.at, trial_.have, trial_.e)) return false;
-  trial_.local.violation = model_.residuals(trial_.e, trial_.at.w, trial_.local.residuals);
-  merit = {trial_.local.violation, barrier_function(trial_, mu)};
+                                   vector_kernels().largest_magnitude(form_.rows(), step.y.data()));
+  trial_.set_along(from, step, alpha, y_alpha);
+  if (!std::isfinite(trial_.log_slacks())) return false;
+  if (!trial_.evaluate({.values = true, .derivatives = derivatives, .hessian = derivatives}))
+    return false;
+  merit = ipm::merit(trial_, mu);
   return std::isfinite(merit.violation) && std::isfinite(merit.barrier);
 }
 
-bool LineSearch::acceptable(const Merit& now, const Merit& trial, double slope, double alpha,
-                            bool& armijo) {
-  return filter_.accepts(trial) && progresses(now, trial, slope, alpha, armijo);
-}
-
-bool LineSearch::progresses(const Merit& now, const Merit& trial, double slope, double alpha,
-                            bool& armijo) const {
-  const bool descent =
-      slope < 0 && alpha * std::pow(-slope, kSPhi) > kDelta * std::pow(now.violation, kSTheta);
-  armijo = descent && now.violation <= small_violation_;
-  if (armijo) return trial.barrier <= now.barrier + kEta * alpha * slope + rounding(now.barrier);
-  return trial.violation <= (1 - kGammaTheta) * now.violation ||
-         trial.barrier <= now.barrier - kGammaPhi * now.violation + rounding(now.barrier);
-}
-
 /// Where backtracking ends (eq. 23), and no shorter than rounding lets a step be.
-double LineSearch::least_alpha(const Merit& now, double slope, const Point& point,
-                               const Step& step) const {
+double LineSearch::least_alpha(const Origin& from) const {
+  const Merit& now = from.merit;
   double least = kGammaTheta, change = 0;
-  if (slope < 0) {
-    least = std::min(least, kGammaPhi * now.violation / -slope);
+  if (from.slope < 0) {
+    least = std::min(least, kGammaPhi * now.violation / -from.slope);
     if (now.violation <= small_violation_)
-      least = std::min(least, kDelta * std::pow(now.violation, kSTheta) / std::pow(-slope, kSPhi));
+      least =
+          std::min(least, kDelta * std::pow(now.violation, kSTheta) / std::pow(-from.slope, kSPhi));
   }
   if (kGammaAlpha * least > kRounding) return kGammaAlpha * least;
-  for (std::size_t i = 0; i < model_.primal(); ++i)
-    change = std::max(change, std::fabs(step.w[i]) / (1 + std::fabs(point.at.w[i])));
+  const std::vector<double>&w = from.point.at().w, &dw = from.step.w;
+  for (std::size_t i = 0; i < form_.primal(); ++i)
+    change = std::max(change, std::fabs(dw[i]) / (1 + std::fabs(w[i])));
   return std::max(kGammaAlpha * least, kRounding / change);
 }
 
-LineSearch::Result LineSearch::search(Newton& newton, double mu, const Step& step, Point& point) {
-  const Merit now = merit(point, mu);
-  const double slope = this->slope(point, step), least = least_alpha(now, slope, point, step);
+LineSearch::Result LineSearch::search(Newton& newton, const BarrierTerms& terms, const Step& step,
+                                      Point& point) {
+  const Origin from{point, terms, step, merit(point, terms.mu), slope(point, terms, step)};
+  const Merit now = from.merit;
+  const double least = least_alpha(from);
   Result result;
-  result.alpha_dual = longest(step.reach.dual, mu);
-  bool armijo = false, by_filter = false;
-  for (double alpha = longest(step.reach.primal, mu); alpha > least || result.trials == 0;
+  result.alpha_dual = longest(step.reach.dual, terms.mu);
+  bool by_filter = false;
+  for (double alpha = longest(step.reach.primal, terms.mu); alpha > least || result.trials == 0;
        alpha /= 2) {
     ++result.trials;
     Merit trial{};
-    const bool finite = try_step(point, step, alpha, mu, result.trials == 1, trial);
-    result.faulted = !finite && model_.fault();
-    if (finite && acceptable(now, trial, slope, alpha, armijo)) {
+    const bool finite = try_step(point, step, alpha, terms.mu, result.trials == 1, trial);
+    result.faulted = !finite && form_.fault();
+    if (finite && acceptable(now, trial, from.slope, alpha)) {
       result.accepted = true;
       result.alpha = alpha;
     } else if (finite && result.trials == 1 && trial.violation >= now.violation) {
-      result.accepted = correct(newton, point, mu, step, now, slope, alpha, result, armijo);
+      result.accepted = correct(newton, from, alpha, result);
     }
     if (!result.accepted) {
-      by_filter = finite && progresses(now, trial, slope, alpha, armijo);
+      by_filter = finite && progresses(now, trial, from.slope, alpha);
       continue;
     }
     note_blocked(by_filter, now);
-    if (!armijo) filter_.add(now);
-    std::swap(point.at.zl, trial_.at.zl);
-    std::swap(point.at.zu, trial_.at.zu);
-    std::swap(point, trial_);
+    leave(now, from.slope, alpha);
+    point.swap_all_but_bounds(trial_);
     return result;
   }
   return result;
@@ -183,28 +157,25 @@ bool LineSearch::leap(double mu, const Step& step, Point& point, Result& result)
   result.alpha = longest(step.reach.primal, mu);
   result.alpha_dual = longest(step.reach.dual, mu);
   if (!try_step(point, step, result.alpha, mu, true, ignored)) return false;
-  std::swap(point.at.zl, trial_.at.zl);
-  std::swap(point.at.zu, trial_.at.zu);
-  std::swap(point, trial_);
+  point.swap_all_but_bounds(trial_);
   return true;
 }
 
 /// Second-order corrections (section 2.4): the step again with the rows' residuals at its end.
-bool LineSearch::correct(Newton& newton, const Point& point, double mu, const Step& step,
-                         const Merit& now, double slope, double alpha, Result& result,
-                         bool& armijo) {
-  double before = trial_.local.violation, length = alpha;
-  residuals_ = point.local.residuals;
+bool LineSearch::correct(Newton& newton, const Origin& from, double alpha, Result& result) {
+  const double mu = from.terms.mu;
+  double before = trial_.violation(), length = alpha;
+  std::copy_n(from.point.residuals().begin(), residuals_.size(), residuals_.begin());
   for (int k = 0; k < kMaxCorrections; ++k) {
     ++result.corrections;
     for (std::size_t r = 0; r < residuals_.size(); ++r)
-      residuals_[r] = length * residuals_[r] + trial_.local.residuals[r];
-    if (!newton.step_for(point.e, point.local, point.at, mu, residuals_, corrected_)) return false;
+      residuals_[r] = length * residuals_[r] + trial_.residuals()[r];
+    if (!newton.step_for(from.point, from.terms, residuals_, corrected_)) return false;
     length = longest(corrected_.reach.primal, mu);
-    corrected_.y = step.y;
+    corrected_.y = from.step.y;
     Merit trial{};
-    if (!try_step(point, corrected_, length, mu, false, trial)) return false;
-    if (acceptable(now, trial, slope, alpha, armijo)) {
+    if (!try_step(from.point, corrected_, length, mu, false, trial)) return false;
+    if (acceptable(from.merit, trial, from.slope, alpha)) {
       result.alpha = length;
       return true;
     }

@@ -21,53 +21,45 @@ constexpr double kGoodResidual = 1e-9, kBadResidual = 1e-5;
 
 }  // namespace
 
-void Local::resize(const Model& model) {
-  for (auto* list : {&over_lower, &over_upper, &sigma, &slope}) list->assign(model.primal(), 0.0);
-  residuals.assign(model.rows(), 0.0);
+kkt::Inertia inertia_of_minimum(const SlackForm& form) {
+  kkt::Inertia inertia;
+  for (const char fixed : form.fixed()) inertia.positive += fixed ? 0 : 1;
+  inertia.negative = form.equations().size();
+  return inertia;
 }
 
-BoundedVector Local::bounded(const Model& model, const Iterate& at) const {
-  return {at.w.data(),  model.lower().data(), model.upper().data(), at.zl.data(),
-          at.zu.data(), over_lower.data(),    over_upper.data()};
-}
-
-Newton::Newton(Model& model) : model_(model), backend_(kkt::make_stage_ldlt(model.pattern())) {
-  const std::size_t equations = model.equations().size();
-  for (std::size_t i = 0; i < model.variables(); ++i) wanted_.positive += model.fixed(i) ? 0 : 1;
-  wanted_.negative = equations;
-  for (auto* list : {&sigma_x_, &force_}) list->resize(model.variables());
-  for (auto* list : {&weight_, &give_, &row_rhs_, &multipliers_, &products_})
-    list->assign(model.rows(), 0.0);
+Newton::Newton(const SlackForm& form)
+    : form_(form),
+      elimination_(form.elimination()),
+      backend_(kkt::make_stage_ldlt(form.pattern())),
+      wanted_(inertia_of_minimum(form)) {
+  const std::size_t equations = form.equations().size();
+  hessian_.resize(form.condensed().places().size());
   flexibility_.resize(equations);
-  hessian_.resize(model.condensed().places().size());
-  no_hessian_.assign(model.shape().hessian_row.size(), 0.0);
-  rhs_.resize(model.variables() + equations);
-  solution_.resize(rhs_.size());
+  for (auto* list : {&diagonal_, &force_}) list->resize(form.variables());
+  for (auto* list : {&jdx_, &corrected_jdx_, &next_y_}) list->resize(form.rows());
+  for (auto* list : {&rhs_, &solution_, &remainder_, &correction_})
+    list->resize(form.variables() + equations);
 }
 
-/// What each eliminated row weighs in the condensed system.
-void Newton::weigh(const Local& local) {
-  const double* sigma = local.sigma.data() + model_.variables();
-  if (!model_.elastic()) {
-    std::copy_n(sigma, model_.rows(), weight_.data());  // 0 for an equation
-    return;
-  }
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    give_[r] = 1 / local.sigma[model_.p(r)] + 1 / local.sigma[model_.n(r)];
-    weight_[r] = model_.equation(r) ? 0 : 1 / (1 / sigma[r] + give_[r]);
-  }
+void Newton::restart() {
+  last_delta_w_ = 0;
+  backend_->distrust();
 }
 
-bool Newton::factorize(const Evaluation& e, const Local& local, double mu) {
-  weigh(local);
-  model_.condensed().sum(e.hessian, e.jacobian, weight_, hessian_);
+// --- factorisation -----------------------------------------------------------------------------
+
+bool Newton::factorize(const Point& point, const BarrierTerms& terms) {
+  const Evaluation& e = point.functions();
+  elimination_->weigh(terms);
+  form_.condensed().sum(e.hessian, e.jacobian, elimination_->weight(), hessian_);
   delta_c_ = 0;
-  return find_regularisation(e, local, mu);
+  return find_regularisation(point, terms);
 }
 
-bool Newton::factorize_as_singular(const Evaluation& e, const Local& local, double mu) {
-  delta_c_ = row_regularisation(mu);
-  return find_regularisation(e, local, mu);
+bool Newton::factorize_as_singular(const Point& point, const BarrierTerms& terms) {
+  delta_c_ = row_regularisation(terms.mu);
+  return find_regularisation(point, terms);
 }
 
 double Newton::row_regularisation(double mu) {
@@ -80,201 +72,138 @@ bool Newton::deadline_passed(void* self) {
 }
 
 /// Algorithm IC.
-bool Newton::find_regularisation(const Evaluation& e, const Local& local, double mu) {
-  const auto attempt = [&] {
-    for (std::size_t i = 0; i < sigma_x_.size(); ++i)
-      sigma_x_[i] = local.sigma[i] + delta_w_ + (model_.elastic() ? model_.proximity(i) : 0);
-    for (std::size_t k = 0; k < flexibility_.size(); ++k)
-      flexibility_[k] = delta_c_ + give_[model_.equations()[k]];
-    return backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_, true,
-                                deadline_ != nullptr ? &Newton::deadline_passed : nullptr, this});
-  };
+bool Newton::find_regularisation(const Point& point, const BarrierTerms& terms) {
   gave_up_ = false;
   delta_w_ = 0;
-  auto inertia = attempt();
+  auto inertia = attempt(point, terms);
   if (gave_up_) return false;
   if (inertia == wanted_) return true;
-  if (inertia.zero > 0) delta_c_ = row_regularisation(mu);
+  if (inertia.zero > 0) delta_c_ = row_regularisation(terms.mu);
   delta_w_ = last_delta_w_ == 0 ? kFirstDelta : std::max(kLeastDelta, last_delta_w_ * kShrink);
   for (int singular = 0; delta_w_ < kMostDelta && singular < kMostSingular;) {
     const bool relaxed = delta_c_ > 0;
-    inertia = attempt();
+    inertia = attempt(point, terms);
     if (gave_up_) return false;
     if (inertia == wanted_) {
       last_delta_w_ = delta_w_;
       return true;
     }
     singular += relaxed && inertia.zero > 0;
-    if (inertia.zero > 0) delta_c_ = row_regularisation(mu);
+    if (inertia.zero > 0) delta_c_ = row_regularisation(terms.mu);
     delta_w_ *= last_delta_w_ == 0 ? kFirstGrowth : kGrowth;
   }
   return false;
 }
 
-/// Right-hand side of the condensed system. In r_s = y - slope of a slack and likewise of elastic
-/// parts, the eliminated rows read  J dx - F dy = b,  F = 1 / sigma_s + give.
-void Newton::shift(const Local& local, const Iterate& at, std::span<const double> residuals) {
-  const std::size_t n = model_.variables();
-  const double* slope = local.slope.data() + n;
-  if (!model_.elastic()) {
-    // y - b / F = sigma residual + slope of an inequality
-    vector_kernels().multiply_add(model_.rows(), weight_.data(), residuals.data(), slope,
-                                  multipliers_.data());
-    for (const auto r : model_.equations()) {
-      multipliers_[r] = at.y[r];
-      row_rhs_[r] = -residuals[r];
-    }
-    return;
-  }
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    const std::size_t p = model_.p(r), q = model_.n(r);
-    const double r_p = -(model_.elastic()->rho - at.y[r] + local.slope[p]);
-    const double r_n = -(model_.elastic()->rho + at.y[r] + local.slope[q]);
-    row_rhs_[r] = -residuals[r] + r_p / local.sigma[p] - r_n / local.sigma[q];
-    if (!model_.equation(r)) row_rhs_[r] += (at.y[r] - slope[r]) / local.sigma[n + r];
-    multipliers_[r] = at.y[r] - weight_[r] * row_rhs_[r];
-  }
+/// Factorises with the regularisation as it is.
+kkt::Inertia Newton::attempt(const Point& point, const BarrierTerms& terms) {
+  for (std::size_t i = 0; i < diagonal_.size(); ++i) diagonal_[i] = terms.sigma[i] + delta_w_;
+  elimination_->add_curvature(diagonal_);
+  for (std::size_t k = 0; k < flexibility_.size(); ++k)
+    flexibility_[k] = delta_c_ + elimination_->give()[form_.equations()[k]];
+  return backend_->factorize({hessian_, diagonal_, point.functions().jacobian, flexibility_, true,
+                              deadline_ != nullptr ? &Newton::deadline_passed : nullptr, this});
 }
 
-bool Newton::step_for(const Evaluation& e, const Local& local, const Iterate& at, double mu,
+// --- step --------------------------------------------------------------------------------------
+
+bool Newton::step(const Point& point, const BarrierTerms& terms, Step& out) {
+  return step_for(point, terms, point.residuals(), out);
+}
+
+bool Newton::step_for(const Point& point, const BarrierTerms& terms,
                       std::span<const double> residuals, Step& out) {
-  const auto& kernels = vector_kernels();
-  const std::size_t n = model_.variables();
-  shift(local, at, residuals);
-  std::fill(force_.begin(), force_.end(), 0.0);
-  model_.row_blocks().add_transposed(e.jacobian, multipliers_, force_);
-  for (std::size_t i = 0; i < n; ++i) rhs_[i] = -e.gradient[i] - local.slope[i] - force_[i];
-  for (std::size_t k = 0; k < model_.equations().size(); ++k)
-    rhs_[n + k] = row_rhs_[model_.equations()[k]];
-  for (std::size_t i = 0; i < n; ++i)
-    if (model_.fixed(i)) rhs_[i] = 0;
-  const double size = kernels.largest_magnitude(rhs_.size(), rhs_.data());
-  solution_ = rhs_;
-  backend_->solve(solution_);
-  recover(e, local, at, residuals, out);
-  double before = std::numeric_limits<double>::infinity(), left = 0;
-  for (int pass = 0;; ++pass) {
-    left = unsolved(e, local, at, residuals, out);
-    if (!(left > kGoodResidual * std::max(size, 1e-3)) || !(left < 0.5 * before) ||
-        pass == kRefinements)
-      break;
-    before = left;
-    backend_->solve(solution_);
-    add_correction(e, local, out);
-  }
-  accurate_ = left <= kBadResidual * std::max(size, 1e-3);
+  const double size = set_right_hand_side(point, terms, residuals);
+  solve(rhs_, solution_);
+  recover(point, terms, residuals, out);
+  const double left = refine(point, terms, residuals, size, out);
+  accurate_ = left <= kBadResidual * size;
   if (!accurate_) backend_->distrust();
-  out.reach = kernels.dual_step(model_.segments(), local.bounded(model_, at), mu, out.w.data(),
-                                out.zl.data(), out.zu.data());
+  out.reach = vector_kernels().dual_step(form_.segments(), point.bounded(), terms.mu, out.w.data(),
+                                         out.zl.data(), out.zu.data());
   return std::isfinite(left + out.reach.primal + out.reach.dual);
 }
 
-/// The system  [I J'; J 0] (d, y) = (-gradient, 0)  with a unit weight on slacks too, condensed.
-bool Newton::fit_multipliers(const Evaluation& e, const Iterate& at, Step& out) {
-  const std::size_t n = model_.variables();
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    weight_[r] = model_.equation(r) ? 0 : 1;
-    multipliers_[r] = model_.equation(r) ? 0 : at.zu[n + r] - at.zl[n + r];
-  }
-  model_.condensed().sum(no_hessian_, e.jacobian, weight_, hessian_);
-  std::fill(sigma_x_.begin(), sigma_x_.end(), 1.0);
-  std::fill(flexibility_.begin(), flexibility_.end(), 0.0);
-  if (backend_->factorize({hessian_, sigma_x_, e.jacobian, flexibility_}) != wanted_) return false;
+/// Returns how large it is: what residuals are to be compared with.
+double Newton::set_right_hand_side(const Point& point, const BarrierTerms& terms,
+                                   std::span<const double> residuals) {
+  const Evaluation& e = point.functions();
+  const std::size_t n = form_.variables();
+  elimination_->shift(terms, point.at(), residuals);
   std::fill(force_.begin(), force_.end(), 0.0);
-  model_.row_blocks().add_transposed(e.jacobian, multipliers_, force_);
-  std::fill(solution_.begin(), solution_.end(), 0.0);
+  form_.row_blocks().add_transposed(e.jacobian, elimination_->multipliers(), force_);
   for (std::size_t i = 0; i < n; ++i)
-    if (!model_.fixed(i)) solution_[i] = -(e.gradient[i] - at.zl[i] + at.zu[i] + force_[i]);
-  backend_->solve(solution_);
-  model_.row_blocks().multiply(e.jacobian, std::span(solution_).first(n), products_);
-  for (std::size_t r = 0; r < model_.rows(); ++r)
-    out.y[r] = multipliers_[r] + weight_[r] * products_[r];
-  for (std::size_t k = 0; k < model_.equations().size(); ++k)
-    out.y[model_.equations()[k]] = solution_[n + k];
-  return true;
+    rhs_[i] = form_.fixed(i) ? 0 : -e.gradient[i] - terms.slope[i] - force_[i];
+  for (std::size_t k = 0; k < form_.equations().size(); ++k)
+    rhs_[n + k] = elimination_->right_hand_side()[form_.equations()[k]];
+  return std::max(vector_kernels().largest_magnitude(rhs_.size(), rhs_.data()), 1e-3);
 }
 
-bool Newton::step(const Evaluation& e, const Local& local, const Iterate& at, double mu,
-                  Step& out) {
-  return step_for(e, local, at, mu, local.residuals, out);
+void Newton::solve(const std::vector<double>& rhs, std::vector<double>& solution) {
+  std::copy(rhs.begin(), rhs.end(), solution.begin());
+  backend_->solve(solution);
 }
 
-/// The eliminated parts of the step from dx and the equations' dy.
-void Newton::recover(const Evaluation& e, const Local& local, const Iterate& at,
+/// The whole step from the condensed system's solution.
+void Newton::recover(const Point& point, const BarrierTerms& terms,
                      std::span<const double> residuals, Step& out) {
-  const std::size_t n = model_.variables();
-  std::copy_n(solution_.begin(), n, out.w.begin());
-  model_.row_blocks().multiply(e.jacobian, std::span(out.w).first(n), products_);
-  double* ds = out.w.data() + n;
-  const double* slope = local.slope.data() + n;
-  if (!model_.elastic()) {
-    vector_kernels().combine(model_.rows(), products_.data(), 1, residuals.data(), ds);
-    vector_kernels().multiply_add(model_.rows(), weight_.data(), ds, slope, out.y.data());
-    vector_kernels().combine(model_.rows(), out.y.data(), -1, at.y.data(), out.y.data());
-    for (std::size_t k = 0; k < model_.equations().size(); ++k) {
-      ds[model_.equations()[k]] = 0;
-      out.y[model_.equations()[k]] = solution_[n + k];
-    }
-    return;
-  }
-  for (std::size_t r = 0; r < model_.rows(); ++r)
-    out.y[r] = weight_[r] * (products_[r] - row_rhs_[r]);
-  for (std::size_t k = 0; k < model_.equations().size(); ++k)
-    out.y[model_.equations()[k]] = solution_[n + k];
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    const std::size_t p = model_.p(r), q = model_.n(r);
-    const double r_p = -(model_.elastic()->rho - at.y[r] + local.slope[p]);
-    const double r_n = -(model_.elastic()->rho + at.y[r] + local.slope[q]);
-    out.w[p] = (out.y[r] + r_p) / local.sigma[p];
-    out.w[q] = (r_n - out.y[r]) / local.sigma[q];
-    ds[r] = model_.equation(r) ? 0 : products_[r] + residuals[r] - out.w[p] + out.w[q];
+  const auto dx = primal_part(solution_);
+  std::copy(dx.begin(), dx.end(), out.w.begin());
+  form_.row_blocks().multiply(point.functions().jacobian, dx, jdx_);
+  elimination_->recover(terms, point.at(), residuals, jdx_, equations_part(solution_), out);
+}
+
+/// Corrects the step until its remainder is small beside `size` or falls no more; returns that.
+double Newton::refine(const Point& point, const BarrierTerms& terms,
+                      std::span<const double> residuals, double size, Step& out) {
+  double before = std::numeric_limits<double>::infinity();
+  for (int pass = 0;; ++pass) {
+    const double left = find_remainder(point, terms, residuals, out);
+    if (!(left > kGoodResidual * size) || !(left < 0.5 * before) || pass == kRefinements)
+      return left;
+    before = left;
+    solve(remainder_, correction_);
+    add_correction(point, terms, out);
   }
 }
 
-/// Residual of the unreduced equations, into solution_ as the right-hand side of a correction. Of
-/// the eliminated rows nothing is left, by construction. products_ holds J dx.
-double Newton::unsolved(const Evaluation& e, const Local& local, const Iterate& at,
-                        std::span<const double> residuals, const Step& out) {
+/// What the step leaves of the unreduced equations; returns the largest. Of what is eliminated
+/// nothing is left, by construction.
+double Newton::find_remainder(const Point& point, const BarrierTerms& terms,
+                              std::span<const double> residuals, const Step& out) {
   const auto& kernels = vector_kernels();
-  const std::size_t n = model_.variables();
-  kernels.combine(model_.rows(), at.y.data(), 1, out.y.data(), multipliers_.data());
+  const Evaluation& e = point.functions();
+  const std::size_t n = form_.variables();
+  kernels.combine(form_.rows(), point.at().y.data(), 1, out.y.data(), next_y_.data());
   std::fill(force_.begin(), force_.end(), 0.0);
-  model_.row_blocks().add_transposed(e.jacobian, multipliers_, force_);
-  model_.hessian_runs().add_product(e.hessian, std::span(out.w).first(n), force_);
+  form_.row_blocks().add_transposed(e.jacobian, next_y_, force_);
+  form_.hessian_runs().add_product(e.hessian, std::span(out.w).first(n), force_);
   for (std::size_t i = 0; i < n; ++i)
-    solution_[i] = model_.fixed(i)
-                       ? 0
-                       : -(e.gradient[i] + local.slope[i] + force_[i] + sigma_x_[i] * out.w[i]);
-  for (std::size_t k = 0; k < model_.equations().size(); ++k) {
-    const std::size_t r = model_.equations()[k];
-    double left = -residuals[r] - products_[r] + delta_c_ * out.y[r];
-    if (model_.elastic()) left += out.w[model_.p(r)] - out.w[model_.n(r)];
-    solution_[n + k] = left;
+    remainder_[i] = form_.fixed(i)
+                        ? 0
+                        : -(e.gradient[i] + terms.slope[i] + force_[i] + diagonal_[i] * out.w[i]);
+  for (std::size_t k = 0; k < form_.equations().size(); ++k) {
+    const std::size_t r = form_.equations()[k];
+    remainder_[n + k] = -residuals[r] - jdx_[r] + delta_c_ * out.y[r];
   }
-  return kernels.largest_magnitude(solution_.size(), solution_.data());
+  elimination_->add_to_equations(out, std::span(remainder_).subspan(n));
+  return kernels.largest_magnitude(remainder_.size(), remainder_.data());
 }
 
-/// Adds a correction of dx and the equations' dy, and what it brings to the eliminated parts.
-void Newton::add_correction(const Evaluation& e, const Local& local, Step& out) {
-  const std::size_t n = model_.variables();
-  for (std::size_t i = 0; i < n; ++i) out.w[i] += solution_[i];
-  model_.row_blocks().multiply(e.jacobian, std::span(solution_).first(n), row_rhs_);
-  for (std::size_t r = 0; r < model_.rows(); ++r) multipliers_[r] = weight_[r] * row_rhs_[r];
-  for (std::size_t k = 0; k < model_.equations().size(); ++k)
-    multipliers_[model_.equations()[k]] = solution_[n + k];
-  for (std::size_t r = 0; r < model_.rows(); ++r) {
-    products_[r] += row_rhs_[r];
-    out.y[r] += multipliers_[r];
-    double moved = row_rhs_[r];
-    if (model_.elastic()) {
-      const double dp = multipliers_[r] / local.sigma[model_.p(r)];
-      const double dn = -multipliers_[r] / local.sigma[model_.n(r)];
-      out.w[model_.p(r)] += dp;
-      out.w[model_.n(r)] += dn;
-      moved += dn - dp;
-    }
-    if (!model_.equation(r)) out.w[n + r] += moved;
-  }
+void Newton::add_correction(const Point& point, const BarrierTerms& terms, Step& out) {
+  const auto dx = primal_part(correction_);
+  for (std::size_t i = 0; i < dx.size(); ++i) out.w[i] += dx[i];
+  form_.row_blocks().multiply(point.functions().jacobian, dx, corrected_jdx_);
+  for (std::size_t r = 0; r < jdx_.size(); ++r) jdx_[r] += corrected_jdx_[r];
+  elimination_->correct(terms, corrected_jdx_, equations_part(correction_), out);
+}
+
+std::span<const double> Newton::primal_part(const std::vector<double>& condensed) const {
+  return std::span(condensed).first(form_.variables());
+}
+
+std::span<const double> Newton::equations_part(const std::vector<double>& condensed) const {
+  return std::span(condensed).subspan(form_.variables());
 }
 
 }  // namespace slalom::nlp::ipm

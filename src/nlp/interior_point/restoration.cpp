@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 namespace slalom::nlp::ipm {
 namespace {
@@ -14,123 +14,118 @@ constexpr double kFirstWeight = 1e3, kLaterWeight = 1e4;
 /// to stay well above rounding.
 constexpr double kTolerance = 1e-8, kLeastBarrier = 1e-6;
 
-}  // namespace
-
-Restoration::Restoration(Descent& main) : main_(main), inner_(main.model.problem(), &elastic_) {
-  trial_.resize(main.model);
-  elastic_.reference.resize(main.model.variables());
-  elastic_.weight.resize(main.model.variables());
-  misfits_.resize(main.model.rows());
+/// The entries of w that the main form has, too.
+void copy_primal(const Point& elastic, Point& point) {
+  const auto w = point.change_w();
+  std::copy_n(elastic.at().w.begin(), w.size(), w.begin());
 }
 
-void Restoration::refresh() {
-  inner_.model.set_room(main_.model.room());
-  inner_.model.refresh(main_.model.problem());
-  inner_.model.set_scale(1, main_.model.row_scale());
+}  // namespace
+
+Restoration::Restoration(SlackForm& form, Descent& main)
+    : main_(main), form_(form.problem()), inner_(form_), misfits_(form.rows()), trial_(form) {}
+
+/// With its limits and scales, which may be others than at the last run.
+void Restoration::take_over_problem() {
+  form_.set_room(main_.form().room());
+  form_.refresh(main_.form().problem());
+  form_.set_scale(1, main_.form().row_scale());
 }
 
 /// Eq. 32, 33: p, n >= 0 that fit a row's residual (without them) and minimise their own barrier
 /// function.
 void Restoration::set_elastic_parts(double mu) {
-  Iterate& at = inner_.point.at;
-  const double rho = elastic_.rho;
-  for (std::size_t r = 0; r < inner_.model.rows(); ++r) {
+  Point& point = inner_.point();
+  const auto w = point.change_w(), zl = point.change_zl();
+  const double rho = form_.violation_weight();
+  for (std::size_t r = 0; r < form_.rows(); ++r) {
     const double c = misfits_[r];
     const double half = (mu - rho * c) / (2 * rho);
     const double least = 1e-12 * std::max(1.0, std::fabs(c));
     const double n = half + std::sqrt(half * half + mu * c / (2 * rho));
-    const std::size_t ip = inner_.model.p(r), in = inner_.model.n(r);
-    at.w[in] = std::max(n, least);
-    at.w[ip] = std::max(c + n, least);
-    at.zl[in] = mu / at.w[in];
-    at.zl[ip] = mu / at.w[ip];
+    const std::size_t ip = form_.p(r), in = form_.n(r);
+    w[in] = std::max(n, least);
+    w[ip] = std::max(c + n, least);
+    zl[in] = mu / w[in];
+    zl[ip] = mu / w[ip];
   }
 }
 
-void Restoration::begin() {
-  const std::size_t n = main_.model.variables(), shared = main_.model.primal();
-  Iterate& at = inner_.point.at;
-  std::copy_n(main_.point.at.w.begin(), shared, at.w.begin());
-  double mu = main_.barrier.mu();
-  for (double residual : main_.point.local.residuals) mu = std::max(mu, std::fabs(residual));
-  elastic_.zeta = std::sqrt(mu);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double d = 1 / std::max(1.0, std::fabs(at.w[i]));
-    elastic_.reference[i] = at.w[i];
-    elastic_.weight[i] = d * d;
+/// From where the main method is. False where the problem cannot be evaluated.
+bool Restoration::begin() {
+  const Iterate& from = main_.point().at();
+  Point& point = inner_.point();
+  const auto residuals = main_.point().residuals();
+  double mu = main_.barrier().mu();
+  for (double residual : residuals) mu = std::max(mu, std::fabs(residual));
+  form_.set_proximity_weight(std::sqrt(mu));
+  form_.set_reference(from.w);
+  const auto w = point.change_w(), y = point.change_y(), zl = point.change_zl(),
+             zu = point.change_zu();
+  for (std::size_t i = 0; i < from.w.size(); ++i) {
+    w[i] = from.w[i];
+    zl[i] = std::min(form_.violation_weight(), from.zl[i]);
+    zu[i] = std::min(form_.violation_weight(), from.zu[i]);
   }
-  std::fill(at.y.begin(), at.y.end(), 0.0);
-  for (std::size_t i = 0; i < shared; ++i) {
-    at.zl[i] = std::min(elastic_.rho, main_.point.at.zl[i]);
-    at.zu[i] = std::min(elastic_.rho, main_.point.at.zu[i]);
-  }
-  misfits_ = main_.point.local.residuals;
+  std::fill(y.begin(), y.end(), 0.0);
+  std::copy(residuals.begin(), residuals.end(), misfits_.begin());
   set_elastic_parts(mu);
-  inner_.newton.restart();
-  inner_.barrier.begin(BarrierRule::monotone, mu, kLeastBarrier);
-  inner_.point.have = {};
-  inner_.point.measured = false;
+  inner_.begin(BarrierRule::monotone, mu, kLeastBarrier);
+  return inner_.start();
 }
 
 /// Where no step is acceptable: the elastic parts anew, so that every row is met. The filter keeps
-/// the search from coming back. False when they are met already.
+/// the search from coming back. False when they are met already, or cannot be evaluated.
 bool Restoration::meet_rows() {
-  Point& point = inner_.point;
-  const double mu = inner_.barrier.mu();
-  if (point.local.violation <= kTolerance) return false;
-  inner_.search.filter().add(inner_.search.merit(point, mu));
-  for (std::size_t r = 0; r < inner_.model.rows(); ++r)
-    misfits_[r] =
-        point.local.residuals[r] + point.at.w[inner_.model.p(r)] - point.at.w[inner_.model.n(r)];
-  set_elastic_parts(mu);
-  point.have = {};
-  point.measured = false;
+  const Point& point = inner_.point();
+  if (point.violation() <= kTolerance) return false;
+  inner_.bar();
+  const std::vector<double>& w = point.at().w;
+  for (std::size_t r = 0; r < form_.rows(); ++r)
+    misfits_[r] = point.residuals()[r] + w[form_.p(r)] - w[form_.n(r)];
+  set_elastic_parts(inner_.barrier().mu());
   return inner_.complete();
 }
 
 bool Restoration::accepted_by_main(double most_violation) {
-  std::copy_n(inner_.point.at.w.begin(), main_.model.primal(), trial_.at.w.begin());
-  trial_.have = {.values = true};
-  if (!main_.model.evaluate(trial_.at, trial_.have, trial_.e)) return false;
-  measure(main_.model, trial_);
-  const Merit merit = main_.search.merit(trial_, main_.barrier.mu());
-  return trial_.local.violation <= most_violation && main_.search.filter().accepts(merit);
+  copy_primal(inner_.point(), trial_);
+  return trial_.evaluate({.values = true}) && trial_.violation() <= most_violation &&
+         main_.accepts(merit(trial_, main_.barrier().mu()));
 }
 
-/// The primal point back to the main method, with multipliers of bounds mu / slack where the old
-/// ones are far from it, and the equations' afresh.
 void Restoration::hand_back() {
-  std::copy_n(inner_.point.at.w.begin(), main_.model.primal(), main_.point.at.w.begin());
-  main_.point.have = {};
-  main_.point.measured = false;
+  copy_primal(inner_.point(), main_.point());
 }
 
 /// The weight of nearness falls with the barrier parameter (eq. 30): in the end violation alone
 /// counts. False where the problem cannot be evaluated.
 bool Restoration::update_barrier() {
-  const double before = inner_.barrier.mu();
+  const double before = inner_.barrier().mu();
   inner_.update_barrier();
-  if (inner_.barrier.mu() == before) return true;
-  elastic_.zeta = std::sqrt(inner_.barrier.mu());
-  inner_.point.have.values = inner_.point.have.derivatives = false;
+  const double mu = inner_.barrier().mu();
+  if (mu != before) form_.set_proximity_weight(std::sqrt(mu));
   return inner_.complete();
 }
 
+/// Whether violation is least here, and not zero.
+bool Restoration::at_least_violation() const {
+  return inner_.barrier().at_least() && inner_.survey().primal <= kTolerance &&
+         inner_.survey().error(kLeastBarrier) <= kTolerance * form_.violation_weight();
+}
+
 Restoration::Outcome Restoration::run(Watch& watch, double most_violation, bool again) {
-  elastic_.rho = again ? kLaterWeight : kFirstWeight;
-  begin();
-  if (!inner_.complete()) return Outcome::failed;
-  inner_.search.reset(inner_.point.local.violation);
+  take_over_problem();
+  form_.set_violation_weight(again ? kLaterWeight : kFirstWeight);
+  if (!begin()) return Outcome::failed;
   for (;;) {
     if (watch.stop()) return Outcome::stopped;
     inner_.take_survey();
-    if (inner_.barrier.at_least() && inner_.survey.primal <= kTolerance &&
-        inner_.survey.error(kLeastBarrier) <= kTolerance * elastic_.rho) {
+    if (at_least_violation()) {
       hand_back();
       return Outcome::infeasible;
     }
     if (!update_barrier()) return Outcome::failed;
-    if (!inner_.find_step()) return inner_.newton.gave_up() ? Outcome::stopped : Outcome::failed;
+    if (!inner_.find_step()) return inner_.gave_up() ? Outcome::stopped : Outcome::failed;
     if (!inner_.take_step() && !meet_rows()) return Outcome::failed;
     watch.iterated(inner_);
     if (accepted_by_main(most_violation)) {

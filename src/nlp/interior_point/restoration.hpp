@@ -1,6 +1,7 @@
 #pragma once
 
 #include "descent.hpp"
+#include "elastic_form.hpp"
 
 namespace slalom::nlp::ipm {
 
@@ -9,7 +10,8 @@ namespace slalom::nlp::ipm {
 /// elastic parts on the same stage structure.
 class Restoration {
  public:
-  explicit Restoration(Descent& main);
+  /// `form`: of `main`.
+  Restoration(SlackForm& form, Descent& main);
 
   enum class Outcome { restored, infeasible, failed, stopped };
   /// Whether to stop early (deadline, user, iterations), asked before each iteration; told of each
@@ -20,27 +22,28 @@ class Restoration {
     virtual bool stop() = 0;
     virtual void iterated(const Descent& restoration) = 0;
   };
-  /// On `restored` and `infeasible`, the primal point of `main` is the one reached (on `restored`
-  /// complete, with multipliers for going on); otherwise it is as it was. `most_violation`: with
-  /// which the main method may go on; `again`: it was called before in this solve.
+  /// On `restored` and `infeasible`, the primal point of `main` is the one reached, with nothing
+  /// evaluated there and the multipliers from before; otherwise `main` is as it was.
+  /// `most_violation`: with which the main method may go on; `again`: it was called before in this
+  /// solve.
   Outcome run(Watch& watch, double most_violation, bool again);
-  void give_up_at(Deadline* deadline) { inner_.newton.give_up_at(deadline); }
-  /// Takes over scales and limits of the main model; for a new solve.
-  void refresh();
+  void give_up_at(Deadline* deadline) { inner_.give_up_at(deadline); }
 
  private:
-  void begin();
+  void take_over_problem();
+  [[nodiscard]] bool begin();
   void set_elastic_parts(double mu);
-  bool meet_rows();
-  bool update_barrier();
+  [[nodiscard]] bool meet_rows();
+  [[nodiscard]] bool update_barrier();
+  bool at_least_violation() const;
   bool accepted_by_main(double most_violation);
   void hand_back();
 
   Descent& main_;
-  Elastic elastic_;
-  std::vector<double> misfits_;  ///< of the rows, elastic parts left out
+  ElasticForm form_;
   Descent inner_;
-  Point trial_;
+  std::vector<double> misfits_;  ///< of the rows, elastic parts left out
+  Point trial_;                  ///< of the main form
 };
 
 }  // namespace slalom::nlp::ipm

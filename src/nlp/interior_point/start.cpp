@@ -34,49 +34,36 @@ double least_barrier(const Options& options) {
   return std::min(options.tol, options.dual_tol) / 10;
 }
 
-/// Gradient-based scales (section 3.8); a floor's point does not move with a row's scale, and would
-/// with the objective's, so there are none.
-void set_scales(Descent& descent, const Options& options) {
-  Model& model = descent.model;
-  std::vector<double>& rows = descent.step.y;  // room for one number a row
-  std::fill(rows.begin(), rows.end(), 0.0);
-  if (options.floor > 0) {
-    std::fill(rows.begin(), rows.end(), 1.0);
-    model.set_scale(1, rows);
-    return;
-  }
-  const Evaluation& e = descent.point.e;
-  for (std::size_t t = 0; t < e.jacobian.size(); ++t) {
-    double& most = rows[model.shape().jacobian_row[t]];
-    most = std::max(most, std::fabs(e.jacobian[t]));
-  }
-  const auto scale = [](double most) {
-    return most > kMostGradient ? std::max(kMostGradient / most, kLeastScale) : 1.0;
-  };
-  double most = 0;
-  for (double g : e.gradient) most = std::max(most, std::fabs(g));
-  for (double& row : rows) row = scale(row);
-  model.set_scale(scale(most), rows);
+/// Of the gradient of a function whose largest entry is `most` (section 3.8).
+double gradient_scale(double most) {
+  return most > kMostGradient ? std::max(kMostGradient / most, kLeastScale) : 1.0;
 }
 
-class Beginning {
+/// The first point, as far as it is known at each of its parts' turn.
+class FirstPoint {
  public:
-  Beginning(Descent& descent, const Start& start, const Options& options)
-      : model_(descent.model),
-        at_(descent.point.at),
-        rows_(descent.point.e.rows),
+  FirstPoint(const SlackForm& form, Point& point, const Start& start, const Options& options)
+      : form_(form),
+        point_(point),
         start_(start),
         warm_(options.warm_start),
         floor_(options.floor > 0),
         push_(!options.warm_start ? kPush
               : options.floor > 0 ? kFloorPush
-                                  : kWarmPush),
-        barrier_(descent.barrier) {}
+                                  : kWarmPush) {}
 
-  void variables() {
-    for (std::size_t i = 0; i < model_.variables(); ++i)
-      at_.w[i] = model_.fixed(i) ? model_.constant(i)
-                                 : inside(start_.x[i], model_.lower()[i], model_.upper()[i], push_);
+  void set_variables() {
+    const auto w = point_.change_w();
+    for (std::size_t i = 0; i < form_.variables(); ++i)
+      w[i] = form_.fixed(i) ? form_.constant(i)
+                            : inside(start_.x[i], form_.lower()[i], form_.upper()[i], push_);
+  }
+
+  /// Those of a warm start.
+  void set_row_multipliers() {
+    const auto y = point_.change_y();
+    for (std::size_t r = 0; r < form_.rows(); ++r)
+      y[r] = form_.objective_scale() * start_.y[r] / form_.row_scale()[r];
   }
 
   /// Mu for a warm start without floor: ten times the mean of slack * multiplier, which is about
@@ -90,48 +77,57 @@ class Beginning {
       sum += std::fabs(slack) * z;
       ++bounds;
     };
-    const double objective = model_.objective_scale();
-    for (std::size_t i = 0; i < model_.variables(); ++i) {
-      add(at_.w[i] - model_.lower()[i], objective * start_.zl[i]);
-      add(model_.upper()[i] - at_.w[i], objective * start_.zu[i]);
+    const double objective = form_.objective_scale();
+    const Iterate& at = point_.at();
+    for (std::size_t i = 0; i < form_.variables(); ++i) {
+      add(at.w[i] - form_.lower()[i], objective * start_.zl[i]);
+      add(form_.upper()[i] - at.w[i], objective * start_.zu[i]);
     }
-    for (std::size_t r = 0; r < model_.rows(); ++r) {
-      const double y = objective * start_.y[r] / model_.row_scale()[r];
-      add(rows_[r] - model_.lower()[model_.slack(r)], std::max(-y, 0.0));
-      add(model_.upper()[model_.slack(r)] - rows_[r], std::max(y, 0.0));
+    const std::vector<double>& rows = point_.functions().rows;
+    for (std::size_t r = 0; r < form_.rows(); ++r) {
+      add(rows[r] - form_.lower()[form_.slack(r)], std::max(-at.y[r], 0.0));
+      add(form_.upper()[form_.slack(r)] - rows[r], std::max(at.y[r], 0.0));
     }
     return bounds > 0 ? std::min(kFarther * sum / static_cast<double>(bounds), kFirstBarrier) : 0;
   }
 
-  void multipliers() {
-    const double objective = model_.objective_scale();
-    for (std::size_t i = 0; i < model_.variables(); ++i) {
-      at_.zl[i] = multiplier(at_.w[i] - model_.lower()[i], warm_ ? objective * start_.zl[i] : 0);
-      at_.zu[i] = multiplier(model_.upper()[i] - at_.w[i], warm_ ? objective * start_.zu[i] : 0);
+  /// At the rows' values.
+  void set_slacks(double mu) {
+    const std::vector<double>& rows = point_.functions().rows;
+    const auto slacks = point_.change_slacks();
+    for (std::size_t r = 0; r < form_.rows(); ++r) {
+      const std::size_t i = form_.slack(r);
+      slacks[r] = form_.equation(r)
+                      ? form_.constant(i)
+                      : slack(rows[r], form_.lower()[i], form_.upper()[i], point_.at().y[r], mu);
     }
-    for (std::size_t r = 0; r < model_.rows(); ++r) {
-      const std::size_t i = model_.slack(r);
-      const double y = warm_ ? objective * start_.y[r] / model_.row_scale()[r] : 0;
-      at_.y[r] = y;
-      if (model_.equation(r)) {
-        at_.w[i] = model_.constant(i);
-        continue;
-      }
-      at_.w[i] = slack(rows_[r], model_.lower()[i], model_.upper()[i], y);
-      at_.zl[i] = multiplier(at_.w[i] - model_.lower()[i], std::max(-y, 0.0));
-      at_.zu[i] = multiplier(model_.upper()[i] - at_.w[i], std::max(y, 0.0));
-      if (!warm_) at_.y[r] = at_.zu[i] - at_.zl[i];
+  }
+
+  void set_bound_multipliers(double mu) {
+    const double objective = form_.objective_scale();
+    const Iterate& at = point_.at();
+    const auto zl = point_.change_zl(), zu = point_.change_zu();
+    const auto set = [&](std::size_t i, double lower, double upper) {
+      zl[i] = multiplier(at.w[i] - form_.lower()[i], lower, mu);
+      zu[i] = multiplier(form_.upper()[i] - at.w[i], upper, mu);
+    };
+    for (std::size_t i = 0; i < form_.variables(); ++i)
+      set(i, warm_ ? objective * start_.zl[i] : 0, warm_ ? objective * start_.zu[i] : 0);
+    for (std::size_t r = 0; r < form_.rows(); ++r) {
+      if (form_.equation(r)) continue;
+      const double y = warm_ ? at.y[r] : 0;
+      set(form_.slack(r), std::max(-y, 0.0), std::max(y, 0.0));
     }
   }
 
  private:
   /// The row's value, but off its bound by as much as its multiplier would hold it there, within
   /// reason.
-  double slack(double row, double lower, double upper, double y) const {
+  double slack(double row, double lower, double upper, double y, double mu) const {
     const double value = inside(row, lower, upper, push_);
     if (!warm_) return value;
     const auto room = [&](double z, double bound) {
-      const double held = z > 0 ? 0.1 * barrier_.mu() / z : push_;
+      const double held = z > 0 ? 0.1 * mu / z : push_;
       return floor_ ? held : std::min(held, kMostRoom * std::max(1.0, std::fabs(bound)));
     };
     if (std::isfinite(lower) && !std::isfinite(upper))
@@ -141,63 +137,76 @@ class Beginning {
     return value;
   }
   /// The given multiplier or mu / slack, whichever is more central; 0 for an absent bound.
-  double multiplier(double slack, double given) const {
+  static double multiplier(double slack, double given, double mu) {
     if (!std::isfinite(slack)) return 0;
-    const double mu = barrier_.mu(), ratio = slack * given / mu;
+    const double ratio = slack * given / mu;
     return ratio > 0.1 && ratio < 10 ? given : mu / slack;
   }
 
-  const Model& model_;
-  Iterate& at_;
-  const std::vector<double>& rows_;
+  const SlackForm& form_;
+  Point& point_;
   const Start& start_;
   const bool warm_, floor_;
   const double push_;
-  const Barrier& barrier_;
 };
 
 }  // namespace
 
-bool prepare(Descent& descent, const Start& start, const Options& options) {
-  Point& point = descent.point;
-  const bool floor = options.floor > 0;
-  descent.barrier.begin(options.barrier_rule, floor ? options.floor : kFirstBarrier,
-                        floor ? options.floor : least_barrier(options));
-  descent.newton.restart();
-  descent.search.filter().clear();
-  Beginning beginning(descent, start, options);
-  beginning.variables();
-  std::fill(descent.step.y.begin(), descent.step.y.end(), 1.0);
-  descent.model.set_scale(1, descent.step.y);
+Starter::Starter(SlackForm& form, Descent& descent)
+    : form_(form), descent_(descent), unscaled_(form.rows(), 1.0), row_scale_(form.rows()) {}
+
+bool Starter::prepare(const Start& start, const Options& options) {
+  const bool floor = options.floor > 0, warm = options.warm_start;
+  Point& point = descent_.point();
+  FirstPoint first(form_, point, start, options);
+  form_.set_scale(1, unscaled_);
+  first.set_variables();
+  // A floor's point does not move with a row's scale, and would with the objective's.
+  if (!floor && !evaluate_scaled()) return false;
   // The rows' multipliers are known only of a warm start, so with it the Hessian comes along.
-  if (options.warm_start) std::copy(start.y.begin(), start.y.end(), point.at.y.begin());
-  point.have = {.values = true, .derivatives = true, .hessian = floor && options.warm_start};
-  point.measured = false;
-  if (!descent.model.evaluate(point.at, point.have, point.e)) return false;
-  set_scales(descent, options);
-  if (!floor && !descent.model.evaluate(point.at, point.have, point.e)) return false;
-  if (!floor && options.warm_start)
-    descent.barrier.begin(options.barrier_rule, beginning.complementarity(),
-                          least_barrier(options));
-  beginning.multipliers();
-  if (!options.warm_start) descent.estimate_multipliers();
-  return descent.complete();
+  if (warm) first.set_row_multipliers();
+  if (floor && !point.complete({.values = true, .derivatives = true, .hessian = warm}))
+    return false;
+  const double mu = floor ? options.floor : warm ? first.complementarity() : kFirstBarrier;
+  descent_.begin(options.barrier_rule, mu, floor ? options.floor : least_barrier(options));
+  first.set_slacks(descent_.barrier().mu());
+  first.set_bound_multipliers(descent_.barrier().mu());
+  if (!warm) descent_.estimate_multipliers();
+  return descent_.start();
 }
 
-void hand_out(const Model& model, const Iterate& at, Start& out) {
-  const std::size_t n = model.variables();
-  const double objective = model.objective_scale();
+/// Scales objective and rows by their gradients (section 3.8), and evaluates them so.
+bool Starter::evaluate_scaled() {
+  const Parts parts{.values = true, .derivatives = true};
+  Point& point = descent_.point();
+  if (!point.complete(parts)) return false;
+  const Evaluation& e = point.functions();
+  std::fill(row_scale_.begin(), row_scale_.end(), 0.0);
+  for (std::size_t t = 0; t < e.jacobian.size(); ++t) {
+    double& most = row_scale_[form_.shape().jacobian_row[t]];
+    most = std::max(most, std::fabs(e.jacobian[t]));
+  }
+  for (double& row : row_scale_) row = gradient_scale(row);
+  double most = 0;
+  for (double g : e.gradient) most = std::max(most, std::fabs(g));
+  form_.set_scale(gradient_scale(most), row_scale_);
+  return point.complete(parts);
+}
+
+void hand_out(const SlackForm& form, const Iterate& at, Start& out) {
+  const std::size_t n = form.variables();
+  const double objective = form.objective_scale();
   out.x.resize(n);
   out.zl.resize(n);
   out.zu.resize(n);
-  out.y.resize(model.rows());
+  out.y.resize(form.rows());
   for (std::size_t i = 0; i < n; ++i) {
     out.x[i] = at.w[i];
     out.zl[i] = at.zl[i] / objective;
     out.zu[i] = at.zu[i] / objective;
   }
-  for (std::size_t r = 0; r < model.rows(); ++r)
-    out.y[r] = at.y[r] * model.row_scale()[r] / objective;
+  for (std::size_t r = 0; r < form.rows(); ++r)
+    out.y[r] = at.y[r] * form.row_scale()[r] / objective;
 }
 
 }  // namespace slalom::nlp::ipm

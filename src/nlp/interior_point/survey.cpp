@@ -23,34 +23,26 @@ double Survey::error(double mu) const {
   return std::max({dual / dual_scale, primal, complementarity(mu) / product_scale});
 }
 
-Surveyor::Surveyor(const Model& model) : model_(model), slope_(model.primal()) {}
+Surveyor::Surveyor(const SlackForm& form) : form_(form), gradient_(form.primal()) {}
 
 Survey Surveyor::operator()(const Point& point) {
   const auto& kernels = vector_kernels();
-  const std::size_t n = model_.variables(), m = model_.rows();
-  const Iterate& at = point.at;
-  std::copy(point.e.gradient.begin(), point.e.gradient.end(), slope_.begin());
-  model_.row_blocks().add_transposed(point.e.jacobian, at.y, std::span(slope_).first(n));
-  for (std::size_t r = 0; r < m; ++r) slope_[n + r] = -at.y[r];
-  if (const Elastic* elastic = model_.elastic())
-    for (std::size_t r = 0; r < m; ++r) {
-      slope_[model_.p(r)] = elastic->rho - at.y[r];
-      slope_[model_.n(r)] = elastic->rho + at.y[r];
-    }
-  kernels.combine(slope_.size(), slope_.data(), -1, at.zl.data(), slope_.data());
-  kernels.combine(slope_.size(), slope_.data(), 1, at.zu.data(), slope_.data());
-  for (std::size_t i = 0; i < n; ++i)
-    if (model_.fixed(i)) slope_[i] = 0;
-  for (const auto r : model_.equations()) slope_[n + r] = 0;
+  const std::size_t m = form_.rows();
+  const Iterate& at = point.at();
+  form_.lagrangian_gradient(point.functions(), at.y, gradient_);
+  kernels.combine(gradient_.size(), gradient_.data(), -1, at.zl.data(), gradient_.data());
+  kernels.combine(gradient_.size(), gradient_.data(), 1, at.zu.data(), gradient_.data());
+  for (std::size_t i = 0; i < form_.variables(); ++i)
+    if (form_.fixed(i)) gradient_[i] = 0;
+  for (const auto r : form_.equations()) gradient_[form_.slack(r)] = 0;
 
   Survey survey;
-  survey.dual = kernels.largest_magnitude(slope_.size(), slope_.data());
-  survey.primal = kernels.largest_magnitude(m, point.local.residuals.data());
-  const auto products =
-      kernels.complementarity(model_.segments(), point.local.bounded(model_, at), 0);
+  survey.dual = kernels.largest_magnitude(gradient_.size(), gradient_.data());
+  survey.primal = kernels.largest_magnitude(m, point.residuals().data());
+  const auto products = kernels.complementarity(form_.segments(), point.bounded(), 0);
   std::size_t bounds = 0;
-  for (std::size_t k = 0; k < model_.segments().count; ++k) {
-    const Segment& s = model_.segments().first[k];
+  for (std::size_t k = 0; k < form_.segments().count; ++k) {
+    const Segment& s = form_.segments().first[k];
     bounds += (s.end - s.begin) * ((s.lower ? 1u : 0u) + (s.upper ? 1u : 0u));
   }
   if (bounds > 0) {

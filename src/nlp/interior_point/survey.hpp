@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "line_search.hpp"
-#include "model.hpp"
+#include "point.hpp"
 
 namespace slalom::nlp::ipm {
 
@@ -24,15 +23,16 @@ struct Survey {
   double error(double mu) const;
 };
 
-/// Takes the survey of points of one model.
+/// Takes the survey of points of one form.
 class Surveyor {
  public:
-  explicit Surveyor(const Model& model);
+  explicit Surveyor(const SlackForm& form);
+  /// Of a point that is complete.
   Survey operator()(const Point& point);
 
  private:
-  const Model& model_;
-  std::vector<double> slope_;
+  const SlackForm& form_;
+  std::vector<double> gradient_;  ///< of the Lagrangian, by entry of w
 };
 
 }  // namespace slalom::nlp::ipm

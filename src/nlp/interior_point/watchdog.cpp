@@ -10,11 +10,6 @@ constexpr double kSoftProgress = 0.9999;
 
 }  // namespace
 
-Watchdog::Watchdog(const Model& model) {
-  point_.resize(model);
-  step_.resize(model.primal(), model.rows());
-}
-
 void Watchdog::restart(bool close) {
   leaps_ = softened_ = failed_ = 0;
   shortened_ = close ? kShortenedSteps : 0;
@@ -27,22 +22,21 @@ void Watchdog::end_leaps() {
 }
 
 Watchdog::Outcome Watchdog::advance(Descent& descent) {
-  if (leaps_ > 0 && descent.barrier.mu() != mu_) end_leaps();  // another problem by now
+  if (leaps_ > 0 && descent.barrier().mu() != mu_) end_leaps();  // another problem by now
   if (leaps_ > 0) return leap(descent);
   if (shortened_ < kShortenedSteps) return search(descent);
   shortened_ = 0;
-  mu_ = descent.barrier.mu();
-  point_ = descent.point;
-  step_ = descent.step;
-  merit_ = descent.search.merit(point_, mu_);
-  slope_ = descent.search.slope(point_, step_);
+  mu_ = descent.barrier().mu();
+  point_ = descent.point();
+  merit_ = descent.merit();
+  slope_ = descent.slope();
   return leap(descent);
 }
 
 Watchdog::Outcome Watchdog::search(Descent& descent) {
   if (!descent.take_step()) return soften(descent) ? Outcome::moved : Outcome::stuck;
   softened_ = 0;
-  shortened_ = descent.last.trials > 1 ? shortened_ + 1 : 0;
+  shortened_ = descent.last().trials > 1 ? shortened_ + 1 : 0;
   if (shortened_ == 0) failed_ = 0;
   return Outcome::moved;
 }
@@ -50,14 +44,14 @@ Watchdog::Outcome Watchdog::search(Descent& descent) {
 /// The longest step of both kinds of variables, if the primal-dual error falls.
 bool Watchdog::soften(Descent& descent) {
   if (softened_ >= kSoftSteps) return false;
-  const double mu = descent.barrier.mu();
+  const double mu = descent.barrier().mu();
   const auto error = [&] {
-    const Survey& s = descent.survey;
+    const Survey& s = descent.survey();
     return s.dual + s.primal + s.complementarity(mu);
   };
   const double before = error();
-  const LineSearch::Result searched = descent.last;
-  point_ = descent.point;
+  const LineSearch::Result searched = descent.last();
+  point_ = descent.point();
   if (descent.leap() && descent.complete()) {
     descent.take_survey();
     if (error() <= kSoftProgress * before) {
@@ -65,8 +59,7 @@ bool Watchdog::soften(Descent& descent) {
       return true;
     }
   }
-  descent.point = point_;
-  descent.last = searched;
+  descent.go_back(point_, searched);
   descent.take_survey();
   return false;
 }
@@ -74,11 +67,8 @@ bool Watchdog::soften(Descent& descent) {
 Watchdog::Outcome Watchdog::leap(Descent& descent) {
   ++leaps_;
   if (!descent.leap()) return go_back(descent);
-  if (leaps_ == 1) alpha_ = descent.last.alpha;
-  bool armijo = false;
-  const Merit now = descent.search.merit(descent.point, mu_);
-  if (descent.search.acceptable(merit_, now, slope_, alpha_, armijo)) {
-    if (!armijo) descent.search.filter().add(merit_);
+  if (leaps_ == 1) alpha_ = descent.last().alpha;
+  if (descent.pays(merit_, slope_, alpha_)) {
     end_leaps();
     failed_ = 0;
   } else if (leaps_ >= most_leaps_) {
@@ -90,11 +80,10 @@ Watchdog::Outcome Watchdog::leap(Descent& descent) {
 Watchdog::Outcome Watchdog::go_back(Descent& descent) {
   end_leaps();
   ++failed_;
-  descent.point = point_;
-  descent.step = step_;
+  descent.go_back(point_, descent.last());
   // The factorisation is of another point by now: without second-order corrections of this step.
   if (!descent.find_step()) return Outcome::stuck;
-  if (failed_ >= kMostFailed && descent.point.local.violation > kFeasible) return Outcome::stuck;
+  if (failed_ >= kMostFailed && descent.point().violation() > kFeasible) return Outcome::stuck;
   return search(descent);
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/trajectory.hpp"
+#include "slalom/planner/planner.hpp"
+#include "slalom/planner/task.hpp"
+
+namespace slalom::planner {
+
+/// One planning cycle as an optimal-control problem in continuous time, with the guess of a first
+/// one: straight on at the predicted heading and speed.
+struct ContinuousCycle {
+  ocp::Problem problem;
+  ocp::Trajectory guess;
+};
+
+/// The OCP of section 3 of docs/formulation.md for `request`, to be solved by any scheme, mesh and
+/// solver; settings of these are not looked at.
+ContinuousCycle continuous_cycle(const Task& task, const Request& request);
+
+}  // namespace slalom::planner

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "slalom/planner/settings.hpp"
+#include "slalom/vehicle/parameters.hpp"
+#include "slalom/vehicle/state.hpp"
+#include "slalom/world/environment.hpp"
+
+namespace slalom::planner {
+
+/// What a planner is made for: an environment, the vehicle that it believes in, and its settings.
+struct Task : world::Environment {
+  vehicle::Parameters vehicle;
+  Settings planner;
+};
+
+/// Which form of the OCP a cycle solves: whether the goal lies within the LiDAR range of the
+/// predicted state.
+bool goal_in_range(const Task& task, const vehicle::State& X0p);
+
+}  // namespace slalom::planner

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "slalom/problems/library.hpp"
+
+namespace slalom::planner {
+
+/// The planner's own OCP as a problem beside those of problems::library(): the first cycle of the
+/// paper's closed loop in environment E_A by planner P_C (docs/formulation.md, sections 3, 4 and
+/// 6), solved to its optimum, not to a barrier floor.
+problems::Entry vehicle_cycle();
+
+}  // namespace slalom::planner

@@ -1,0 +1,133 @@
+#include "scenario_sections.hpp"
+
+#include "slalom/io/scenario_file.hpp"
+
+namespace slalom::io {
+namespace {
+
+using sim::Scenario;
+using Form = ScenarioSection::Form;
+
+/// repeat, step: how a file writes many obstacles.
+const OptionTable<ObstacleEntry>& repeat_options() {
+  static const auto table = [] {
+    OptionTable<ObstacleEntry> t;
+    t.integer("repeat", &ObstacleEntry::repeat, OptionRange::closed(1, 1000), "1",
+              "How many of these stand in a row; they are named name1, name2, ...")
+        .vector("step", &ObstacleEntry::step, OptionRange::any(), "m",
+                "From the centre of one to the centre of the next, [east, north].");
+    return t;
+  }();
+  return table;
+}
+
+template <class S>
+Section section(const char* name, const OptionTable<S>& table, S& settings) {
+  return Section(name).add(table, settings);
+}
+
+}  // namespace
+
+const std::vector<ScenarioSection>& scenario_sections() {
+  static const std::vector<ScenarioSection> sections = {
+      {.name = "start",
+       .form = Form::flow,
+       .required = {"x", "y"},
+       .about = "The vehicle's state at t = 0.",
+       .bind =
+           [](Scenario& s) {
+             return section("start", vehicle::state_options(), s.start)
+                 .add_degrees("psi")
+                 .add_degrees("sa");
+           }},
+      {.name = "goal",
+       .form = Form::flow,
+       .required = {"x", "y"},
+       .about = "Where the drive is to end.",
+       .bind =
+           [](Scenario& s) {
+             return section("goal", world::goal_options(), s.goal).add_degrees("psi");
+           }},
+      {.name = "region",
+       .form = Form::flow,
+       .about = "A box in which every node of a plan lies.",
+       .bind = [](Scenario& s) { return section("region", world::region_options(), s.region); }},
+      {.name = "obstacles",
+       .form = Form::list,
+       .about = "A list; each obstacle is a circle or an ellipse along the axes."},
+      {.name = "loop",
+       .about = "The closed loop.",
+       .bind = [](Scenario& s) { return section("loop", sim::loop_options(), s.loop); }},
+      {.name = "plant",
+       .about = "How the plant differs from the `vehicle` that planner and prediction believe in; "
+                "see [formulation.md](formulation.md), section 4. The defaults change nothing.",
+       .bind = [](Scenario& s) { return section("plant", sim::plant_options(), s.plant); }},
+      {.name = "sensing",
+       .about = "How what the planner is told differs from what is. The defaults tell the truth.",
+       .bind = [](Scenario& s) { return section("sensing", sim::sensing_options(), s.sensing); }},
+      {.name = "planner",
+       .in_files = true,
+       .about = "The trajectory-planning problem and its solver.",
+       .bind =
+           [](Scenario& s) { return section("planner", planner::setting_options(), s.planner); }},
+      {.name = "vehicle",
+       .in_files = true,
+       .about = "The vehicle; the defaults are the HMMWV's.",
+       .bind =
+           [](Scenario& s) { return section("vehicle", vehicle::parameter_options(), s.vehicle); }},
+  };
+  return sections;
+}
+
+const ScenarioSection* find_section(const std::string& name) {
+  for (const auto& section : scenario_sections())
+    if (section.name == name && section.bind != nullptr) return &section;
+  return nullptr;
+}
+
+std::vector<std::string> section_names() {
+  std::vector<std::string> names;
+  for (const auto& section : scenario_sections()) names.push_back(section.name);
+  return names;
+}
+
+std::vector<std::string> scenario_keys() {
+  auto keys = section_names();
+  keys.insert(keys.begin(), {"name", "title"});
+  return keys;
+}
+
+Section obstacle_section(world::Obstacle& obstacle, const std::string& path) {
+  Section section(path);
+  section.add(world::obstacle_options(), obstacle);
+  OptionInfo radius;
+  radius.name = "r";
+  radius.kind = OptionKind::real;
+  radius.range = OptionRange::positive();
+  radius.unit = "m";
+  radius.doc = "Radius of a circle, instead of a and b.";
+  section.add(
+      {radius,
+       [&obstacle](const OptionValue& value) { obstacle.a = obstacle.b = std::get<double>(value); },
+       [&obstacle] { return OptionValue(obstacle.a); },
+       {"a", "b"}});
+  return section;
+}
+
+Section entry_section(ObstacleEntry& entry) {
+  return obstacle_section(entry.obstacle, "an obstacle").add(repeat_options(), entry);
+}
+
+std::vector<std::pair<std::string, OptionValue>> settings_of(const sim::Scenario& scenario) {
+  auto copy = scenario;  // sections are bound to what they could also set
+  std::vector<std::pair<std::string, OptionValue>> settings;
+  for (const auto& section : scenario_sections()) {
+    if (section.form != Form::block) continue;
+    const Section bound = section.bind(copy);
+    for (const auto& field : bound.fields())
+      settings.emplace_back(section.name + "." + field.info.name, field.load());
+  }
+  return settings;
+}
+
+}  // namespace slalom::io

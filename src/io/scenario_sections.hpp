@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "section.hpp"
+#include "slalom/sim/scenario.hpp"
+
+namespace slalom::io {
+
+/// A section of a scenario file.
+struct ScenarioSection {
+  /// How resolved files have it: in one line, a line a key, or a list of lines.
+  enum class Form { flow, block, list };
+
+  std::string name;
+  Form form = Form::block;
+  bool in_files = false;  ///< it may name a file of its own, over which its keys are read
+  std::vector<std::string> required = {};  ///< keys that must be there, and the section with them
+  std::string about;                       ///< in the reference
+  /// Its keys, bound to their part of a scenario. A list has none of its own.
+  Section (*bind)(sim::Scenario&) = nullptr;
+};
+
+/// All of them, in the order in which files are written and the reference describes them. What is
+/// read, what --set takes, what is written and what the reference says follow from this table.
+const std::vector<ScenarioSection>& scenario_sections();
+/// The one of that name that has keys of its own, or nullptr.
+const ScenarioSection* find_section(const std::string& name);
+std::vector<std::string> section_names();
+/// Every key a scenario file may have.
+std::vector<std::string> scenario_keys();
+
+/// name, x, y, a, b, vx, vy of one obstacle, and its radius r.
+Section obstacle_section(world::Obstacle& obstacle, const std::string& path);
+
+/// An obstacle as files write it: a circle or an ellipse, once or in a row.
+struct ObstacleEntry {
+  world::Obstacle obstacle;
+  int repeat = 1;
+  std::array<double, 2> step = {0, 0};  ///< from one to the next [m]
+};
+/// The section of an obstacle with repeat and step.
+Section entry_section(ObstacleEntry& entry);
+
+}  // namespace slalom::io

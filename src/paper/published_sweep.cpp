@@ -1,0 +1,75 @@
+#include "published_sweep.hpp"
+
+#include <algorithm>
+
+#include "../io/config_dir.hpp"
+#include "../io/section.hpp"
+
+namespace slalom::paper {
+namespace {
+
+using report::PublishedSweep;
+
+const OptionTable<PublishedSweep::Count>& count_options() {
+  using C = PublishedSweep::Count;
+  static const auto table = [] {
+    const auto range = OptionRange::non_negative();
+    OptionTable<C> t;
+    t.text("planner", &C::planner, "Planner.")
+        .integer("passed", &C::passed, range, "1", "Trials that arrive.")
+        .integer("trials", &C::trials, range, "1", "All trials.");
+    return t;
+  }();
+  return table;
+}
+
+const OptionTable<PublishedSweep::Point>& point_options() {
+  using P = PublishedSweep::Point;
+  static const auto table = [] {
+    const auto range = OptionRange::non_negative();
+    OptionTable<P> t;
+    t.text("planner", &P::planner, "Planner.")
+        .real("tex", &P::tex, range, "s", "Execution horizon.")
+        .real("speed", &P::speed, range, "m/s", "Greatest speed of O2 looked at.")
+        .real("rtf", &P::rtf, range, "1", "Real-time factor.")
+        .real("pos", &P::pos, OptionRange::closed(0, 1), "1", "Probability of safety.");
+    return t;
+  }();
+  return table;
+}
+
+const OptionTable<PublishedSweep::Note>& note_options() {
+  using N = PublishedSweep::Note;
+  static const auto table = [] {
+    OptionTable<N> t;
+    t.text("topic", &N::topic, "Table of the page.").text("text", &N::text, "What to know.");
+    return t;
+  }();
+  return table;
+}
+
+template <class S>
+std::vector<S> read_members(const io::Value& root, const std::string& key,
+                            const OptionTable<S>& table) {
+  const io::Value* list = root.find(key);
+  return list == nullptr ? std::vector<S>{} : io::read_list(*list, key, table);
+}
+
+}  // namespace
+
+PublishedSweep published_sweep() {
+  const io::Value root =
+      io::parse_file(io::config_dir() / "paper" / "sweep.yaml", "the paper's figures");
+  io::require_map(root, "the paper's figures (a map)");
+  const std::vector<std::string> known = {"counts", "points", "notes"};
+  for (const auto& member : root.members)
+    if (std::find(known.begin(), known.end(), member.key) == known.end())
+      io::unknown_key(member.key, member.place, "", known);
+  PublishedSweep paper;
+  paper.counts = read_members(root, "counts", count_options());
+  paper.points = read_members(root, "points", point_options());
+  paper.notes = read_members(root, "notes", note_options());
+  return paper;
+}
+
+}  // namespace slalom::paper

@@ -1,0 +1,21 @@
+#include "slalom/planner/plan.hpp"
+
+namespace slalom::planner {
+
+PlanStatus plan_status(nlp::Status status) {
+  return static_cast<PlanStatus>(status);
+}
+
+const char* to_string(PlanStatus status) {
+  if (status == PlanStatus::not_confirmed) return "not_confirmed";
+  if (status == PlanStatus::no_prediction) return "no prediction";
+  return nlp::to_string(static_cast<nlp::Status>(status));
+}
+
+std::string SolveReport::status_text() const {
+  std::string text = to_string(status);
+  if (!detail.empty()) text += ": " + detail;
+  return text;
+}
+
+}  // namespace slalom::planner

@@ -1,0 +1,153 @@
+#include "drive_data.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace slalom::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// `value` with `digits` decimals; null when it is not finite.
+Json rounded(double value, int digits) {
+  if (!std::isfinite(value)) return nullptr;
+  const double power = std::pow(10.0, digits);
+  const double scaled = std::round(value * power);
+  if (!std::isfinite(scaled) || std::abs(scaled) > 1e15) return value;
+  const double result = scaled / power;
+  return result == 0 ? Json(0) : Json(result);
+}
+
+/// `value` as it is; null when it is not finite.
+Json exact(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+constexpr int kStateDigits[] = {4, 4, 5, 5, 5, 6, 4, 4};
+constexpr int kControlDigits[] = {6, 5};
+constexpr int kTimeDigits = 6;
+
+Json scenario_data(const sim::Scenario& scenario) {
+  const auto& v = scenario.vehicle;
+  const auto& goal = scenario.goal;
+  const auto& region = scenario.region;
+  Json json;
+  json["start"] = {{"x", exact(scenario.start[vehicle::X])},
+                   {"y", exact(scenario.start[vehicle::Y])}};
+  json["goal"] = {{"x", exact(goal.x)}, {"y", exact(goal.y)}, {"sigma", exact(goal.sigma)}};
+  json["region"] = {{"x_min", exact(region.x_min)},
+                    {"x_max", exact(region.x_max)},
+                    {"y_min", exact(region.y_min)},
+                    {"y_max", exact(region.y_max)}};
+  json["obstacles"] = Json::array();
+  for (const auto& o : scenario.obstacles) {
+    const auto grown = o.grown(scenario.loop.sm_crash);
+    json["obstacles"].push_back({{"name", o.name},
+                                 {"x", exact(o.x)},
+                                 {"y", exact(o.y)},
+                                 {"a", exact(o.a)},
+                                 {"b", exact(o.b)},
+                                 {"vx", exact(o.vx)},
+                                 {"vy", exact(o.vy)},
+                                 {"grown", {{"a", exact(grown.a)}, {"b", exact(grown.b)}}}});
+  }
+  json["vehicle"] = {{"la", v.la},         {"lb", v.lb},           {"width", v.width},
+                     {"length", v.length}, {"ax_max", v.ax_max},   {"ax_min", v.ax_min},
+                     {"ux_max", v.ux_max}, {"sa_max", v.sa_max()}, {"sr_max", v.sr_max()},
+                     {"Fz_min", v.Fz_min}};
+  json["loop"] = {{"tex", scenario.loop.tex},
+                  {"sm_crash", scenario.loop.sm_crash},
+                  {"Fz_failure", scenario.loop.Fz_failure}};
+  json["planner"] = {{"L_range", scenario.planner.L_range}};
+  return json;
+}
+
+Json plant_data(const std::vector<sim::PlantSample>& plant) {
+  auto t = Json::array();
+  std::array<Json, vehicle::kStates> states;
+  std::array<Json, vehicle::kControls> controls;
+  std::array<Json, vehicle::kWheels> loads;
+  states.fill(Json::array());
+  controls.fill(Json::array());
+  loads.fill(Json::array());
+  auto clearance = Json::array();
+  for (const auto& sample : plant) {
+    t.push_back(rounded(sample.t, kTimeDigits));
+    for (std::size_t i = 0; i < vehicle::kStates; ++i)
+      states[i].push_back(rounded(sample.state[i], kStateDigits[i]));
+    for (std::size_t i = 0; i < vehicle::kControls; ++i)
+      controls[i].push_back(rounded(sample.control[i], kControlDigits[i]));
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      loads[i].push_back(rounded(sample.wheel_loads[i], 1));
+    clearance.push_back(rounded(sample.clearance, 4));
+  }
+  Json json;
+  json["t"] = std::move(t);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    json[vehicle::kStateNames[i]] = std::move(states[i]);
+  for (std::size_t i = 0; i < controls.size(); ++i)
+    json[vehicle::kControlNames[i]] = std::move(controls[i]);
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    json[vehicle::kWheelNames[i]] = std::move(loads[i]);
+  json["clearance"] = std::move(clearance);
+  return json;
+}
+
+Json plan_data(const planner::Plan& plan) {
+  Json json;
+  json["t_start"] = rounded(plan.t_start, kTimeDigits);
+  json["tf"] = rounded(plan.tf, kTimeDigits);
+  json["held"] =
+      plan.obstacle_time_held >= 0 ? rounded(plan.obstacle_time_held, kTimeDigits) : Json(nullptr);
+  json["t"] = Json::array();
+  for (const double t : plan.t) json["t"].push_back(rounded(t, kTimeDigits));
+  for (std::size_t i = 0; i < vehicle::kStates; ++i) {
+    auto& column = json[vehicle::kStateNames[i]] = Json::array();
+    for (const auto& state : plan.states) column.push_back(rounded(state[i], kStateDigits[i]));
+  }
+  for (std::size_t i = 0; i < vehicle::kControls; ++i) {
+    auto& column = json[vehicle::kControlNames[i]] = Json::array();
+    for (const auto& control : plan.controls)
+      column.push_back(rounded(control[i], kControlDigits[i]));
+  }
+  return json;
+}
+
+Json cycle_data(const sim::Cycle& cycle) {
+  const auto& report = cycle.plan.report;
+  Json json;
+  json["index"] = cycle.index;
+  json["t0"] = rounded(cycle.t0, kTimeDigits);
+  json["tex"] = rounded(cycle.tex, kTimeDigits);
+  json["used"] = cycle.used;
+  json["solved"] = report.solved;
+  json["status"] = report.status_text();
+  json["iterations"] = report.iterations;
+  json["wall"] = rounded(report.wall_s, 6);
+  json["cpu"] = rounded(report.cpu_s, 6);
+  json["cost"] = rounded(report.cost, 4);
+  json["terms"] = Json::array();
+  for (const auto& [name, value] : report.cost_terms)
+    json["terms"].push_back(Json::array({name, rounded(value, 4)}));
+  json["worst"] = report.worst_constraint;
+  json["violation"] = exact(report.worst_violation);
+  json["goal_in_range"] = cycle.plan.goal_in_range;
+  json["plan"] = plan_data(cycle.plan);
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json drive_data(const sim::Scenario& scenario, const sim::Drive& drive) {
+  Json json = scenario_data(scenario);
+  json["outcome"] = sim::to_string(drive.outcome);
+  json["goal_time"] = drive.goal_time ? exact(*drive.goal_time) : Json(nullptr);
+  json["least_clearance_t"] =
+      std::isfinite(drive.least_clearance) ? exact(drive.least_clearance_t) : Json(nullptr);
+  json["plant"] = plant_data(drive.plant);
+  json["cycles"] = Json::array();
+  for (const auto& cycle : drive.cycles) json["cycles"].push_back(cycle_data(cycle));
+  return json;
+}
+
+}  // namespace slalom::report

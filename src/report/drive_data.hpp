@@ -1,0 +1,14 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "slalom/sim/drive.hpp"
+#include "slalom/sim/scenario.hpp"
+
+namespace slalom::report {
+
+/// Everything the page of a drive shows, as viewer/drive_model.js reads it. SI units and radians;
+/// null stands for what is infinite, not a number or absent. Rounded to what a screen can show.
+nlohmann::ordered_json drive_data(const sim::Scenario& scenario, const sim::Drive& drive);
+
+}  // namespace slalom::report

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "slalom/sim/closed_loop.hpp"
+#include "slalom/sim/control_signal.hpp"
+#include "slalom/sim/plant.hpp"
+#include "slalom/sim/sensing.hpp"
+#include "timing.hpp"
+
+namespace slalom::sim {
+
+/// check(scenario) by the scenario's own name.
+void check(const Scenario& scenario);
+
+/// The half of a cycle that knows only what is believed: sense, predict, plan.
+class Planning {
+ public:
+  /// The plant's true state at a time [s] that is past or present.
+  using History = std::function<vehicle::State(double)>;
+
+  /// All it is given outlives it. `interrupted` may be empty.
+  Planning(const Scenario& scenario, const Timing& timing, const PlanFunction& plan,
+           const std::function<bool()>& interrupted);
+
+  /// Cycle `index`, which begins at t0 [s] with `commanded` under way. Its charge and its swap are
+  /// left to Timing::settle.
+  Cycle cycle(int index, double t0, const History& history, const ControlSignal& commanded) const;
+  /// The same from the scenario's start.
+  Cycle first_cycle(int index) const;
+  /// The first OCP as cycle 0, before the clock starts; none if the scenario wants none.
+  std::optional<Cycle> warm_up() const;
+
+  bool interrupted() const { return interrupted_ && interrupted_(); }
+
+ private:
+  planner::Request request(const Cycle& cycle) const;
+
+  const Scenario& scenario_;
+  const Timing& timing_;
+  const PlanFunction& plan_;
+  const std::function<bool()>& interrupted_;
+  Plant believed_;  ///< what prediction takes the plant for
+  Sensors sensors_;
+};
+
+}  // namespace slalom::sim

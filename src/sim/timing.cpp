@@ -1,0 +1,42 @@
+#include "timing.hpp"
+
+#include <algorithm>
+
+namespace slalom::sim {
+namespace {
+
+/// The deadline came before the plan.
+void cut_off(Cycle& cycle, double deadline) {
+  cycle.charged = cycle.solve_time = deadline;
+  auto& report = cycle.plan.report;
+  report.solved = report.best_iterate = false;
+  report.status = planner::PlanStatus::time_limit;
+}
+
+}  // namespace
+
+Timing::Timing(const LoopSettings& settings) : settings_(settings), latency_(settings) {}
+
+double Timing::time_limit() const {
+  return settings_.deadline == Deadline::tex && !latency_.scripted()
+             ? std::min(settings_.tex, settings_.solve_time_limit)
+             : settings_.solve_time_limit;
+}
+
+void Timing::settle(Cycle& cycle) {
+  cycle.charged = latency_.charge(cycle.index, cycle.solve_time);
+  if (latency_.scripted()) {
+    cycle.solve_time = cycle.charged;
+    if (settings_.deadline == Deadline::tex && cycle.charged > settings_.tex)
+      cut_off(cycle, settings_.tex);
+  }
+  ++horizons_;
+  const double ready = cycle.t0 + cycle.charged;
+  if (ready > next_cycle()) {
+    grid_ = ready;
+    horizons_ = 0;
+  }
+  cycle.t_swap = plant_waits() ? cycle.t0 : next_cycle();
+}
+
+}  // namespace slalom::sim

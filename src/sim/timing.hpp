@@ -1,0 +1,40 @@
+#pragma once
+
+#include "slalom/sim/drive.hpp"
+#include "slalom/sim/latency.hpp"
+#include "slalom/sim/scenario.hpp"
+
+namespace slalom::sim {
+
+/// When cycles begin, for when they plan, when their plans take effect and what they are charged,
+/// by the scenario's rules of latency and deadline; nothing else in the loop asks which rule it is.
+/// Cycles begin tex apart, and anew from the time at which a late plan is there.
+class Timing {
+ public:
+  /// `settings` outlive it. Throws as Latency does.
+  explicit Timing(const LoopSettings& settings);
+
+  /// Whether the plant stands still until the plan is there, which then takes effect at t0. If not,
+  /// the old signal runs on while the cycle plans, and the plan takes effect at its end.
+  bool plant_waits() const { return settings_.latency == LatencyRule::instant; }
+  /// When the plan of a cycle that begins at t0 begins [s]: from the state measured, if that is t0
+  /// itself, from the one predicted if it is later.
+  double plan_start(double t0) const { return plant_waits() ? t0 : t0 + settings_.tex; }
+  /// What the planner may take of this thread's time [s]. A scripted rule holds the deadline
+  /// against the time charged instead.
+  double time_limit() const;
+
+  /// When the next cycle begins, and the one before ends [s].
+  double next_cycle() const { return grid_ + horizons_ * settings_.tex; }
+  /// Ends the cycle that began at next_cycle(): settles its charge and the time of its swap. By a
+  /// scripted rule its solve time is the charge, and a plan that misses the deadline is void.
+  void settle(Cycle& cycle);
+
+ private:
+  const LoopSettings& settings_;
+  Latency latency_;
+  double grid_ = 0;   ///< cycles begin at grid + k tex [s]
+  int horizons_ = 0;  ///< k of the next one
+};
+
+}  // namespace slalom::sim

@@ -1,0 +1,214 @@
+#include "slalom/sweep/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "../io/config_dir.hpp"
+#include "../io/overrides.hpp"
+#include "../io/section.hpp"
+#include "../io/semantic_check.hpp"
+#include "digest.hpp"
+#include "slalom/base/kernels.hpp"
+#include "slalom/io/scenario_file.hpp"
+#include "slalom/io/version.hpp"
+#include "study_axes.hpp"
+#include "study_bases.hpp"
+
+namespace slalom::sweep {
+namespace fs = std::filesystem;
+namespace {
+
+/// The instruction set by name: a study runs on one, "best" or not.
+std::string kernel_name(KernelChoice choice) {
+  if (choice == KernelChoice::best) return to_string(best_kernels());
+  return to_string(choice == KernelChoice::avx2 ? KernelSet::avx2 : KernelSet::baseline);
+}
+
+/// Reads one study file and what it refers to.
+class StudyLoader {
+ public:
+  StudyLoader(fs::path file, const std::vector<std::string>& overrides)
+      : file_(std::move(file)), overrides_(overrides) {}
+
+  Study load() {
+    root_ = io::parse_file(file_, "a study");
+    io::require_map(root_, "a study (a map with scenario, planners, axes)");
+    study_.name = file_.stem().string();
+    if (const io::Value* name = root_.find("name")) study_.name = io::to_text(*name, "a name");
+    if (const io::Value* title = root_.find("title")) study_.title = io::to_text(*title, "a title");
+    io::Section("").add(study_options(), study_.settings).read(root_, places_, other_keys());
+    bases_ = read_bases(root_, file_, overrides_, places_);
+    check_size(bases_.all.size());
+    check_size(static_cast<std::size_t>(study_.settings.repeats));
+    if (const io::Value* axes = root_.find("axes")) read_axes(*axes);
+    check_set_keys();
+    study_.kernels = kernel_name(study_.settings.kernels);
+    study_.scenarios = std::move(bases_.scenarios);
+    study_.bases = std::move(bases_.all);
+    return std::move(study_);
+  }
+
+ private:
+  static const std::vector<std::string>& other_keys() {
+    static const std::vector<std::string> keys = {"name",     "title", "scenario", "scenarios",
+                                                  "planners", "set",   "axes"};
+    return keys;
+  }
+
+  void read_axes(const io::Value& list) {
+    if (list.kind == io::Value::Kind::null || list.kind != io::Value::Kind::sequence)
+      throw InvalidValue(list.place.to_string(), list.describe(), "a list of axes");
+    std::set<std::string> keys;
+    for (const auto& item : list.items) {
+      auto placed = read_axis(item, study_.settings.seed, study_.axes.size());
+      for (std::size_t i = 0; i < placed.axis.keys.size(); ++i)
+        if (!keys.insert(placed.axis.keys[i]).second)
+          throw InvalidValue(placed.keys[i].to_string(),
+                             fmt::format("key '{}' a second time", placed.axis.keys[i]),
+                             "each key on one axis");
+      check_size(placed.values.size());
+      try_values(placed);
+      study_.axes.push_back(std::move(placed.axis));
+    }
+  }
+
+  /// What is set for all trials would be lost on an axis. Throws InvalidValue.
+  void check_set_keys() const {
+    for (const auto& key : study_.columns()) {
+      const auto refuse = [&](const std::string& where) {
+        throw InvalidValue(where, fmt::format("a value for '{}', which an axis varies", key),
+                           "a key that is the same in all trials");
+      };
+      if (const io::Value* set = root_.find("set"))
+        for (const auto& member : set->members)
+          if (member.key == key) refuse(member.place.to_string());
+      for (const auto& assignment : overrides_)
+        if (assignment.starts_with(key + "=")) refuse("--set " + key);
+    }
+  }
+
+  /// Sets every value once, on its own: whether values get along shows when a trial is resolved.
+  /// What a key takes is the same in every scenario; that they all have it is not.
+  void try_values(const PlacedAxis& placed) const {
+    for (const auto& base : bases_.all) {
+      const std::size_t points = &base == &bases_.all.front() ? placed.values.size() : 1;
+      for (std::size_t i = 0; i < placed.keys.size(); ++i) {
+        std::vector<const io::Value*> values;
+        for (std::size_t k = 0; k < points; ++k) values.push_back(&placed.values[k][i]);
+        apply_to(bases_, base,
+                 [&] { io::try_settings(placed.axis.keys[i], placed.keys[i], values, base); });
+      }
+    }
+  }
+
+  /// Before an axis is gone through, for a slip of a few digits makes billions.
+  void check_size(std::size_t points) {
+    factors_.push_back(points);
+    double size = 1;
+    std::string product;
+    for (const auto factor : factors_) {
+      size *= static_cast<double>(factor);
+      if (factor > 1) product += fmt::format("{}{}", product.empty() ? "" : " x ", factor);
+    }
+    if (size > static_cast<double>(kMaxTrials))
+      throw InvalidValue(file_.string(), fmt::format("{:.10g} trials ({})", size, product),
+                         fmt::format("at most {} in one study", kMaxTrials));
+  }
+
+  fs::path file_;
+  const std::vector<std::string>& overrides_;
+  io::Value root_;
+  Study study_;
+  StudyBases bases_;
+  std::vector<std::size_t> factors_;  ///< whose product is the number of trials
+  io::Places places_;
+};
+
+}  // namespace
+
+std::int64_t Study::size() const {
+  auto size = static_cast<std::int64_t>(bases.size()) * settings.repeats;
+  for (const auto& axis : axes) size *= static_cast<std::int64_t>(axis.points.size());
+  return size;
+}
+
+std::vector<std::string> Study::planners() const {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const auto& base : bases)
+    if (seen.insert(base.planner.name).second) names.push_back(base.planner.name);
+  return names;
+}
+
+std::vector<std::string> Study::columns() const {
+  std::vector<std::string> columns;
+  for (const auto& axis : axes) columns.insert(columns.end(), axis.keys.begin(), axis.keys.end());
+  return columns;
+}
+
+Trial Study::trial(std::int64_t number) const {
+  Trial trial;
+  trial.number = number;
+  std::int64_t rest = number - 1;
+  trial.repeat = static_cast<int>(rest % settings.repeats) + 1;
+  rest /= settings.repeats;
+  // The last axis varies fastest: take the axes apart from the back.
+  std::vector<const std::vector<std::string>*> points(axes.size());
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    const auto n = static_cast<std::int64_t>(axes[i].points.size());
+    points[i] = &axes[i].points[static_cast<std::size_t>(rest % n)];
+    rest /= n;
+  }
+  for (const auto* point : points)
+    trial.values.insert(trial.values.end(), point->begin(), point->end());
+  trial.base = static_cast<std::size_t>(rest);
+  return trial;
+}
+
+sim::Scenario Study::resolve(const Trial& trial) const {
+  return resolve_trial(bases.at(trial.base), columns(), trial.values, trial.number);
+}
+
+sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& keys,
+                            const std::vector<std::string>& values, std::int64_t number) {
+  const auto where = fmt::format("trial {}", number);
+  io::Places places;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const io::Place place{where + ": " + keys[i], 0, 0};
+    io::apply_setting(keys[i], place, io::parse_argument(values.at(i), place.source), base, places);
+  }
+  io::check_scenario(base, {where, 0, 0}, places);
+  return base;
+}
+
+std::vector<std::string> Study::resolved_bases() const {
+  std::vector<std::string> resolved;
+  for (const auto& base : bases) resolved.push_back(io::to_yaml(base));
+  return resolved;
+}
+
+std::string Study::identity(const std::vector<std::string>& resolved) const {
+  Digest digest;
+  digest.add("slalom study 1").add(io::kVersion).add(kernels);
+  digest.add(std::to_string(settings.repeats)).add(settings.keep == Keep::drives ? "d" : "f");
+  for (const auto& base : resolved) digest.add(base);
+  for (const auto& axis : axes) {
+    digest.add("axis");
+    for (const auto& key : axis.keys) digest.add(key);
+    for (const auto& point : axis.points)
+      for (const auto& value : point) digest.add(value);
+  }
+  return digest.hex();
+}
+
+Study load_study(const std::string& name_or_file, const std::vector<std::string>& overrides) {
+  return StudyLoader(io::find_config("study", name_or_file, "", "STUDY"), overrides).load();
+}
+
+std::string trial_identity(const std::string& resolved, const std::string& kernels, int repeat) {
+  return Digest().add(resolved).add(kernels).add(std::to_string(repeat)).hex();
+}
+
+}  // namespace slalom::sweep

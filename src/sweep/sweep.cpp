@@ -1,0 +1,62 @@
+#include "slalom/sweep/sweep.hpp"
+
+#include "slalom/sweep/open_sweep.hpp"
+#include "slalom/sweep/worker_pool.hpp"
+
+namespace slalom::sweep {
+namespace {
+
+/// The sweep's trials as a pool's jobs.
+PoolHooks pool_hooks(OpenSweep& sweep, const SweepHooks& hooks,
+                     const std::function<void(SweepEvent)>& report) {
+  PoolHooks pool;
+  pool.next = [&sweep]() -> std::optional<PoolJob> {
+    auto job = sweep.next();
+    if (!job) return std::nullopt;
+    return PoolJob{job->trial, std::move(job->order)};
+  };
+  pool.started = [report](std::int64_t id, int process, int attempt) {
+    SweepEvent event;
+    event.kind = SweepEvent::Kind::started;
+    event.trial = id;
+    event.process = process;
+    event.attempt = attempt;
+    report(event);
+  };
+  pool.retried = [report](std::int64_t id, const std::string& reason) {
+    SweepEvent event;
+    event.kind = SweepEvent::Kind::retried;
+    event.trial = id;
+    event.reason = reason;
+    report(event);
+  };
+  pool.done = [&sweep](std::int64_t id, const std::string& answer) { sweep.record(id, answer); };
+  pool.failed = [&sweep](std::int64_t id, const std::string& reason) {
+    sweep.record_failed(id, reason);
+  };
+  pool.tick = hooks.tick;
+  pool.interrupted = hooks.interrupted;
+  return pool;
+}
+
+}  // namespace
+
+SweepSummary run_sweep(const Study& study, const SweepRequest& request, const SweepHooks& hooks) {
+  OpenSweep sweep(study, request, hooks.on_event);
+  const auto report = [&](SweepEvent event) {
+    const auto summary = sweep.summary();
+    event.total = summary.total;
+    event.before = summary.before;
+    event.done = summary.done;
+    if (hooks.on_event) hooks.on_event(event);
+  };
+  const bool ended =
+      run_pool({request.worker, request.jobs, study.settings.retries, study.settings.time_limit},
+               pool_hooks(sweep, hooks, report));
+  auto summary = sweep.summary();
+  summary.interrupted = !ended;
+  sweep.finish();
+  return summary;
+}
+
+}  // namespace slalom::sweep

@@ -1,0 +1,110 @@
+#include "trial_message.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "slalom/sim/solve_times.hpp"
+
+namespace slalom::sweep {
+namespace {
+
+using Json = nlohmann::json;
+using report::TrialRecord;
+
+/// The figures a worker sends: member and name.
+template <class F>
+void for_each_figure(TrialRecord& r, const F& f) {
+  f("outcome", r.outcome);
+  f("hit", r.hit);
+  f("message", r.message);
+  f("nearest", r.least_clearance_obstacle);
+  f("time", r.time);
+  f("goal_time", r.goal_time);
+  f("least_clearance", r.least_clearance);
+  f("least_wheel_load", r.least_wheel_load);
+  f("cycles", r.cycles);
+  f("failed_cycles", r.failed_cycles);
+  f("iterations", r.iterations);
+  f("max_solve_time", r.max_solve_time);
+  f("median_solve_time", r.median_solve_time);
+  f("max_cpu_time", r.max_cpu_time);
+  f("median_cpu_time", r.median_cpu_time);
+}
+
+/// JSON has no infinity and no NaN.
+Json to_json(double value) {
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return std::isnan(value) ? Json(nullptr) : Json(value);
+}
+template <class T>
+Json to_json(const T& value) {
+  return value;
+}
+
+void from_json_value(const Json& json, double& value) {
+  if (json.is_string())
+    value = json == "inf" ? HUGE_VAL : -HUGE_VAL;
+  else
+    value = json.is_null() ? TrialRecord::kNone : json.get<double>();
+}
+template <class T>
+void from_json_value(const Json& json, T& value) {
+  json.get_to(value);
+}
+
+std::string dump(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string to_line(const TrialOrder& order) {
+  return dump({{"resolved", order.resolved}, {"kernels", order.kernels}, {"folder", order.folder}});
+}
+
+TrialOrder parse_order(const std::string& line) {
+  const auto json = Json::parse(line);
+  return {json.at("resolved"), json.at("kernels"), json.at("folder")};
+}
+
+std::string to_line(const TrialAnswer& answer) {
+  Json json = {{"not_written", answer.not_written}};
+  auto record = answer.record;
+  for_each_figure(record, [&](const char* name, auto& value) { json[name] = to_json(value); });
+  return dump(json);
+}
+
+TrialAnswer parse_answer(const std::string& line) {
+  const auto json = Json::parse(line);
+  TrialAnswer answer;
+  answer.not_written = json.at("not_written");
+  for_each_figure(answer.record,
+                  [&](const char* name, auto& value) { from_json_value(json.at(name), value); });
+  return answer;
+}
+
+TrialRecord record_of(const sim::Drive& drive) {
+  TrialRecord r;
+  r.outcome = sim::to_string(drive.outcome);
+  r.hit = drive.hit;
+  r.message = drive.message;
+  r.time = drive.time;
+  r.goal_time = drive.goal_time.value_or(TrialRecord::kNone);
+  r.least_clearance = drive.least_clearance;
+  r.least_clearance_obstacle = drive.least_clearance_obstacle;
+  r.least_wheel_load = drive.least_wheel_load;
+  for (const auto& cycle : drive.cycles) {
+    if (cycle.index == 0) continue;  // the warm-up
+    ++r.cycles;
+    r.iterations += cycle.plan.report.iterations;
+  }
+  r.failed_cycles = sim::unsolved(drive).cycles;
+  const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
+  r.max_solve_time = sim::greatest(wall);
+  r.median_solve_time = sim::median(wall);
+  r.max_cpu_time = sim::greatest(cpu);
+  r.median_cpu_time = sim::median(cpu);
+  return r;
+}
+
+}  // namespace slalom::sweep

@@ -1,0 +1,116 @@
+#include "slalom/world/path_exists.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <unordered_set>
+#include <vector>
+
+namespace slalom::world {
+namespace {
+
+constexpr int kParts = 10;  ///< of a move, each checked: a metre at 25 m/s
+/// Cells within which places count as one.
+constexpr double kPlace = 1, kHeading = 0.1, kSpeed = 3, kCurvature = 0.013, kTime = 0.8;
+/// How much more the way ahead counts than the way so far: a way is enough, it need not be the
+/// shortest.
+constexpr double kGreed = 2;
+
+struct Place {
+  double x = 0, y = 0, psi = 0, v = 0, kappa = 0, t = 0;
+};
+
+/// A place to go on from; `rank` is the time it would bring us to the goal at, at best.
+struct Open {
+  double rank = 0;
+  std::uint32_t order = 0;  ///< of two alike the older first: the same search everywhere
+  Place at;
+  bool operator<(const Open& other) const {
+    return rank > other.rank || (rank == other.rank && order > other.order);
+  }
+};
+
+class Search {
+ public:
+  Search(const Environment& environment, const PathSearch& search)
+      : goal_(environment.goal), region_(environment.region), p_(search) {
+    for (const auto& o : environment.obstacles) obstacles_.push_back(o.grown(p_.clearance));
+  }
+
+  bool run(const vehicle::State& X) {
+    add({X[vehicle::X], X[vehicle::Y], X[vehicle::PSI],
+         std::clamp(X[vehicle::UX], p_.v_min, p_.v_max), 0, 0});
+    for (int looked_at = 0; !open_.empty() && looked_at < p_.max_places; ++looked_at) {
+      const Place from = open_.top().at;
+      open_.pop();
+      if (goal_.contains(from.x, from.y)) return true;
+      for (const double turn : {0.0, -1.0, 1.0})
+        for (const double push : {p_.acceleration, 0.0, -p_.braking})
+          if (Place to; move(from, turn * p_.curvature_rate, push, to)) add(to);
+    }
+    return false;
+  }
+
+ private:
+  bool free(const Place& p) const {
+    if (!region_.contains(p.x, p.y)) return false;
+    return std::none_of(obstacles_.begin(), obstacles_.end(), [&](const auto& o) {
+      const double dx = (p.x - o.x_at(p.t)) / o.a, dy = (p.y - o.y_at(p.t)) / o.b;
+      return dx * dx + dy * dy < 1;
+    });
+  }
+
+  /// The place after dt; false where the vehicle cannot, or something is in the way.
+  bool move(const Place& from, double kappa_rate, double push, Place& to) const {
+    to = from;
+    if (from.t >= p_.t_max) return false;
+    const double h = p_.dt / kParts;
+    for (int part = 0; part < kParts; ++part) {
+      to.v = std::clamp(to.v + push * h, p_.v_min, p_.v_max);
+      to.kappa += kappa_rate * h;
+      const double turned = to.v * to.kappa * h;
+      to.x += to.v * h * std::cos(to.psi + turned / 2);
+      to.y += to.v * h * std::sin(to.psi + turned / 2);
+      to.psi += turned;
+      to.t += h;
+      if (!free(to)) return false;
+    }
+    const double most = std::min(p_.curvature, p_.lateral_acceleration / (to.v * to.v));
+    return std::fabs(to.kappa) <= most;
+  }
+
+  void add(const Place& p) {
+    std::uint64_t key = 0;
+    const auto mix = [&key](double value, double size, int bits) {
+      const auto cell = static_cast<std::uint64_t>(std::llround(value / size));
+      key = key << bits | (cell & ((1U << bits) - 1));
+    };
+    mix(p.x, kPlace, 14);
+    mix(p.y, kPlace, 14);
+    mix(p.psi, kHeading, 8);
+    mix(p.v, kSpeed, 6);
+    mix(p.kappa, kCurvature, 6);
+    mix(p.t, kTime, 8);
+    if (!seen_.insert(key).second) return;
+    const double left = std::max(0.0, std::hypot(p.x - goal_.x, p.y - goal_.y) - goal_.sigma);
+    open_.push({p.t + kGreed * left / p_.v_max, static_cast<std::uint32_t>(seen_.size()), p});
+  }
+
+  const Goal goal_;
+  const Region region_;
+  const PathSearch p_;
+  std::vector<Obstacle> obstacles_;  ///< grown
+  std::priority_queue<Open> open_;
+  std::unordered_set<std::uint64_t> seen_;
+};
+
+}  // namespace
+
+bool path_exists(const Environment& environment, const vehicle::State& start,
+                 const PathSearch& search) {
+  return Search(environment, search).run(start);
+}
+
+}  // namespace slalom::world

@@ -1,0 +1,124 @@
+// Plans that are not solved: what they say, and what the next one starts from.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "planner/expect_plan.hpp"
+#include "planner/scenes.hpp"
+
+namespace slalom::planner {
+namespace {
+
+/// A ring of obstacles too thick to be stepped over between two nodes, that drives off at once.
+Scene ring() {
+  Scene scene = E_A();
+  scene.planner.max_iterations = 120;
+  scene.obstacles.clear();
+  for (int i = 0; i < 16; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 16;
+    scene.obstacles.push_back({"R" + std::to_string(i), 200 + 30 * std::cos(angle),
+                               8.5 + 30 * std::sin(angle), 16, 16, 1000, 0});
+  }
+  return scene;
+}
+
+TEST(Unsolved, AnImpossiblePlanIsNeitherSolvedNorDrivenAndSaysWhy) {
+  for (const auto solver : solvers()) {
+    Scene scene = ring();
+    scene.planner.solver = solver;
+    scene.first.best_iterate_tol = 1e-3;
+    const Plan plan = Planner(scene).plan(scene.first);
+    SCOPED_TRACE(plan.report.backend + ": " + plan.report.status_text());
+    EXPECT_FALSE(plan.report.solved);
+    EXPECT_FALSE(plan.report.best_iterate);
+    EXPECT_NE(plan.report.status, PlanStatus::solved);
+    EXPECT_GT(plan.report.worst_violation, 1e-3);
+    EXPECT_FALSE(plan.report.worst_constraint.empty());
+    EXPECT_EQ(plan.states.size(), 11u) << "the last iterate is returned";
+  }
+}
+
+TEST(Unsolved, AFailedPlanIsNoStartForTheNext) {
+  for (const auto solver : solvers()) {
+    SCOPED_TRACE(to_string(solver));
+    Scene scene = ring();
+    scene.planner.solver = solver;
+    Request away = scene.first, later = scene.first;
+    away.t0 = 100;  // the ring has gone
+    away.t_start = 100.5;
+    later.t0 = 100.5;
+    later.t_start = 101;
+    auto failed_first = Planner(scene), fresh = Planner(scene);
+    ASSERT_FALSE(failed_first.plan(scene.first).report.solved);
+    const Plan expected = fresh.plan(away);
+    expect_solved(expected);
+    expect_same(failed_first.plan(away), expected);
+
+    ASSERT_FALSE(failed_first.plan(scene.first).report.solved);
+    expect_same(failed_first.plan(later), fresh.plan(later));
+  }
+}
+
+/// The solver met a point that meets all rows before it was cut off; a plan within the tolerance is
+/// one to be driven, and the next solve starts from it.
+TEST(Unsolved, ABestIterateWithinTheToleranceIsAStartForTheNext) {
+  for (const auto solver : solvers()) {
+    SCOPED_TRACE(to_string(solver));
+    Scene scene = E_A(), cut = scene;
+    scene.planner.solver = cut.planner.solver = solver;
+    const int needed = Planner(scene).plan(scene.first).report.iterations;
+    cut.planner.max_iterations = needed - 1;
+    const Plan refused = Planner(cut).plan(cut.first);
+    ASSERT_EQ(refused.report.status, PlanStatus::iteration_limit);
+    EXPECT_FALSE(refused.report.best_iterate) << "none is asked for";
+
+    const double violation = refused.report.worst_violation;
+    ASSERT_LT(violation, 0.1);
+    for (const bool good_enough : {true, false}) {
+      cut.first.best_iterate_tol = good_enough ? violation : violation / 2 - 1e-12;
+      auto planner = Planner(cut), fresh = Planner(cut);
+      const Plan plan = planner.plan(cut.first);
+      EXPECT_EQ(plan.report.status, PlanStatus::iteration_limit);
+      EXPECT_FALSE(plan.report.solved);
+      EXPECT_EQ(plan.report.best_iterate, good_enough);
+      const Plan next = planner.plan(cut.first), from_nothing = fresh.plan(cut.first);
+      EXPECT_EQ(next.report.solved, good_enough) << "a start within the few iterations left";
+      EXPECT_EQ(from_nothing.report.solved, false);
+    }
+  }
+}
+
+TEST(Unsolved, ASolveCutShortGoesOnInTheNextCycle) {
+  for (const auto solver : solvers()) {
+    SCOPED_TRACE(to_string(solver));
+    Scene scene = E_A();
+    scene.planner.solver = solver;
+    const int needed = Planner(scene).plan(scene.first).report.iterations;
+    Request cut = scene.first;
+    int left = needed * 4 / 5;
+    cut.interrupted = [&left] { return --left < 0; };
+    auto planner = Planner(scene);
+    EXPECT_EQ(planner.plan(cut).report.status, PlanStatus::interrupted);
+    const Plan next = planner.plan(scene.first);
+    expect_solved(next);
+    EXPECT_LT(next.report.iterations, needed * 3 / 4);
+  }
+}
+
+TEST(Unsolved, TimeLimitEndsASolve) {
+  for (const auto solver : solvers()) {
+    Scene scene = E_C();
+    scene.planner.solver = solver;
+    scene.first.time_limit = 1e-6;
+    const Plan plan = Planner(scene).plan(scene.first);
+    EXPECT_FALSE(plan.report.solved);
+    EXPECT_EQ(plan.report.status, PlanStatus::time_limit);
+    EXPECT_GE(plan.report.planning_cpu_s, plan.report.cpu_s);
+  }
+}
+
+}  // namespace
+}  // namespace slalom::planner

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "report/markup.hpp"
+#include "report/synthetic_drive.hpp"
+#include "slalom/report/report.hpp"
+
+namespace slalom::report {
+namespace {
+
+using namespace testing;
+
+TEST(DrivePage, CarriesTheDrive) {
+  const auto drive = synthetic_drive();
+  const auto data = page_data(drive_page(synthetic_scenario(), drive));
+  ASSERT_EQ(data["plant"]["t"].size(), drive.plant.size());
+  EXPECT_NEAR(data["plant"]["y"].back(), 68, 1e-3);
+  EXPECT_EQ(data["outcome"], "goal");
+  EXPECT_EQ(data["obstacles"][1]["vy"], -2);
+  EXPECT_EQ(data["region"]["x_min"], -12);
+  EXPECT_TRUE(data["region"]["x_max"].is_null());
+  ASSERT_EQ(data["cycles"].size(), drive.cycles.size());
+  EXPECT_TRUE(data["cycles"][2]["plan"]["held"].is_null());
+  EXPECT_DOUBLE_EQ(data["cycles"][3]["plan"]["held"], drive.cycles[3].plan.obstacle_time_held);
+}
+
+TEST(DrivePage, SaysHowTheDriveEnded) {
+  auto drive = synthetic_drive();
+  EXPECT_EQ(count(drive_page(synthetic_scenario(), drive), "Reached the goal</p>"), 1);
+  drive.outcome = sim::Outcome::crash;
+  drive.hit = "O2";
+  EXPECT_EQ(count(drive_page(synthetic_scenario(), drive), "Crashed into O2</p>"), 1);
+}
+
+TEST(DrivePage, IsSelfContained) {
+  const auto page = drive_page(synthetic_scenario(), synthetic_drive());
+  EXPECT_EQ(count(page, "{{"), 0);
+  EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!data:)")));
+  EXPECT_FALSE(
+      std::regex_search(page, std::regex("url\\((?!#)|@import|https?://(?!www\\.w3\\.org)")));
+}
+
+TEST(DrivePage, WithstandsOddDrives) {
+  for (const auto& odd : odd_drives()) {
+    SCOPED_TRACE(odd.name);
+    const auto page = drive_page(odd.scenario, odd.drive);
+    const auto data = page_data(page);
+    EXPECT_EQ(data["plant"]["t"].size(), odd.drive.plant.size());
+    EXPECT_EQ(count(page, "<script"), 2);
+    EXPECT_EQ(count(page, "</script"), 2);
+    EXPECT_EQ(count(page, "alert(1)</script>"), 0);
+  }
+}
+
+TEST(DrivePage, ShowsInfiniteClearanceAsNone) {
+  const auto odd = odd_drives()[2];
+  const auto data = page_data(drive_page(odd.scenario, odd.drive));
+  EXPECT_TRUE(data["plant"]["clearance"][0].is_null());
+  EXPECT_TRUE(data["least_clearance_t"].is_null());
+}
+
+TEST(DriveFigures, AreWellFormed) {
+  auto list = odd_drives();
+  list.push_back({"a whole drive", synthetic_scenario(), synthetic_drive()});
+  for (const auto& odd : list) {
+    const auto figures = drive_figures(odd.scenario, odd.drive);
+    ASSERT_EQ(figures.size(), 7u);
+    for (const auto& figure : figures) {
+      SCOPED_TRACE(odd.name + ": " + figure.file);
+      EXPECT_NO_THROW(parse_xml(figure.svg));
+      EXPECT_FALSE(std::regex_search(figure.svg, std::regex("=\"[^\"]*\\b(nan|inf)\\b")));
+      EXPECT_FALSE(figure.caption.empty());
+    }
+  }
+}
+
+TEST(DriveFigures, HaveTheNamesThatAreDocumented) {
+  std::vector<std::string> names;
+  for (const auto& figure : drive_figures(synthetic_scenario(), synthetic_drive()))
+    names.push_back(figure.file);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"path.svg", "speed.svg", "acceleration.svg", "steering.svg",
+                                      "lateral.svg", "wheel_loads.svg", "solve_time.svg"}));
+}
+
+}  // namespace
+}  // namespace slalom::report

@@ -1,0 +1,211 @@
+#include "slalom/sweep/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "io/files.hpp"
+#include "slalom/base/error.hpp"
+
+namespace slalom::sweep {
+namespace {
+
+using test::TemporaryFolder;
+
+Study study_of(const std::string& text) {
+  const TemporaryFolder folder;
+  test::write(folder / "study.yaml", text);
+  return load_study((folder / "study.yaml").string());
+}
+
+TEST(Study, ThePapersGridHasTheValuesItsFiguresShow) {
+  const auto study = load_study("paper");
+  EXPECT_EQ(study.size(), 800);
+  EXPECT_EQ(study.columns(), (std::vector<std::string>{"loop.tex", "obstacles.O2.vy"}));
+  const auto& tex = study.axes[0].points;
+  const auto& vy = study.axes[1].points;
+  ASSERT_EQ(tex.size(), 20U);
+  ASSERT_EQ(vy.size(), 20U);
+  EXPECT_EQ(tex.front()[0], "0.01");
+  EXPECT_EQ(tex.back()[0], "1");
+  EXPECT_NEAR(std::stod(tex[13][0]), 0.687, 5e-4);
+  EXPECT_NEAR(std::stod(tex[15][0]), 0.792, 5e-4);
+  EXPECT_EQ(vy.front()[0], "0");  // not -0
+  EXPECT_EQ(vy.back()[0], "-40");
+  EXPECT_NEAR(std::stod(vy[8][0]), -16.8, 0.05);
+  EXPECT_EQ(load_study("paper-printed").axes[1].points.back()[0], "-20");
+}
+
+TEST(Study, PlannersVarySlowestAndRepeatsFastest) {
+  const auto study = study_of(
+      "scenario: E_B\nplanners: [P_D, P_C]\nrepeats: 2\naxes:\n"
+      "  - {key: loop.tex, values: [0.5, .25, 1]}\n"
+      "  - {keys: [start.x, start.ux], values: [[199, 16], [200, 17]]}\n");
+  EXPECT_EQ(study.size(), 2 * 3 * 2 * 2);
+  std::set<std::vector<std::string>> seen;
+  for (std::int64_t n = 1; n <= study.size(); ++n) {
+    const auto trial = study.trial(n);
+    EXPECT_EQ(trial.number, n);
+    EXPECT_EQ(trial.base, n <= 12 ? 0U : 1U);
+    EXPECT_EQ(trial.repeat, (n - 1) % 2 + 1);
+    seen.insert(trial.values);
+  }
+  EXPECT_EQ(seen.size(), 6U);
+  EXPECT_EQ(study.trial(1).values, (std::vector<std::string>{"0.5", "199", "16"}));
+  EXPECT_EQ(study.trial(3).values, (std::vector<std::string>{"0.5", "200", "17"}));
+  EXPECT_EQ(study.trial(5).values, (std::vector<std::string>{"0.25", "199", "16"}));
+  const auto scenario = study.resolve(study.trial(24));
+  EXPECT_EQ(scenario.planner.name, "P_C");
+  EXPECT_EQ(scenario.loop.tex, 1);
+  EXPECT_EQ(scenario.start[vehicle::X], 200);
+  EXPECT_EQ(scenario.start[vehicle::UX], 17);
+}
+
+std::string scenario_text(const std::string& name) {
+  return "name: " + name +
+         "\nvehicle: hmmwv\nplanner: P_A\nstart: {x: 0, y: 0}\ngoal: {x: 0, y: 100}\n";
+}
+
+TEST(Study, ScenariosVarySlowestOfAll) {
+  const TemporaryFolder folder;
+  test::write(folder / "s.yaml",
+              "scenarios: [E_B, 'scenes/*.yaml', E_A]\nplanners: [P_D, P_C]\naxes:\n"
+              "  - {key: loop.tex, values: [0.5, 0.25]}\n");
+  std::filesystem::create_directory(folder / "scenes");
+  for (const char* name : {"b10", "b9", "a", "B"})
+    test::write(folder / (std::string("scenes/") + name + ".yaml"), scenario_text(name));
+  test::write(folder / "scenes/note.txt", "no scenario");
+  const auto study = load_study((folder / "s.yaml").string());
+  // By the bytes of their names, whatever the locale has.
+  EXPECT_EQ(study.scenarios, (std::vector<std::string>{"E_B", "B", "a", "b10", "b9", "E_A"}));
+  EXPECT_EQ(study.planners(), (std::vector<std::string>{"P_D", "P_C"}));
+  ASSERT_EQ(study.size(), 6 * 2 * 2);
+  for (std::int64_t n = 1; n <= study.size(); ++n) {
+    const auto trial = study.trial(n);
+    const auto k = static_cast<std::size_t>(n - 1);
+    EXPECT_EQ(study.bases[trial.base].name, study.scenarios[k / 4]);
+    EXPECT_EQ(study.bases[trial.base].planner.name, k / 2 % 2 == 0 ? "P_D" : "P_C");
+    EXPECT_EQ(study.resolve(trial).loop.tex, k % 2 == 0 ? 0.5 : 0.25);
+  }
+}
+
+TEST(Study, ScenariosMayBringTheirOwnPlanners) {
+  const auto study = study_of("scenarios: [E_B, E_A]\nset: {loop.tex: 0.25}\n");
+  EXPECT_EQ(study.size(), 2);
+  EXPECT_EQ(study.planners(), (std::vector<std::string>{"P_D", "P_C"}));
+  EXPECT_EQ(study.bases[1].loop.tex, 0.25);
+}
+
+TEST(Study, APatternIsOneOfFilesNotOfTheFolderItStandsIn) {
+  const TemporaryFolder folder;
+  const auto odd = folder / "[ab]*";
+  std::filesystem::create_directory(odd);
+  test::write(odd / "s.yaml", "scenarios: ['x?.yaml', 'y[1].yaml']\n");
+  test::write(odd / "x1.yaml", scenario_text("x1"));
+  test::write(odd / "y[1].yaml", scenario_text("literal"));
+  test::write(odd / "y1.yaml", scenario_text("y1"));
+  EXPECT_EQ(load_study((odd / "s.yaml").string()).scenarios,
+            (std::vector<std::string>{"x1", "literal"}));
+}
+
+TEST(Study, OneScenarioIsTheSameStudyHoweverItIsNamed) {
+  const std::string rest = "planners: [P_C]\naxes:\n  - {key: loop.tex, values: [0.5]}\n";
+  EXPECT_EQ(study_of("scenario: E_B\n" + rest).identity(),
+            study_of("scenarios: [E_B]\n" + rest).identity());
+  EXPECT_NE(study_of("scenarios: [E_B, E_A]\n" + rest).identity(),
+            study_of("scenarios: [E_A, E_B]\n" + rest).identity());
+}
+
+TEST(Study, AnAxisMayHoldChoicesListsAndDegrees) {
+  const auto study = study_of(
+      "scenario: E_B\naxes:\n  - {key: planner.scheme, values: [trapezoidal, hermite_simpson]}\n"
+      "  - {key: planner.X0_tol, values: [[.5, .5, .5, .005, .5, .25, .5, .5]]}\n"
+      "  - {key: start.psi_deg, values: [90]}\n");
+  const auto scenario = study.resolve(study.trial(2));
+  EXPECT_EQ(scenario.planner.scheme, planner::SchemeChoice::hermite_simpson);
+  EXPECT_EQ(scenario.planner.X0_tol[5], 0.25);
+}
+
+TEST(Study, WhatThePlantIsAndWhatIsSensedAreAxes) {
+  const auto study = study_of(
+      "scenario: E_B\naxes:\n  - {key: plant.mass_factor, values: [1.1, 1.2]}\n"
+      "  - draw: {count: 2, of: [{key: sensing.delay, uniform: [0.1, 0.2]}]}\n");
+  const auto scenario = study.resolve(study.trial(3));
+  EXPECT_EQ(scenario.plant.mass_factor, 1.2);
+  EXPECT_GT(scenario.sensing.delay, 0.1);
+}
+
+TEST(Study, DrawsFollowTheSeedAndTheirDistributions) {
+  const auto text = [](int seed, int count) {
+    return "scenario: E_B\nseed: " + std::to_string(seed) +
+           "\naxes:\n  - draw: {count: " + std::to_string(count) +
+           ", of: [{key: start.ux, uniform: [10, 20]}, {key: start.x, normal: [200, 0.5]}]}\n";
+  };
+  const auto study = study_of(text(1, 2000));
+  const auto& points = study.axes[0].points;
+  ASSERT_EQ(points.size(), 2000U);
+  double mean_ux = 0, mean_x = 0, square_x = 0;
+  for (const auto& point : points) {
+    const double ux = std::stod(point[0]), x = std::stod(point[1]) - 200;
+    EXPECT_GT(ux, 10);
+    EXPECT_LT(ux, 20);
+    mean_ux += ux / 2000;
+    mean_x += x / 2000;
+    square_x += x * x / 2000;
+  }
+  // Five standard errors.
+  EXPECT_NEAR(mean_ux, 15, 5 * 10 / std::sqrt(12.0 * 2000));
+  EXPECT_NEAR(mean_x, 0, 5 * 0.5 / std::sqrt(2000.0));
+  EXPECT_NEAR(square_x, 0.25, 5 * 0.25 * std::sqrt(2.0 / 2000));
+  EXPECT_EQ(study_of(text(1, 2000)).axes[0].points, points);
+  EXPECT_NE(study_of(text(2, 2000)).axes[0].points, points);
+  // More points leave the first ones as they were.
+  const auto fewer = study_of(text(1, 3)).axes[0].points;
+  EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), points.begin()));
+}
+
+TEST(Study, TheIdentityChangesWithTheTrialsAndOnlyWithThem) {
+  const std::string base =
+      "scenario: E_B\nplanners: [P_C]\naxes:\n  - {key: loop.tex, values: [0.5, 0.25]}\n";
+  const auto identity = study_of(base).identity();
+  EXPECT_EQ(study_of(base + "title: another title\ntime_limit: 5\n").identity(), identity);
+  EXPECT_EQ(study_of("scenario: E_B\nplanners: [P_C]\naxes:\n"
+                     "  - {key: loop.tex, values: [.50, 0.25]}\n")
+                .identity(),
+            identity);
+  for (const std::string& more :
+       {std::string("repeats: 2\n"), std::string("keep: drives\n"),
+        std::string("kernels: baseline\n"), std::string("set: {planner.floor: 0.8}\n")})
+    EXPECT_NE(study_of(base + more).identity(), identity) << more;
+  EXPECT_NE(study_of("scenario: E_B\nplanners: [P_C]\naxes:\n"
+                     "  - {key: loop.tex, values: [0.25, 0.5]}\n")
+                .identity(),
+            identity);
+}
+
+TEST(Study, ATrialWhoseValuesContradictEachOtherIsNamed) {
+  const auto study = study_of(
+      "scenario: E_B\naxes:\n  - {key: loop.tex, values: [0.5, 9]}\n"
+      "  - {key: planner.tf_max, values: [10, 8]}\n");
+  EXPECT_NO_THROW((void)study.resolve(study.trial(3)));
+  try {
+    (void)study.resolve(study.trial(4));
+    FAIL() << "no error";
+  } catch (const InvalidValue& error) {
+    EXPECT_STREQ(error.what(), "trial 4: loop.tex: found tex = 9, expected at most tf_max = 8");
+  }
+}
+
+TEST(TrialIdentity, TellsConfigurationKernelsAndRepeatsApart) {
+  const auto identity = trial_identity("a: 1\n", "avx2", 1);
+  EXPECT_EQ(identity.size(), 32U);
+  EXPECT_EQ(trial_identity("a: 1\n", "avx2", 1), identity);
+  EXPECT_NE(trial_identity("a: 2\n", "avx2", 1), identity);
+  EXPECT_NE(trial_identity("a: 1\n", "baseline", 1), identity);
+  EXPECT_NE(trial_identity("a: 1\n", "avx2", 2), identity);
+}
+
+}  // namespace
+}  // namespace slalom::sweep

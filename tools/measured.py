@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+"""The pages of docs/measured/: which target makes each and what it measures, the stamp that each begins
+with, and what tools that write one share. Standard library only.
+
+    tools/measured.py --check      says which pages are older than what they measure; a warning, no error
+    tools/measured.py --targets    make's targets of all pages, in the order of `make docs-measured`
+"""
+
+import argparse
+import datetime
+import os
+import pathlib
+import platform
+import re
+import subprocess
+from typing import NamedTuple
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "docs/measured"
+PROGRAM = ROOT / "build/slalom"
+
+
+class Page(NamedTuple):
+    name: str  # of the file, without .md
+    target: str  # make's
+    measures: tuple  # paths; a commit that changes one makes the page stale
+
+
+def modules(names):
+    return tuple(f"{folder}/{name}" for name in names.split() for folder in ("src", "include/slalom"))
+
+
+CONFIG = tuple(f"config/{kind}" for kind in ("scenarios", "planners", "vehicles"))
+SOLVER = modules("expr kkt nlp ocp")
+PLANNER = SOLVER + modules("vehicle planner") + CONFIG
+DRIVE = PLANNER + modules("world sim")
+
+# In the order in which `make docs-measured` makes them: the shortest first.
+PAGES = (
+    Page("results", "results", DRIVE + ("config/paper",)),
+    Page("paper-index", "results", DRIVE + ("config/paper",)),
+    Page("realtime", "realtime", DRIVE),
+    Page("obstacle-choice", "obstacle-choice", DRIVE),
+    Page("model-choice", "model-choice", DRIVE),
+    Page("latency", "latency", DRIVE + ("config/studies/latency.yaml",)),
+    Page("robustness", "robustness", DRIVE),
+    Page("verdicts", "verdicts", DRIVE + ("config/paper", "config/studies")),
+    Page("sensitivity", "sensitivity", DRIVE),
+    Page("random-scenarios", "random-scenarios", DRIVE + modules("sweep")),
+    Page("paper-sweep", "paper-sweep", DRIVE + ("config/paper", "config/studies")),
+    Page("long-solves", "long-solves", PLANNER),
+    Page("solver-profile", "solver-profile", PLANNER),
+    Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),
+    Page("perturbed", "perturbed", PLANNER),
+    Page("peers", "peers", SOLVER + ("python/src", "benchmarks/ocp")),
+    Page("benchmarks", "bench", PLANNER),
+)
+
+
+# --- the stamp ----------------------------------------------------------------------------------
+
+
+def output_of(*command, default="unknown"):
+    """What a command prints; `default` where it fails or prints nothing."""
+    try:
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return default
+    return done.stdout.strip() or default
+
+
+def commit(root=ROOT):
+    """Short hash of HEAD; with -dirty where the tree differs, generated pages aside."""
+    head = output_of("git", "-C", root, "rev-parse", "--short", "HEAD")
+    changed = output_of("git", "-C", root, "status", "--porcelain", "--untracked-files=no", "--", ".",
+                        ":!docs/measured", default="")
+    return head + ("-dirty" if changed else "")
+
+
+def of_processor(field):
+    """The first such field in /proc/cpuinfo, or nothing."""
+    info = pathlib.Path("/proc/cpuinfo")
+    for line in info.read_text().splitlines() if info.is_file() else ():
+        name, _, value = line.partition(":")
+        if name.strip() == field:
+            return value.strip()
+    return ""
+
+
+def processor():
+    """Model and number of cores."""
+    return f"{of_processor('model name') or platform.processor() or 'unknown processor'}, {os.cpu_count()} cores"
+
+
+def kernel_set():
+    """The one that the program takes on this processor (src/base/kernels.cpp)."""
+    return "avx2" if {"avx2", "fma"} <= set(of_processor("flags").split()) else "baseline"
+
+
+def compiler(program):
+    """The compiler that a program names in itself."""
+    file = pathlib.Path(program)
+    found = re.search(rb"GCC: \([^)]*\) [\d.]+|clang version [\d.]+", file.read_bytes()) if file.is_file() else None
+    return found[0].decode().replace("GCC: ", "g++ ") if found else "unknown compiler"
+
+
+def stamp(command, program=PROGRAM, at=None):
+    """The block that a generated page begins with: what makes it, and of what and on what it was
+    measured; `at`: the commit, where it is not what is checked out."""
+    return (f"*Written by `{command}`; do not edit. Measured at commit {at or commit()} on "
+            f"{datetime.date.today()}: {processor()}, kernels {kernel_set()}, {compiler(program)}.*\n")
+
+
+# --- stale pages --------------------------------------------------------------------------------
+
+
+def stale(page, root=ROOT):
+    """Why a page needs to be made anew, or nothing."""
+    file = root / "docs/measured" / f"{page.name}.md"
+    if not file.is_file():
+        return "is not there"
+    found = re.search(r"Measured at commit ([0-9a-f]+)(-dirty)?", file.read_text())
+    if not found:
+        return "has no stamp"
+    since = output_of("git", "-C", root, "rev-list", "--count", f"{found[1]}..HEAD", "--", *page.measures)
+    if since == "unknown":
+        return f"was measured at {found[1]}, which is not in the history"
+    if since != "0":
+        return f"was measured at {found[1]}; commits since to what it measures: {since}"
+    return f"was measured at {found[1]} with changes not committed" if found[2] else ""
+
+
+def check(root=ROOT):
+    """What to say of the pages, line by line."""
+    shallow = output_of("git", "-C", root, "rev-parse", "--is-shallow-repository")
+    if shallow != "false":
+        return ["measured: no history here to compare the pages with"]
+    lines = [f"{page.name}.md {why} (make {page.target})" for page in PAGES if (why := stale(page, root))]
+    return [f"measured: {len(PAGES) - len(lines)} of {len(PAGES)} pages are up to date", *lines]
+
+
+# --- what tools share ---------------------------------------------------------------------------
+
+
+def page_parser(name, doc, keeps=True):
+    """The command line of a tool that writes the page `name`. With `keeps`, what it measured stays in
+    --work, by default in a folder of its own for each commit."""
+    parser = argparse.ArgumentParser(description=doc.split("\n\n")[0])
+    parser.add_argument("--program", default=str(PROGRAM))
+    parser.add_argument("--out", type=pathlib.Path, default=FOLDER / f"{name}.md")
+    if keeps:
+        parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run/measured" / commit() / name,
+                            help="goes on with what was measured there")
+    return parser
+
+
+def write(file, text):
+    """Whole or not at all."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    aside = file.with_suffix(".part")
+    aside.write_text(text)
+    aside.rename(file)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--check", action="store_true", help="say which pages are stale")
+    what.add_argument("--targets", action="store_true", help="print make's targets")
+    if parser.parse_args().check:
+        print("\n".join(check()))
+    else:
+        print(" ".join(dict.fromkeys(page.target for page in PAGES)))
+
+
+if __name__ == "__main__":
+    main()

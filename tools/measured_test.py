@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""The stamp of measured pages, and which of them are stale, on a repository made up for it."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import measured  # noqa: E402
+
+PAGE = measured.Page("realtime", "realtime", ("src/nlp", "include/slalom/nlp"))
+
+
+class Table(unittest.TestCase):
+    def test_it_names_what_is_there(self):
+        makefile = (measured.ROOT / "Makefile").read_text()
+        for page in measured.PAGES:
+            self.assertRegex(makefile, rf"(?m)^{page.target}: ")
+            for path in page.measures:
+                self.assertTrue((measured.ROOT / path).exists(), path)
+
+    def test_it_has_every_page(self):
+        known = {page.name for page in measured.PAGES}
+        self.assertEqual({file.stem for file in measured.FOLDER.glob("*.md")} - known, set())
+
+
+class Repository(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.root = pathlib.Path(scratch.name) / "work"
+        self.root.mkdir()
+        self.git("init", "-q")
+        self.commit("src/nlp/a.cpp", "1")
+
+    def git(self, *arguments):
+        subprocess.run(["git", "-C", self.root, "-c", "user.name=t", "-c", "user.email=t@example.org", *arguments],
+                       check=True)  # fmt: skip
+
+    def put(self, file, text):
+        (self.root / file).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / file).write_text(text)
+
+    def commit(self, file, text):
+        self.put(file, text)
+        self.git("add", "-A")
+        self.git("commit", "-qm", file)
+
+    def stamped(self, at=None):
+        at = at or measured.commit(self.root)
+        self.put("docs/measured/realtime.md", f"# T\n\n{measured.stamp('make realtime', at=at)}\ntext\n")
+
+    def test_a_page_is_stale_once_what_it_measures_has_changed(self):
+        self.stamped()
+        self.commit("src/sim/b.cpp", "1")
+        self.assertEqual(measured.stale(PAGE, self.root), "")
+        self.commit("src/nlp/a.cpp", "2")
+        self.assertRegex(measured.stale(PAGE, self.root), "commits since to what it measures: 1$")
+
+    def test_what_cannot_be_compared_is_said(self):
+        self.assertEqual(measured.stale(PAGE, self.root), "is not there")
+        self.put("docs/measured/realtime.md", "text\n")
+        self.assertEqual(measured.stale(PAGE, self.root), "has no stamp")
+        self.stamped("0123456")
+        self.assertIn("0123456, which is not in the history", measured.stale(PAGE, self.root))
+        self.put("src/nlp/a.cpp", "3")
+        self.stamped()
+        self.assertIn("with changes not committed", measured.stale(PAGE, self.root))
+
+    def test_generated_pages_do_not_make_the_tree_dirty(self):
+        self.commit("docs/measured/realtime.md", "text\n")
+        self.put("docs/measured/realtime.md", "other\n")
+        self.assertNotIn("dirty", measured.commit(self.root))
+        self.put("src/nlp/a.cpp", "3")
+        self.assertIn("-dirty", measured.commit(self.root))
+
+    def test_without_history_nothing_is_judged(self):
+        self.commit("src/nlp/a.cpp", "2")
+        self.assertIn(f"0 of {len(measured.PAGES)} pages", measured.check(self.root)[0])
+        shallow = self.root.parent / "shallow"
+        self.git("clone", "-q", "--depth", "1", f"file://{self.root}", str(shallow))
+        for root in (shallow, self.root.parent):
+            self.assertEqual(len(measured.check(root)), 1)
+            self.assertIn("no history", measured.check(root)[0])
+
+
+class Stamp(unittest.TestCase):
+    def test_it_says_what_where_and_when(self):
+        text = measured.stamp("make realtime", sys.executable)
+        self.assertRegex(text, r"^\*Written by `make realtime`; .* on \d{4}-\d\d-\d\d: .*, \d+ cores, kernels "
+                               r"(avx2|baseline), .*\.\*\n$")  # fmt: skip
+        self.assertIn(measured.commit(), text)
+
+    def test_the_compiler_is_the_programs_own(self):
+        with tempfile.NamedTemporaryFile(suffix=".o") as file:
+            file.write(b"\x7fELF\0GCC: (Debian 12.2.0-14) 12.2.0\0.text")
+            file.flush()
+            self.assertEqual(measured.compiler(file.name), "g++ (Debian 12.2.0-14) 12.2.0")
+        self.assertEqual(measured.compiler("/nowhere"), "unknown compiler")
+
+    def test_writing_makes_the_folder_and_leaves_nothing_beside(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "new/page.md"
+            measured.write(file, "text\n")
+            self.assertEqual([f.name for f in file.parent.iterdir()], ["page.md"])
+
+
+if __name__ == "__main__":
+    unittest.main()
