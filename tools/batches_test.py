@@ -38,7 +38,8 @@ class Batches(unittest.TestCase):
 
     def test_comments_and_strings_mention_nothing(self):
         self.assertTrue(self.together(KEEPS % "int found = 1;",
-                                      '// found\nconst char* s = "found";\n'))
+                                      '// found\nconst char* s = "found" R"(\nfound )";\n'))
+        self.assertTrue(self.together(KEEPS % "const int a = int{1}, found = b{2};", "int b();\n"))
 
     def test_what_follows_an_unnamed_namespace_is_everybodys(self):
         self.assertTrue(self.together(KEEPS % "int f();" + "int found() { return 1; }\n",
@@ -48,8 +49,11 @@ class Batches(unittest.TestCase):
         self.assertTrue(self.together("using b::found;\n", "using b::found;\n"))
         self.assertFalse(self.together("using b::found;\n", "using c::found;\n"))
 
-    def test_using_a_namespace_or_other_instructions_keeps_a_file_alone(self):
+    def test_files_of_a_batch_use_the_same_namespaces(self):
         self.assertFalse(self.together("using namespace b;\n", "int f();\n"))
+        self.assertTrue(self.together("using namespace b;\n", "using namespace b;\n"))
+
+    def test_kernels_are_alone(self):
         self.assertEqual(self.batches({"a_avx2.cpp": "", "b_baseline.cpp": "", "c.cpp": ""}),
                          [["a_avx2.cpp"], ["b_baseline.cpp"], ["c.cpp"]])
 

@@ -27,7 +27,7 @@ class Quick(unittest.TestCase):
 
     def test_dependencies_are_those_of_the_build(self):
         depends = quick.dependencies()
-        self.assertIn("ocp", depends["planner"])
+        self.assertIn("nlp", depends["ocp"])
         self.assertEqual(depends["base"], set())
         self.assertLessEqual(set().union(*depends.values()), set(depends))
 
