@@ -2,8 +2,8 @@
 """Puts sources into batches that compile as one: headers are then read once a batch, not once a file.
 
 Names of an unnamed namespace are a file's own. Two files share a batch only if neither mentions,
-in any sense, a name the other keeps to itself; so a batch means what its files mean alone. What is
-compiled with options of its own (*_avx2.cpp, *_baseline.cpp) stays by itself.
+in any sense, a name the other keeps to itself, and both use the same namespaces; so a batch means
+what its files mean alone. Kernels (*_avx2.cpp, *_baseline.cpp) are compiled by themselves.
 
 usage: batches.py FILE...     one batch a line, its files with '|' between them
 """
@@ -14,11 +14,14 @@ import sys
 
 MOST_FILES = 8
 ALONE = re.compile(r"_(avx2|baseline)\.cpp$")
-COMMENTS_AND_STRINGS = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+COMMENTS_AND_STRINGS = re.compile(
+    r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 WORD = re.compile(r"[A-Za-z_]\w*")
 TYPE = re.compile(r"^(?:template <.*> )?(?:struct|class|union|enum class|enum) (?:\[\[.*\]\] )?(\w+)")
 ALIAS = re.compile(r"^(?:using|namespace) (\w+) =|^using .*::(\w+);")
-VARIABLE = re.compile(r"(\w+)(?:\[[^\]]*\])* ?(?:=|\{|;|,)")
+DIRECTIVE = re.compile(r"^using namespace ([\w:]+)", re.MULTILINE)
+ASSIGNED = re.compile(r"(\w+)(?:\[[^\]]*\])* =")
+VARIABLE = re.compile(r"(\w+)(?:\[[^\]]*\])*[{;,]")
 MACROS = ("TEST", "INSTANTIATE_TEST_SUITE_P")
 FUNCTION = re.compile(r"(\w*[a-z]\w*)\(")  # but no macro
 
@@ -29,7 +32,8 @@ class Source:
     def __init__(self, path):
         self.path = path
         text = COMMENTS_AND_STRINGS.sub('""', pathlib.Path(path).read_text(encoding="utf-8"))
-        self.alone = bool(ALONE.search(str(path))) or "using namespace " in text
+        self.alone = bool(ALONE.search(str(path)))
+        self.directives = set(DIRECTIVE.findall(text))
         self.words = set(WORD.findall(text))
         self.own = set(re.findall(r"^#\s*define (\w+)", text, re.MULTILINE))
         self.aliases = {}
@@ -42,15 +46,18 @@ class Source:
                 unnamed = False
             elif alias := ALIAS.match(line):
                 self.aliases[alias[1] or alias[2]] = line
-            elif WORD.match(line) and (unnamed or line.startswith(("static ", "inline "))):
+            elif WORD.match(line) and not DIRECTIVE.match(line) and (unnamed or line.startswith(("static ", "inline "))):
                 self.own.update(declared(line))
 
     def clashes(self, other):
-        return bool(self.own & other.words or other.own & self.words or any(
+        return (self.alone or other.alone or self.directives != other.directives or
+                self.disturbs(other) or other.disturbs(self))
+
+    def disturbs(self, other):
+        """Whether a name this file gives a meaning could be found where `other` means another."""
+        return bool(self.own & other.words) or any(
             name in other.words and other.aliases.get(name) != line
-            for name, line in self.aliases.items()) or any(
-            name in self.words and self.aliases.get(name) != line
-            for name, line in other.aliases.items()))
+            for name, line in self.aliases.items())
 
 
 def declared(line):
@@ -61,7 +68,7 @@ def declared(line):
         return []
     if (match := FUNCTION.search(line)) and "=" not in line[:match.start()]:
         return [match[1]]
-    return VARIABLE.findall(line)
+    return ASSIGNED.findall(line) or VARIABLE.findall(line)
 
 
 def batches(paths):
@@ -69,7 +76,7 @@ def batches(paths):
     made = []
     for source in map(Source, paths):
         fitting = (batch for batch in made if len(batch) < MOST_FILES and
-                   not any(source.alone or file.alone or source.clashes(file) for file in batch))
+                   not any(source.clashes(file) for file in batch))
         batch = next(fitting, None)
         if batch is None:
             made.append(batch := [])

@@ -7,9 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 case ${1:-}/$# in
-  wheel/2) options=() ;;
-  test/3)
-    options=("-Ccmake.define.SLALOM_BUILD_TREE=$(cd "$3" && pwd)" "-Cbuild-dir=$2/build") ;;
+  wheel/2 | test/3) ;;
   *)
     echo "usage: tools/python.sh wheel FOLDER | test FOLDER BUILD" >&2
     exit 2
@@ -22,7 +20,12 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 venv=$work/venv
-if [ "$1" = test ]; then venv=$folder/venv; fi
+options=()
+if [ "$1" = test ]; then
+  venv=$folder/venv
+  options=(--config-settings="cmake.define.SLALOM_BUILD_TREE=$(cd "$3" && pwd)"
+    --config-settings="build-dir=$folder/build")
+fi
 rm -rf "$folder"/slalom-*.whl "$venv"
 python3 -m venv "$venv"
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
