@@ -5,9 +5,13 @@ says they come out."""
 import json
 import math
 import pathlib
+import sys
 import unittest
 
 import drives
+
+sys.path.append(str(drives.SOURCE / "tools"))
+import robustness  # noqa: E402
 
 
 def setUpModule():
@@ -120,6 +124,9 @@ class Reproduction(unittest.TestCase):
             self.assertTrue(one["printed"]["as_paper"], one["folder"])
             ours = DRIVES[one["scenario"], one["planner"]]
             self.assertEqual((one["outcome"], one["time_s"]), (ours.outcome, ours.time))
+        ends = {(one["scenario"], one["planner"]): " ".join(filter(None, (
+            one["printed"]["outcome"], one["printed"]["hit"]))) for one in printed}
+        self.assertEqual(ends, robustness.PAPER, "tools/robustness.py counts by other ends")
 
     def test_snapshots(self):
         compared = 0
