@@ -67,28 +67,25 @@ sweep-scale: ## 100,000 very short trials: rate, memory, how soon a sweep goes o
 	$(MAKE) --no-print-directory build
 	python3 benchmarks/sweep_scale.py --program build/slalom
 
-results: ## all drives of the figures into docs/results.md, docs/paper-index.md and docs/figures/
+results: ## the paper's drives into docs/measured/results.md, paper-index.md and figures/
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
-	python3 tools/results.py --program build/slalom
-	python3 tools/paper_index.py --program build/slalom
+	python3 tools/paper_pages.py results paper-index
 
-paper-sweep: ## the paper's sweep on both grids and with one thing changed, into docs/paper-sweep.md (takes 20 minutes)
+paper-sweep: ## the paper's sweep on both grids and with one thing changed, into docs/measured/paper-sweep.md (takes 20 minutes)
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
-	python3 tools/paper_sweep.py --program build/slalom
+	python3 tools/paper_pages.py paper-sweep
 
 latency: ## what each latency rule does to the pass rate, into docs/measured/latency.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/latency.py --program build/slalom
 
-verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/verdicts.md
+verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/measured/verdicts.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
-	build/slalom sweep paper --out run/study
-	build/slalom sweep paper-printed --out run/printed
-	python3 tools/verdicts.py --program build/slalom
+	python3 tools/paper_pages.py verdicts
 
 long-solves: ## long cold plans beside CasADi with Ipopt, into docs/measured/long-solves.md (takes a quarter of an hour)
 	tools/setup.sh bench

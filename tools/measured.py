@@ -34,20 +34,21 @@ CONFIG = tuple(f"config/{kind}" for kind in ("scenarios", "planners", "vehicles"
 SOLVER = modules("expr kkt nlp ocp")
 PLANNER = SOLVER + modules("vehicle planner") + CONFIG
 DRIVE = PLANNER + modules("world sim")
+PAPER = ("src/paper", "config/paper")
 
 # In the order in which `make docs-measured` makes them: the shortest first.
 PAGES = (
-    Page("results", "results", DRIVE + ("config/paper",)),
-    Page("paper-index", "results", DRIVE + ("config/paper",)),
+    Page("results", "results", DRIVE + PAPER),
+    Page("paper-index", "results", DRIVE + PAPER),
     Page("realtime", "realtime", DRIVE),
     Page("obstacle-choice", "obstacle-choice", DRIVE),
     Page("model-choice", "model-choice", DRIVE),
     Page("latency", "latency", DRIVE + ("config/studies/latency.yaml",)),
     Page("robustness", "robustness", DRIVE),
-    Page("verdicts", "verdicts", DRIVE + ("config/paper", "config/studies")),
+    Page("verdicts", "verdicts", DRIVE + PAPER + ("config/studies",)),
     Page("sensitivity", "sensitivity", DRIVE),
     Page("random-scenarios", "random-scenarios", DRIVE + modules("sweep")),
-    Page("paper-sweep", "paper-sweep", DRIVE + ("config/paper", "config/studies")),
+    Page("paper-sweep", "paper-sweep", DRIVE + PAPER + ("config/studies",)),
     Page("long-solves", "long-solves", PLANNER),
     Page("solver-profile", "solver-profile", PLANNER),
     Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),

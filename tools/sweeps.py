@@ -67,15 +67,6 @@ def mcnemar(b, c):
     return min(1.0, 2 * sum(math.comb(n, i) for i in range(min(b, c) + 1)) / 2**n)
 
 
-def fisher(pass1, fail1, pass2, fail2):
-    """Two-sided exact p of a fourfold table: the tables no more likely than this one."""
-    n1, n2, passed = pass1 + fail1, pass2 + fail2, pass1 + pass2
-    whole = math.comb(n1 + n2, passed)
-    weights = [math.comb(n1, k) * math.comb(n2, passed - k) if 0 <= passed - k <= n2 else 0
-               for k in range(min(n1, passed) + 1)]
-    return sum(w for w in weights if w <= weights[pass1]) / whole
-
-
 def row(cells):
     return "| " + " | ".join(map(str, cells)) + " |\n"
 

@@ -5,6 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "../../src/paper/comparison.hpp"
+#include "../../src/paper/evaluation.hpp"
 #include "../../src/paper/paper_data.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
@@ -12,41 +14,19 @@
 #include "progress.hpp"
 #include "slalom/io/drive_files.hpp"
 #include "slalom/sim/closed_loop.hpp"
+#include "slalom/sim/solve_times.hpp"
+#include "slalom/sweep/sweep.hpp"
 
 namespace slalom::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Drives = std::vector<paper::ReproducedDrive>;
 
-/// The drives of the paper's figures, then those of which its text alone speaks.
-constexpr std::pair<const char*, const char*> kDrives[] = {
-    {"E_A", "P_A"},          {"E_A", "P_B"},          {"E_A", "P_C"},
-    {"E_A-figure", "P_A"},   {"E_A-figure", "P_B"},   {"E_A-figure", "P_C"},
-    {"E_B", "P_C"},          {"E_B", "P_D"},          {"E_C", "P_C"},
-    {"E_C", "P_D"},          {"E_C-range-50", "P_C"}, {"E_C-range-50", "P_D"},
-    {"E_C-no-cones", "P_C"}, {"E_C-no-cones", "P_D"},
+struct ReproduceOptions : CommonOptions {
+  std::vector<std::string> sweeps;
+  bool besides = false;
+  int repeats = 1;
 };
-
-/// All scenarios, before the first is driven: a mistake in --set shows at once.
-Drives load_all(const CommonOptions& options) {
-  Drives drives;
-  for (const auto& [environment, planner] : kDrives) {
-    auto request = options.request;
-    request.name_or_file = environment;
-    request.planner = planner;
-    drives.push_back({io::load_scenario(request), {}, fmt::format("{}/{}", environment, planner)});
-  }
-  return drives;
-}
-
-/// What the paper says of this drive, or nullptr.
-const paper::PaperDrive* paper_of(const paper::PaperData& paper,
-                                  const paper::ReproducedDrive& one) {
-  for (const auto& drive : paper.drives)
-    if (drive.environment + "/" + drive.planner == one.folder) return &drive;
-  return nullptr;
-}
 
 std::string row(const paper::ReproducedDrive& one, const paper::PaperDrive* paper) {
   const auto& drive = one.drive;
@@ -64,25 +44,38 @@ std::string table_head() {
                      "paper");
 }
 
+/// Of each cycle, the median of its CPU times in several runs [s].
+std::vector<double> medians(const std::vector<std::vector<double>>& runs) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < runs.front().size(); ++i) {
+    std::vector<double> times;
+    for (const auto& run : runs) times.push_back(run.at(i));
+    result.push_back(sim::median(std::move(times)));
+  }
+  return result;
+}
+
 /// Drives, writes and prints one after the other.
-class Reproduction {
+class Driver {
  public:
-  Reproduction(const CommonOptions& options, std::size_t count)
+  Driver(const ReproduceOptions& options, std::size_t count)
       : options_(options), text_(!options.quiet && !options.json), count_(count) {
     if (text_) print(table_head());
   }
 
   /// False when interrupted.
-  bool drive(paper::ReproducedDrive& one, const paper::PaperDrive* printed) {
+  bool drive(paper::ReproducedDrive& one, const paper::PaperDrive* printed, bool kept = true) {
     Progress progress(fmt::format("{}/{} {}", ++index_, count_, one.folder), options_.quiet);
     sim::LoopHooks hooks;
     hooks.on_cycle = [&](const sim::Cycle& cycle) { progress.show(cycle); };
     hooks.interrupted = interrupted;
     one.drive = sim::drive(one.scenario, hooks);
+    if (options_.repeats > 1 && one.drive.outcome != sim::Outcome::interrupted) repeat(one, hooks);
+    if (!kept) return one.drive.outcome != sim::Outcome::interrupted;
     if (options_.writes())
       write_or_fail(
           [&] { io::write_drive(fs::path(options_.out) / one.folder, one.scenario, one.drive); });
-    as_paper_ &= printed == nullptr || printed->outcome == sim::to_string(one.drive.outcome);
+    as_paper_ &= printed == nullptr || paper::as_paper(one.drive, *printed);
     if (text_) print(row(one, printed));
     json_.push_back(nlohmann::ordered_json::parse(io::summary_json(one.scenario, one.drive)));
     return one.drive.outcome != sim::Outcome::interrupted;
@@ -93,45 +86,75 @@ class Reproduction {
   const nlohmann::ordered_json& json() const { return json_; }
 
  private:
-  const CommonOptions& options_;
+  /// Drives again, for its solve times.
+  void repeat(paper::ReproducedDrive& one, const sim::LoopHooks& hooks) {
+    std::vector<std::vector<double>> runs = {sim::solve_times(one.drive, true)};
+    for (int i = 1; i < options_.repeats; ++i) {
+      const auto again = sim::drive(one.scenario, hooks);
+      if (again.outcome != sim::Outcome::interrupted) runs.push_back(sim::solve_times(again, true));
+    }
+    one.cpu = medians(runs);
+  }
+
+  const ReproduceOptions& options_;
   bool text_, as_paper_ = true;
   std::size_t count_, index_ = 0;
   nlohmann::ordered_json json_ = nlohmann::ordered_json::array();
 };
 
-int reproduce(const CommonOptions& options) {
+/// All scenarios, before the first is driven: a mistake in --set shows at once. So does a folder
+/// without a sweep.
+paper::Reproduction load(const ReproduceOptions& options) {
+  paper::Reproduction all;
+  all.paper = paper::load_paper_data();
+  all.drives = paper::load_drives(all.paper, options.request);
+  all.cases = paper::load_concept_cases(options.request);
+  if (options.besides) all.besides = paper::load_besides(options.request);
+  for (const auto& folder : options.sweeps)
+    all.sweeps.push_back({folder, sweep::read_sweep(folder)});
+  all.repeats = options.repeats;
+  return all;
+}
+
+/// False when interrupted.
+bool drive_all(paper::Reproduction& all, Driver& driver) {
+  for (auto& one : all.drives)
+    if (!driver.drive(one, paper::find(all.paper, one))) return false;
+  for (auto& one : all.cases)
+    if (!driver.drive(one.driven, nullptr)) return false;
+  for (auto& one : all.besides)
+    if (!driver.drive(one, nullptr, false)) return false;
+  return true;
+}
+
+int reproduce(const ReproduceOptions& options) {
   check_expectations(options.expect, {"paper"});
-  auto drives = load_all(options);
-  auto cases = paper::load_concept_cases(options.request);
-  const auto paper = paper::load_paper_data();
-  std::vector<paper::ReproducedDrive*> all;
-  for (auto& one : drives) all.push_back(&one);
-  for (auto& one : cases) all.push_back(&one.driven);
+  auto all = load(options);
   const fs::path out = options.out;
   if (options.writes())
     write_or_fail([&] {
       io::prepare_folder(out, options.force);
-      for (const auto* one : all) io::prepare_folder(out / one->folder, options.force);
+      for (const auto& one : all.drives) io::prepare_folder(out / one.folder, options.force);
+      for (const auto& one : all.cases) io::prepare_folder(out / one.driven.folder, options.force);
     });
 
-  Reproduction reproduction(options, all.size());
-  for (auto* one : all)
-    if (!reproduction.drive(*one, paper_of(paper, *one))) {
-      if (reproduction.text()) print("interrupted: the page of all drives is not written\n");
-      return kInterrupted;
-    }
-  if (options.writes()) {
-    write_or_fail([&] { paper::write_reproduction(out, drives, paper, cases); });
-    if (reproduction.text()) print(fmt::format("written to {}\n", (out / "index.html").string()));
+  Driver driver(options, all.drives.size() + all.cases.size() + all.besides.size());
+  if (!drive_all(all, driver)) {
+    if (driver.text()) print("interrupted: the page of all drives is not written\n");
+    return kInterrupted;
   }
-  if (options.json) print(reproduction.json().dump(2) + "\n");
-  return options.expect.empty() || reproduction.as_paper() ? kOk : kNotExpected;
+  if (options.writes()) {
+    write_or_fail([&] { paper::write_reproduction(out, all); });
+    if (driver.text()) print(fmt::format("written to {}\n", (out / "index.html").string()));
+  }
+  if (options.json) print(driver.json().dump(2) + "\n");
+  return options.expect.empty() || driver.as_paper() ? kOk : kNotExpected;
 }
 
 }  // namespace
 
 void add_reproduce(CLI::App& app, Command& run) {
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<ReproduceOptions>();
   auto* command =
       app.add_subcommand("reproduce", "Drive what the paper's figures and text show, and compare");
   add_overrides(*command, *options, false);
@@ -141,8 +164,20 @@ void add_reproduce(CLI::App& app, Command& run) {
       ->add_option("--expect", options->expect,
                    "'paper': exit with 1 unless every drive ends as the paper's")
       ->type_name("paper");
+  command
+      ->add_option("--sweep", options->sweeps,
+                   "Judge the paper's claims about its sweep by this sweep of E_C, too; several of "
+                   "them: by each")
+      ->type_name("DIR");
+  command->add_flag("--besides", options->besides,
+                    "Drive also what only claims look at; it is not written");
+  command
+      ->add_option("--repeats", options->repeats,
+                   "Drive each so often, and judge solve times by each cycle's median")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
   command->footer(std::string("Leaves DIR/SCENARIO/PLANNER/ and DIR/cases/LETTER/ for each drive,\n"
-                              "and DIR/index.html.\n"
+                              "DIR/index.html, and DIR/evaluation.json with every table.\n"
                               "Example: slalom reproduce --out drives/paper\n\n") +
                   kExitCodeHelp);
   command->callback([options, &run] { run = [options] { return reproduce(*options); }; });

@@ -51,24 +51,24 @@ void bind_parts(nb::module_& module) {
   using world::Goal;
   using world::Obstacle;
   using world::Region;
-  nb::class_<Goal>(module, "Goal", doc::planner_Goal)
+  nb::class_<Goal>(module, "Goal", doc::world_Goal)
       .def_ro("x", &Goal::x)
       .def_ro("y", &Goal::y)
       .def_ro("psi", &Goal::psi)
       .def_ro("sigma", &Goal::sigma);
-  nb::class_<Region>(module, "Region", doc::planner_Region)
+  nb::class_<Region>(module, "Region", doc::world_Region)
       .def_ro("x_min", &Region::x_min)
       .def_ro("x_max", &Region::x_max)
       .def_ro("y_min", &Region::y_min)
       .def_ro("y_max", &Region::y_max);
-  nb::class_<Obstacle>(module, "Obstacle", doc::planner_Obstacle)
+  nb::class_<Obstacle>(module, "Obstacle", doc::world_Obstacle)
       .def_ro("name", &Obstacle::name)
-      .def_ro("x", &Obstacle::x, doc::planner_Obstacle_x)
-      .def_ro("y", &Obstacle::y, doc::planner_Obstacle_y)
-      .def_ro("a", &Obstacle::a, doc::planner_Obstacle_a)
-      .def_ro("b", &Obstacle::b, doc::planner_Obstacle_b)
-      .def_ro("vx", &Obstacle::vx, doc::planner_Obstacle_vx)
-      .def_ro("vy", &Obstacle::vy, doc::planner_Obstacle_vy);
+      .def_ro("x", &Obstacle::x, doc::world_Obstacle_x)
+      .def_ro("y", &Obstacle::y, doc::world_Obstacle_y)
+      .def_ro("a", &Obstacle::a, doc::world_Obstacle_a)
+      .def_ro("b", &Obstacle::b, doc::world_Obstacle_b)
+      .def_ro("vx", &Obstacle::vx, doc::world_Obstacle_vx)
+      .def_ro("vy", &Obstacle::vy, doc::world_Obstacle_vy);
 }
 
 void bind_class(nb::module_& module) {

@@ -81,7 +81,7 @@ void require_kernels(const std::string& name) {
 }
 
 void bind_open_sweep(nb::module_& module) {
-  nb::class_<Sweep>(module, "OpenSweep", doc::io_OpenSweep)
+  nb::class_<Sweep>(module, "OpenSweep", doc::sweep_OpenSweep)
       .def(nb::init<const std::string&, const Path&, const std::vector<std::string>&,
                     std::optional<std::int64_t>, bool, bool>(),
            "study"_a, "out"_a, nb::kw_only(), "set"_a = std::vector<std::string>(),
@@ -97,36 +97,36 @@ void bind_open_sweep(nb::module_& module) {
             if (!job) return std::nullopt;
             return std::pair(job->trial, std::move(job->order));
           },
-          doc::io_OpenSweep_next)
+          doc::sweep_OpenSweep_next)
       .def(
           "record",
           [](const Sweep& s, std::int64_t trial, const std::string& answer) {
             s.sweep().record(trial, answer);
           },
-          "trial"_a, "answer"_a, doc::io_OpenSweep_record)
+          "trial"_a, "answer"_a, doc::sweep_OpenSweep_record)
       .def(
           "record_failed",
           [](const Sweep& s, std::int64_t trial, const std::string& reason) {
             s.sweep().record_failed(trial, reason);
           },
-          "trial"_a, "reason"_a, doc::io_OpenSweep_record_failed)
+          "trial"_a, "reason"_a, doc::sweep_OpenSweep_record_failed)
       .def_prop_ro(
           "total", [](const Sweep& s) { return s.sweep().summary().total; },
-          doc::io_SweepSummary_total)
+          doc::sweep_SweepSummary_total)
       .def_prop_ro(
           "before", [](const Sweep& s) { return s.sweep().summary().before; },
-          doc::io_SweepSummary_before)
+          doc::sweep_SweepSummary_before)
       .def_prop_ro(
           "done", [](const Sweep& s) { return s.sweep().summary().done; },
-          doc::io_SweepSummary_done)
+          doc::sweep_SweepSummary_done)
       .def_prop_ro(
           "failed", [](const Sweep& s) { return s.sweep().summary().failed; },
-          doc::io_SweepSummary_failed)
+          doc::sweep_SweepSummary_failed)
       .def_prop_ro(
           "pending", [](const Sweep& s) { return s.sweep().summary().pending; },
-          doc::io_SweepSummary_pending)
+          doc::sweep_SweepSummary_pending)
       .def(
-          "finish", [](const Sweep& s) { s.sweep().finish(); }, doc::io_OpenSweep_finish);
+          "finish", [](const Sweep& s) { s.sweep().finish(); }, doc::sweep_OpenSweep_finish);
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ void bind_sweep(nb::module_& module) {
   bind_open_sweep(module);
   module.def(
       "trials_csv", [](const Path& folder) { return sweep::trials_csv(folder); }, "folder"_a,
-      doc::io_trials_csv);
+      doc::sweep_trials_csv);
   module.def(
       "run_trials", &run_trials, "orders"_a, "worker"_a, "retries"_a, "time_limit"_a, "seconds"_a,
       "Runs trials one after the other on a worker process, whose command is given: one that "
@@ -147,7 +147,7 @@ void bind_sweep(nb::module_& module) {
         const nb::gil_scoped_release unlock;
         sweep::serve_trials();
       },
-      doc::io_serve_trials);
+      doc::sweep_serve_trials);
   module.def("require_kernels", &require_kernels, "name"_a,
              "Raises Error where this processor lacks an instruction set.");
 }

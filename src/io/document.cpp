@@ -199,7 +199,7 @@ Value parse_text(const std::string& text, const std::string& source, const std::
 }
 
 Value parse_file(const std::filesystem::path& file, const std::string& content) {
-  return parse_text(read_file(file, kMaxBytes, content), file.string(), content);
+  return parse_text(read_file(file, kMaxDocumentBytes, content), file.string(), content);
 }
 
 Value parse_argument(const std::string& text, const std::string& source) {

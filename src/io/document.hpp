@@ -44,7 +44,7 @@ struct Member {
 };
 
 /// Limits that end hostile input in well under a second; real files stay far below them.
-inline constexpr std::size_t kMaxBytes = 1 << 20;
+inline constexpr std::size_t kMaxDocumentBytes = 1 << 20;
 inline constexpr std::size_t kMaxNodes = 100000;
 inline constexpr std::size_t kMaxDepth = 32;
 

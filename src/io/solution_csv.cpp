@@ -10,12 +10,11 @@
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
 #include "slalom/io/solution_file.hpp"
+#include "solution_json.hpp"
 #include "text_file.hpp"
 
 namespace slalom::io {
 namespace {
-
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30U;
 
 /// By point: its node of the mesh, or none.
 std::vector<std::size_t> nodes_of(const ocp::Solution& solution, std::size_t none) {
@@ -97,7 +96,7 @@ std::string to_csv(const ocp::Solution& solution) {
 }
 
 ocp::Trajectory read_trajectory(const std::string& file, const ocp::Problem& problem) {
-  std::istringstream lines(read_file(file, kMaxBytes, "a table of a trajectory (CSV)"));
+  std::istringstream lines(read_file(file, kMaxSolutionBytes, "a table of a trajectory (CSV)"));
   std::string line;
   std::getline(lines, line);
   const auto header = csv_cells(line);

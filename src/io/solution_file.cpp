@@ -16,7 +16,6 @@ namespace {
 constexpr const char* kFormat = "slalom solution 1";
 constexpr const char* kPhasedFormat = "slalom solution of phases 1";
 constexpr const char* kContent = "a solution (JSON, from save_solution)";
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30U;
 
 // --- schemes: each table once, and its number for each interval ------------------------------
 
@@ -210,12 +209,12 @@ void save_solution(const std::string& file, const ocp::PhasedSolution& solution)
 }
 
 ocp::Solution read_solution(const std::string& file) {
-  const Json json = read_json(file, kMaxBytes, kContent, kFormat);
+  const Json json = read_json(file, kMaxSolutionBytes, kContent, kFormat);
   return read_one(JsonReader(file, kContent, json));
 }
 
 ocp::PhasedSolution read_phased_solution(const std::string& file) {
-  const Json json = read_json(file, kMaxBytes, kContent, kPhasedFormat);
+  const Json json = read_json(file, kMaxSolutionBytes, kContent, kPhasedFormat);
   const JsonReader reader(file, kContent, json);
   ocp::PhasedSolution solution;
   read_outcome(reader, solution);

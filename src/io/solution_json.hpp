@@ -5,6 +5,9 @@
 
 namespace slalom::io {
 
+/// Most bytes of a solution's file, JSON or CSV.
+inline constexpr std::size_t kMaxSolutionBytes = std::size_t{1} << 30U;
+
 /// Parts of a solution's file, one function each way.
 Json scheme_json(const ocp::Scheme& scheme);
 ocp::Scheme read_scheme(const JsonReader& reader);

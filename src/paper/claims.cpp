@@ -5,175 +5,170 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../report/html.hpp"
-#include "../report/words.hpp"
-#include "comparison.hpp"
+#include "../io/section.hpp"
+#include "paper_files.hpp"
+#include "slalom/base/error.hpp"
 
 namespace slalom::paper {
 namespace {
 
-using Drives = std::vector<ReproducedDrive>;
-
-bool arrived(const ReproducedDrive& one) {
-  return one.drive.outcome == sim::Outcome::goal;
+std::string shown(double value, const std::string& format) {
+  if (!std::isfinite(value)) return "–";
+  if (format == "ms") return fmt::format("{:.3g}", 1e3 * value);
+  auto text = fmt::format(fmt::runtime("{:" + format + "}"), value);
+  // What rounds to nothing has no sign.
+  const bool nothing = text.find_first_of("123456789") == std::string::npos;
+  if (nothing && (text.front() == '-' || text.front() == '+')) text.erase(0, 1);
+  return text;
 }
 
-bool hit(const ReproducedDrive& one, const std::string& obstacle) {
-  return one.drive.outcome == sim::Outcome::crash && one.drive.hit == obstacle;
+std::string shown(const Value& value, const std::string& format) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* one = std::get_if<double>(&value)) return shown(*one, format);
+  const auto& list = std::get<Numbers>(value);
+  if (list.size() != 3)
+    throw InvalidValue("a text", fmt::format("a list of {}", list.size()), "an interval");
+  return fmt::format("{} [{}, {}]", shown(list[0], format), shown(list[1], format),
+                     shown(list[2], format));
 }
 
-std::string end_of(const ReproducedDrive& one) {
-  return fmt::format("{} at {} s", report::outcome_words(one.drive),
-                     report::number(one.drive.time, 2));
+Expression read_formula(const io::Value& value) {
+  const auto where = value.place.to_string();
+  auto formula = parse_expression(io::to_text(value, "a formula"), where);
+  check_names(formula, where);
+  return formula;
 }
 
-double speed_gain(const ReproducedDrive& one) {
-  const auto& plant = one.drive.plant;
-  return plant.empty() ? NAN : plant.back().state[vehicle::UX] - plant.front().state[vehicle::UX];
+std::vector<Expression> read_formulas(const io::Value& list) {
+  std::vector<Expression> formulas;
+  for (const auto& item : io::items_of(list, "a list of formulas"))
+    formulas.push_back(read_formula(item));
+  return formulas;
 }
 
-/// The farthest the vehicle strays from the line of its start [m], left positive.
-double farthest_aside(const ReproducedDrive& one) {
-  const auto& start = one.scenario.start;
-  double farthest = 0;
-  for (const auto& s : one.drive.plant) {
-    const double dx = s.state[vehicle::X] - start[vehicle::X];
-    const double dy = s.state[vehicle::Y] - start[vehicle::Y];
-    const double aside = dy * std::cos(start[vehicle::PSI]) - dx * std::sin(start[vehicle::PSI]);
-    if (std::abs(aside) > std::abs(farthest)) farthest = aside;
-  }
-  return farthest;
+const OptionTable<Claim>& claim_options() {
+  static const auto table = [] {
+    OptionTable<Claim> t;
+    t.text("claim", &Claim::id, "Its name.")
+        .text("says", &Claim::says, "What the paper says.")
+        .text("at", &Claim::at, "Where it does.");
+    return t;
+  }();
+  return table;
 }
 
-std::string side(double aside) {
-  return fmt::format("{} m to the {}", report::number(std::abs(aside), 1),
-                     aside > 0 ? "left" : "right");
+/// Formulas by name, added to those that are there already.
+void read_names(const io::Value* names, std::map<std::string, Expression>& into) {
+  if (names == nullptr) return;
+  io::require_map(*names, "names of formulas (a map)");
+  for (const auto& member : names->members)
+    into.insert_or_assign(member.key, read_formula(member.value));
 }
 
-void add_static(std::vector<Claim>& list, const Drives& drives, const std::string& environment) {
-  const auto* A = find(drives, environment, "P_A");
-  const auto* B = find(drives, environment, "P_B");
-  const auto* C = find(drives, environment, "P_C");
-  if (A == nullptr || B == nullptr || C == nullptr) return;
-  const double lead = A->drive.time - std::max(B->drive.time, C->drive.time);
-  list.push_back({environment + ": all three planners reach the goal; P_B and P_C well before P_A",
-                  fmt::format("P_A {} s, P_B {} s, P_C {} s: a lead of {} s",
-                              report::number(A->drive.time, 1), report::number(B->drive.time, 1),
-                              report::number(C->drive.time, 1), report::number(lead, 1)),
-                  arrived(*A) && arrived(*B) && arrived(*C) && lead >= 1.5});
-  const double a = speed_gain(*A), b = speed_gain(*B), c = speed_gain(*C);
-  list.push_back({environment + ": the vehicle of P_A slows, those of P_B and P_C gain speed",
-                  fmt::format("P_A {} m/s, P_B +{} m/s, P_C +{} m/s from start to end",
-                              report::number(a, 1), report::number(b, 1), report::number(c, 1)),
-                  a < 0 && b > 0 && c > 0});
-  const double effort_B = effort_paper(B->drive).total();
-  const double effort_C = effort_paper(C->drive).total();
-  const double cost_B = effort_weighted(B->drive, C->scenario.planner).total();
-  const double cost_C = effort_weighted(C->drive, C->scenario.planner).total();
-  list.push_back({environment + ": P_C spends no more control effort than P_B",
-                  fmt::format("{} and {} by the paper’s measure, {} and {} by the cost’s weights",
-                              report::significant(effort_C, 4), report::significant(effort_B, 4),
-                              report::significant(cost_C, 4), report::significant(cost_B, 4)),
-                  effort_C <= effort_B && cost_C <= cost_B});
+Claim read_claim(const io::Value& map, const std::map<std::string, Expression>& of_all) {
+  Claim claim;
+  io::Places places;
+  io::Section("claims")
+      .add(claim_options(), claim)
+      .read(map, places, {"printed", "ours", "names", "given", "holds", "part"});
+  for (const char* key : {"claim", "says", "printed", "ours", "holds"})
+    if (map.find(key) == nullptr)
+      throw InvalidValue(map.place.to_string(), "a claim without " + std::string(key), "one");
+  claim.printed = Template(*map.find("printed"));
+  claim.ours = Template(*map.find("ours"));
+  claim.holds = read_formulas(*map.find("holds"));
+  if (const auto* part = map.find("part")) claim.part = read_formulas(*part);
+  if (const auto* given = map.find("given")) claim.given = read_formula(*given);
+  claim.names = of_all;
+  read_names(map.find("names"), claim.names);
+  return claim;
 }
 
-void add_moving(std::vector<Claim>& list, const Drives& drives) {
-  const auto* C = find(drives, "E_B", "P_C");
-  const auto* D = find(drives, "E_B", "P_D");
-  if (C != nullptr) {
-    const double aside = farthest_aside(*C);
-    list.push_back(
-        {"E_B: P_C, which holds the obstacles where they are, goes left and crashes "
-         "into O1",
-         fmt::format("{}; {}", side(aside), end_of(*C)), aside > 0 && hit(*C, "O1")});
-  }
-  if (D != nullptr) {
-    const double aside = farthest_aside(*D);
-    list.push_back({"E_B: P_D, which predicts their motion, goes right and arrives",
-                    fmt::format("{}; {}", side(aside), end_of(*D)), aside < 0 && arrived(*D)});
-  }
-  const auto* slalom_C = find(drives, "E_C", "P_C");
-  const auto* slalom_D = find(drives, "E_C", "P_D");
-  if (slalom_C != nullptr)
-    list.push_back(
-        {"E_C: P_C crashes into the oncoming O2",
-         slalom_C->drive.plant.empty()
-             ? end_of(*slalom_C)
-             : fmt::format("{}, at {} m/s", end_of(*slalom_C),
-                           report::number(slalom_C->drive.plant.back().state[vehicle::UX], 1)),
-         hit(*slalom_C, "O2")});
-  if (slalom_D != nullptr)
-    list.push_back({"E_C: P_D arrives", end_of(*slalom_D), arrived(*slalom_D)});
+std::vector<Claim> read_claims(const io::Value* list,
+                               const std::map<std::string, Expression>& of_all) {
+  std::vector<Claim> claims;
+  if (list == nullptr) return claims;
+  for (const auto& item : io::items_of(*list, "a list of claims"))
+    claims.push_back(read_claim(item, of_all));
+  return claims;
 }
 
-/// Where the vehicle comes into the other lane of E_C, whose boundary the cones mark at x = 12 [m
-/// along y]; NaN if it never does.
-double lane_change(const ReproducedDrive& one) {
-  constexpr double boundary = 12;
-  for (const auto& s : one.drive.plant)
-    if (s.state[vehicle::X] >= boundary) return s.state[vehicle::Y];
-  return NAN;
-}
-
-/// What the paper's text says of E_C seen 50 m ahead, and without its cones.
-void add_variants(std::vector<Claim>& list, const Drives& drives) {
-  for (const char* planner : {"P_C", "P_D"}) {
-    const auto* seen = find(drives, "E_C-range-50", planner);
-    if (seen == nullptr) continue;
-    list.push_back(
-        {fmt::format("E_C with L_range 50 m: the vehicle of {} crashes into O2", planner),
-         end_of(*seen), hit(*seen, "O2")});
-  }
-  for (const char* planner : {"P_C", "P_D"}) {
-    const auto* with = find(drives, "E_C", planner);
-    const auto* without = find(drives, "E_C-no-cones", planner);
-    if (with == nullptr || without == nullptr) continue;
-    const double y = lane_change(*without), y_cones = lane_change(*with);
-    list.push_back(
-        {fmt::format("E_C without cones: the vehicle of {} changes lanes earlier", planner),
-         fmt::format("at y = {} m, with cones at y = {} m; then {}", report::number(y, 0),
-                     report::number(y_cones, 0), end_of(*without)),
-         y < y_cones});
-  }
-}
-
-/// All solve times stay below the execution horizon, but for P_A's. By the wall clock, since that
-/// is when a plan is there; a machine that does other work shows in it, and not in CPU time.
-void add_solve_times(std::vector<Claim>& list, const Drives& drives) {
-  std::size_t count = 0;
-  std::ptrdiff_t over = 0, over_cpu = 0;
-  std::string where;
-  for (const auto& one : drives) {
-    if (one.scenario.planner.name == "P_A") continue;
-    const auto slow = [&](const std::vector<double>& times) {
-      return std::count_if(times.begin(), times.end(),
-                           [&](double t) { return t >= one.scenario.loop.tex; });
-    };
-    const auto times = solve_times(one.drive);
-    count += times.size();
-    over += slow(times);
-    over_cpu += slow(solve_times(one.drive, true));
-    if (slow(times) > 0)
-      where += fmt::format("{}{} {}", where.empty() ? "" : ", ", one.scenario.name,
-                           one.scenario.planner.name);
-  }
-  if (count == 0) return;
-  list.push_back({"Plans are ready within the execution horizon (all but some of P_A’s)",
-                  over == 0 ? fmt::format("all {} of P_B, P_C and P_D are", count)
-                            : fmt::format("{} of {} are not by the wall clock ({}), {} by CPU time",
-                                          over, count, where, over_cpu),
-                  over == 0});
+Verdict verdict(const Claim& claim, const Context& context) {
+  const auto is_so = [&](const Expression& check) { return number_of(check, context) != 0; };
+  const auto all = [&](const auto& list) { return std::all_of(list.begin(), list.end(), is_so); };
+  if (all(claim.holds)) return Verdict::holds;
+  const bool part = claim.part.empty() ? std::any_of(claim.holds.begin(), claim.holds.end(), is_so)
+                                       : all(claim.part);
+  return part ? Verdict::in_part : Verdict::fails;
 }
 
 }  // namespace
 
-std::vector<Claim> claims(const std::vector<ReproducedDrive>& drives) {
-  std::vector<Claim> list;
-  add_static(list, drives, "E_A");
-  add_static(list, drives, "E_A-figure");
-  add_moving(list, drives);
-  add_variants(list, drives);
-  add_solve_times(list, drives);
+Template::Template(const io::Value& value) {
+  const auto text = io::to_text(value, "a text");
+  const auto where = value.place.to_string();
+  for (std::size_t at = 0; at < text.size();) {
+    const auto open = text.find('{', at);
+    Piece piece{text.substr(at, open - at), {}, ""};
+    at = text.size();
+    if (open != std::string::npos) {
+      const auto close = text.find('}', open);
+      if (close == std::string::npos) throw InvalidValue(where, "'{' without '}'", "both");
+      auto formula = text.substr(open + 1, close - open - 1);
+      if (const auto colon = formula.rfind(':'); colon != std::string::npos) {
+        piece.format = formula.substr(colon + 1);
+        formula.erase(colon);
+      }
+      piece.formula = parse_expression(formula, where);
+      check_names(*piece.formula, where);
+      at = close + 1;
+    }
+    pieces_.push_back(std::move(piece));
+  }
+}
+
+std::string Template::fill(const Context& context) const {
+  std::string text;
+  for (const auto& piece : pieces_) {
+    text += piece.text;
+    if (piece.formula) text += shown(evaluate(*piece.formula, context), piece.format);
+  }
+  return text;
+}
+
+const char* verdict_words(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::holds:
+      return "holds";
+    case Verdict::in_part:
+      return "holds in part";
+    case Verdict::fails:
+      break;
+  }
+  return "does not hold";
+}
+
+Claims load_claims() {
+  const io::Value root = read_map("claims.yaml", {"drives", "sweep", "names"});
+  std::map<std::string, Expression> names;
+  read_names(root.find("names"), names);
+  return {read_claims(root.find("drives"), names), read_claims(root.find("sweep"), names)};
+}
+
+std::vector<Judged> judge(const std::vector<Claim>& claims, const Evidence& evidence) {
+  std::vector<Judged> list;
+  for (const auto& claim : claims) {
+    const Context context{&evidence, &claim.names, evidence.trials, nullptr};
+    try {
+      if (claim.given && number_of(*claim.given, context) == 0) continue;
+      list.push_back({claim.id, claim.says, claim.at, claim.printed.fill(context),
+                      claim.ours.fill(context), verdict(claim, context)});
+    } catch (const NotDriven&) {  // then there is nothing to judge it by
+    } catch (const InvalidValue& wrong) {
+      throw InvalidValue("claim " + claim.id + ", " + wrong.where(), wrong.found(),
+                         wrong.expected());
+    }
+  }
   return list;
 }
 

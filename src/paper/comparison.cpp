@@ -22,6 +22,15 @@ const ReproducedDrive* find(const std::vector<ReproducedDrive>& drives,
   return nullptr;
 }
 
+bool as_paper(const sim::Drive& drive, const PaperDrive& paper) {
+  return paper.outcome == sim::to_string(drive.outcome) && paper.hit == drive.hit &&
+         paper.earliest <= drive.time && drive.time <= paper.latest;
+}
+
+std::vector<double> cpu_times(const ReproducedDrive& one) {
+  return one.cpu.empty() ? sim::solve_times(one.drive, true) : one.cpu;
+}
+
 std::vector<std::vector<const ReproducedDrive*>> by_environment(
     const std::vector<ReproducedDrive>& drives) {
   std::vector<std::vector<const ReproducedDrive*>> groups;

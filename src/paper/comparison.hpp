@@ -14,6 +14,12 @@ const PaperDrive* find(const PaperData& paper, const ReproducedDrive& drive);
 const ReproducedDrive* find(const std::vector<ReproducedDrive>& drives,
                             const std::string& environment, const std::string& planner);
 
+/// Whether a drive ends as the paper's: outcome, obstacle hit, and when.
+bool as_paper(const sim::Drive& drive, const PaperDrive& paper);
+
+/// CPU time of each cycle, the warm-up left out [s].
+std::vector<double> cpu_times(const ReproducedDrive& one);
+
 /// The drives, one group an environment, in their order.
 std::vector<std::vector<const ReproducedDrive*>> by_environment(
     const std::vector<ReproducedDrive>& drives);

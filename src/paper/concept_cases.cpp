@@ -53,15 +53,14 @@ report::Strip strip(const ConceptCase& one) {
   return result;
 }
 
-/// The planner, and its model where that is not the vehicle's own.
+}  // namespace
+
 std::string planner_words(const ConceptCase& one) {
   const auto& planner = one.driven.scenario.planner;
   if (planner.model == planner::Settings().model) return planner.name;
   return planner.name + ", model " +
          to_string(planner::setting_options().find("model")->get(planner));
 }
-
-}  // namespace
 
 std::string ended(const ConceptCase& one) {
   const auto& drive = one.driven.drive;

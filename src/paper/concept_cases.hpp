@@ -14,6 +14,9 @@ bool holds(const ConceptCase& one, const std::vector<ConceptCase>& cases);
 /// How a case's drive ended, in few words.
 std::string ended(const ConceptCase& one);
 
+/// Its planner, and its model where that is not the vehicle's own.
+std::string planner_words(const ConceptCase& one);
+
 /// The cases as the paper's conceptual figure has them: one strip each, from left to right.
 report::Figure concept_figure(const std::vector<ConceptCase>& cases);
 

@@ -11,6 +11,14 @@ namespace slalom::paper {
 /// file:line:column when a file there is not as it should be.
 PaperData load_paper_data();
 
+/// The drives of the paper's figures, then those that its text alone mentions, with their
+/// scenarios, not driven yet. The request's tex and overrides hold for all.
+std::vector<ReproducedDrive> load_drives(const PaperData& paper,
+                                         const io::ScenarioRequest& request);
+
+/// The drives that only claims look at, likewise.
+std::vector<ReproducedDrive> load_besides(const io::ScenarioRequest& request);
+
 /// The cases of the paper's conceptual figure with their scenarios, not driven yet. The request's
 /// tex and overrides hold for all, after a case's own.
 std::vector<ConceptCase> load_concept_cases(const io::ScenarioRequest& request);

@@ -1,9 +1,7 @@
 #include "published_sweep.hpp"
 
-#include <algorithm>
-
-#include "../io/config_dir.hpp"
 #include "../io/section.hpp"
+#include "paper_files.hpp"
 
 namespace slalom::paper {
 namespace {
@@ -58,13 +56,7 @@ std::vector<S> read_members(const io::Value& root, const std::string& key,
 }  // namespace
 
 PublishedSweep published_sweep() {
-  const io::Value root =
-      io::parse_file(io::config_dir() / "paper" / "sweep.yaml", "the paper's figures");
-  io::require_map(root, "the paper's figures (a map)");
-  const std::vector<std::string> known = {"counts", "points", "notes"};
-  for (const auto& member : root.members)
-    if (std::find(known.begin(), known.end(), member.key) == known.end())
-      io::unknown_key(member.key, member.place, "", known);
+  const io::Value root = read_map("sweep.yaml", {"counts", "points", "notes"});
   PublishedSweep paper;
   paper.counts = read_members(root, "counts", count_options());
   paper.points = read_members(root, "points", point_options());

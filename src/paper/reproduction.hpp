@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -11,11 +10,15 @@
 
 namespace slalom::paper {
 
+struct Judged;
+
 /// One of the drives of the paper's figures, with ours.
 struct ReproducedDrive {
   sim::Scenario scenario;
   sim::Drive drive;
   std::string folder;  ///< relative to the page, e.g. "E_C/P_D"
+  /// CPU time of each cycle [s], the median over several drives; empty: of this one alone.
+  std::vector<double> cpu = {};
 };
 
 /// What the paper printed for one drive; config/paper/drives.yaml, keys as the members are named. A
@@ -25,6 +28,8 @@ struct PaperDrive {
   std::string outcome;  ///< as sim::to_string(Outcome) has it
   std::string hit;      ///< obstacle crashed into
   double time = 0;      ///< end of the last execution horizon [s]
+  double earliest = 0;  ///< ours ends as the paper's from here [s]
+  double latest = std::numeric_limits<double>::infinity();   ///< to here [s]
   double end_ux = std::numeric_limits<double>::quiet_NaN();  ///< speed at the end, if told [m/s]
   double lag = 0;  ///< by how much the paper's series lags [s]; its snapshots are not comparable
   struct Snapshot {
@@ -53,6 +58,11 @@ struct ConceptCase {
 /// from results.yaml.
 struct PaperData {
   std::vector<PaperDrive> drives;
+  /// A drive of which its text alone speaks.
+  struct Mentioned {
+    std::string environment, planner;
+  };
+  std::vector<Mentioned> mentioned;
   struct Effort {
     double steering_angle = 0, steering_rate = 0, jerk = 0, total = 0;
   };
@@ -76,14 +86,10 @@ ControlEffort effort_weighted(const sim::Drive& drive, const planner::Settings& 
 
 /// One page with all tables and figures, ours | paper's, and its figures as print-ready SVG.
 std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const PaperData& paper,
-                              const std::vector<ConceptCase>& cases = {});
+                              const std::vector<ConceptCase>& cases = {},
+                              const std::vector<Judged>& claims = {});
 std::vector<report::Figure> reproduction_figures(const std::vector<ReproducedDrive>& drives,
                                                  const PaperData& paper,
                                                  const std::vector<ConceptCase>& cases = {});
-
-/// Writes index.html and the figures of a reproduction; the drives stand in folders of their own.
-void write_reproduction(const std::filesystem::path& folder,
-                        const std::vector<ReproducedDrive>& drives, const PaperData& paper,
-                        const std::vector<ConceptCase>& cases = {});
 
 }  // namespace slalom::paper

@@ -46,14 +46,14 @@ std::string cases_html(const std::vector<ConceptCase>& cases) {
 }
 
 /// "as in the paper" counts for the page's head.
-std::string summary(const std::vector<ReproducedDrive>& drives, const PaperData& paper) {
+std::string summary(const std::vector<ReproducedDrive>& drives, const PaperData& paper,
+                    const std::vector<Judged>& claims) {
   int printed = 0, same = 0, compared = 0, within = 0;
   for (const auto& one : drives) {
     const auto* drive = find(paper, one);
     if (drive == nullptr) continue;
     ++printed;
-    same += drive->outcome == sim::to_string(one.drive.outcome) &&
-            (drive->hit.empty() || drive->hit == one.drive.hit);
+    same += as_paper(one.drive, *drive);
     for (const auto& snapshot : drive->snapshots) {
       const auto ours = compare(one.drive, *drive, snapshot);
       if (!ours || !ours->comparable || snapshot.t == 0) continue;
@@ -61,15 +61,15 @@ std::string summary(const std::vector<ReproducedDrive>& drives, const PaperData&
       within += ours->within;
     }
   }
-  const auto list = claims(drives);
-  const auto holding =
-      std::count_if(list.begin(), list.end(), [](const auto& c) { return c.holds; });
+  const auto holding = std::count_if(claims.begin(), claims.end(), [](const auto& claim) {
+    return claim.verdict == Verdict::holds;
+  });
   const auto fact = [](const std::string& name, long count, long of) {
     return fmt::format("<div><dt>{}</dt><dd class=\"{}\">{} <small>of {}</small></dd></div>\n",
                        name, count == of ? "good" : "bad", count, of);
   };
   return fact("Drives that end as the paper’s", same, printed) +
-         fact("Findings that hold", holding, static_cast<long>(list.size())) +
+         fact("Claims that hold", holding, static_cast<long>(claims.size())) +
          fact("Comparable positions within tolerance", within, compared);
 }
 
@@ -84,14 +84,15 @@ std::string settings_line(const std::vector<ReproducedDrive>& drives) {
 }  // namespace
 
 std::string reproduction_page(const std::vector<ReproducedDrive>& drives, const PaperData& paper,
-                              const std::vector<ConceptCase>& cases) {
+                              const std::vector<ConceptCase>& cases,
+                              const std::vector<Judged>& claims) {
   return report::fill(
       report::viewer::reproduction_html,
       {{"css", fmt::format("{}\n{}", report::viewer::base_css, report::viewer::reproduction_css)},
        {"settings", report::escape(settings_line(drives))},
-       {"summary", summary(drives, paper)},
+       {"summary", summary(drives, paper, claims)},
        {"floor_note", note_html(paper, "floor")},
-       {"claims", claims_table(drives)},
+       {"claims", claims_table(claims)},
        {"outcomes", outcome_table(drives, paper) + note_html(paper, "outcomes")},
        {"cases", cases_html(cases)},
        {"positions", position_table(drives, paper) + note_html(paper, "positions")},

@@ -35,11 +35,6 @@ std::string percent(double from, double to) {
   return from > 0 ? signed_number(100 * (to - from) / from, 1) + " %" : "–";
 }
 
-bool as_paper(const sim::Drive& drive, const PaperDrive& paper) {
-  return paper.outcome == sim::to_string(drive.outcome) &&
-         (paper.hit.empty() || paper.hit == drive.hit);
-}
-
 std::string paper_outcome(const PaperDrive& paper) {
   if (paper.outcome == "goal") return "Reached the goal";
   if (paper.outcome == "crash" && !paper.hit.empty()) return "Crashed into " + paper.hit;
@@ -48,14 +43,19 @@ std::string paper_outcome(const PaperDrive& paper) {
 
 }  // namespace
 
-std::string claims_table(const std::vector<ReproducedDrive>& drives) {
+std::string claims_table(const std::vector<Judged>& claims) {
   std::string rows;
-  for (const auto& claim : claims(drives))
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", mark(claim.holds),
-                        report::escape(claim.text), report::escape(claim.ours));
+  for (const auto& claim : claims) {
+    const bool part = claim.verdict == Verdict::in_part;
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"paper\">{}</td><td>{}</td></tr>\n",
+                        part ? "<span class=\"muted\">◐&nbsp;in&nbsp;part</span>"
+                             : mark(claim.verdict == Verdict::holds),
+                        report::escape(claim.says), report::escape(claim.printed),
+                        report::escape(claim.ours));
+  }
   return report::table(
-      "<tr><th scope=\"col\">Holds</th><th scope=\"col\">The paper’s drives show</th>"
-      "<th scope=\"col\">Ours</th></tr>",
+      "<tr><th scope=\"col\">Holds</th><th scope=\"col\">The paper says</th>"
+      "<th scope=\"col\" class=\"paper\">Its figures</th><th scope=\"col\">Ours</th></tr>",
       rows);
 }
 

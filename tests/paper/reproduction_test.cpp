@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <regex>
 
+#include "../../src/paper/claims.hpp"
+#include "../../src/paper/comparison.hpp"
+#include "../../src/paper/evaluation.hpp"
+#include "../../src/paper/paper_data.hpp"
 #include "report/markup.hpp"
 #include "report/synthetic_drive.hpp"
 
@@ -150,24 +155,51 @@ TEST(ReproductionFigures, ShowTheLimitsOfAccelerationThatAreNear) {
   EXPECT_EQ(limits(braking), 2);
 }
 
-ReproducedDrive with_x(const std::string& environment, const std::string& planner, double slope) {
-  auto drive = synthetic_drive();
-  for (auto& s : drive.plant) s.state[vehicle::X] = slope * s.t;
-  return reproduced(environment, planner, drive);
+TEST(ReproductionPage, ShowsVerdicts) {
+  const std::vector<Judged> claims = {{"a", "it <is> so", "", "1", "2", Verdict::holds},
+                                      {"b", "partly", "", "1", "2", Verdict::in_part},
+                                      {"c", "not", "", "1", "2", Verdict::fails}};
+  const auto page = reproduction_page(all_drives(), paper_data(), {}, claims);
+  EXPECT_EQ(count(page, "✓ yes</span></td><td>it &lt;is&gt; so"), 1);
+  EXPECT_EQ(count(page, "in&nbsp;part</span></td><td>partly"), 1);
+  EXPECT_EQ(count(page, "✕ no</span></td><td>not"), 1);
+  EXPECT_EQ(count(page, "Claims that hold</dt><dd class=\"bad\">1 <small>of 3"), 1);
 }
 
-TEST(ReproductionPage, SaysWhereTheLaneIsChangedWithoutCones) {
-  const auto verdict = [](double slope, double slope_with_cones) {
-    const auto page = reproduction_page(
-        {with_x("E_C", "P_D", slope_with_cones), with_x("E_C-no-cones", "P_D", slope)}, {});
-    std::smatch found;
-    const std::regex row("(yes|no)</span></td><td>E_C without cones[^<]*</td><td>([^<;]*)");
-    return std::regex_search(page, found, row) ? found[1].str() + ": " + found[2].str() : "";
-  };
-  // Into x = 12 after 12 / slope seconds, at 17 m/s along y.
-  EXPECT_EQ(verdict(6, 4), "yes: at y = 34 m, with cones at y = 51 m");
-  EXPECT_EQ(verdict(4, 6), "no: at y = 51 m, with cones at y = 34 m");
-  EXPECT_EQ(verdict(0, 6), "no: at y = – m, with cones at y = 34 m");
+TEST(Comparison, IsByOutcomeObstacleAndTime) {
+  PaperDrive paper;
+  paper.outcome = "goal";
+  paper.earliest = 3.5;
+  paper.latest = 4.5;
+  auto drive = synthetic_drive();
+  EXPECT_TRUE(as_paper(drive, paper));
+  drive.time = 4.6;
+  EXPECT_FALSE(as_paper(drive, paper));
+  drive.time = 4;
+  drive.outcome = sim::Outcome::crash;
+  drive.hit = "O2";
+  EXPECT_FALSE(as_paper(drive, paper));
+  paper.outcome = "crash";
+  EXPECT_FALSE(as_paper(drive, paper)) << "another obstacle";
+  paper.hit = "O2";
+  EXPECT_TRUE(as_paper(drive, paper));
+}
+
+TEST(Evaluation, HasEveryTable) {
+  Reproduction all;
+  all.paper = load_paper_data();
+  all.drives = all_drives();
+  const auto json = nlohmann::json::parse(evaluation_json(all));
+  ASSERT_EQ(json["drives"].size(), 10u);
+  const auto& last = json["drives"].back();
+  EXPECT_EQ(last["folder"], "E_C/P_D");
+  EXPECT_EQ(last["printed"]["as_paper"], false) << "4 s are too early";
+  EXPECT_EQ(last["printed"]["snapshots"].size(), 3u) << "the start is given";
+  EXPECT_EQ(last["printed"]["snapshots"][0]["ours"], nullptr) << "ours was over";
+  EXPECT_EQ(json["effort"].size(), 2u);
+  EXPECT_EQ(json["sweeps"].size(), 0u);
+  EXPECT_GT(json["claims"].size(), 10u);
+  EXPECT_GT(json["index"].size(), 10u);
 }
 
 std::vector<ConceptCase> three_cases(double b_arrives, double c_arrives) {
