@@ -102,8 +102,9 @@ def main(arguments):
     checks = [step("layers", [sys.executable, "tools/check_layers.py"])]
     if sources:
         checks.append(step("format", ["tools/format.sh", "--check", *sources]))
-    targets = [f"test_{module}" for module in modules if list(
-        (ROOT / "tests" / module).glob("*_test.cpp"))]
+    targets = [f"test_{module}" for module in modules if any(
+        not path.name.endswith("_slow_test.cpp")
+        for path in (ROOT / "tests" / module).glob("*_test.cpp"))]
     if any(path.parts[0] in PROGRAM for path in files):
         targets.append("slalom_app")
     if targets:
