@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test tidy bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed solver-profile docs-measured wheel docs sweep-scale format clean build
+.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed solver-profile docs-measured wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -9,9 +9,9 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' $(MAKEFILE_LIST) | \
 	  while IFS='|' read -r name what; do printf '  %-16s %s\n' "$$name" "$$what"; done
 
-build: ## the release build in build/, without setting anything up
+build: ## the release build of program and library in build/, without setting anything up
 	cmake --preset release
-	cmake --build build --target slalom_app -j $(JOBS)
+	cmake --build build --target slalom_app libslalom.a -j $(JOBS)
 
 run: ## set up, build, and drive the paper's environments E_B and E_C into run/
 	tools/setup.sh run

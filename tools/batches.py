@@ -2,20 +2,25 @@
 """Puts sources into batches that compile as one: headers are then read once a batch, not once a file.
 
 Names of an unnamed namespace are a file's own. Two files share a batch only if neither mentions,
-in any sense, a name the other keeps to itself, and both use the same namespaces; so a batch means
-what its files mean alone. Kernels (*_avx2.cpp, *_baseline.cpp) are compiled by themselves.
+in any sense, a name the other keeps to itself, nor includes a header of the project that declares
+it, and both use the same namespaces; so a batch means what its files mean alone. Kernels (*_avx2.cpp,
+*_baseline.cpp) are compiled by themselves.
 
 usage: batches.py FILE...     one batch a line, its files with '|' between them
 """
 
+import functools
 import pathlib
 import re
 import sys
 
+INCLUDE_FOLDERS = [pathlib.Path(__file__).resolve().parent.parent / name
+                   for name in ("include", "tests")]
 MOST_FILES = 8
 ALONE = re.compile(r"_(avx2|baseline)\.cpp$")
 COMMENTS_AND_STRINGS = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+INCLUDE = re.compile(r'^#include "(.+)"', re.MULTILINE)
 WORD = re.compile(r"[A-Za-z_]\w*")
 TYPE = re.compile(r"^(?:template <.*> )?(?:struct|class|union|enum class|enum) (?:\[\[.*\]\] )?(\w+)")
 ALIAS = re.compile(r"^(?:using|namespace) (\w+) =|^using .*::(\w+);")
@@ -31,7 +36,9 @@ class Source:
 
     def __init__(self, path):
         self.path = path
-        text = COMMENTS_AND_STRINGS.sub('""', pathlib.Path(path).read_text(encoding="utf-8"))
+        whole = pathlib.Path(path).read_text(encoding="utf-8")
+        text = COMMENTS_AND_STRINGS.sub('""', whole)
+        self.included = included(pathlib.Path(path).parent.resolve(), whole)
         self.alone = bool(ALONE.search(str(path)))
         self.directives = set(DIRECTIVE.findall(text))
         self.words = set(WORD.findall(text))
@@ -55,9 +62,26 @@ class Source:
 
     def disturbs(self, other):
         """Whether a name this file gives a meaning could be found where `other` means another."""
-        return bool(self.own & other.words) or any(
+        return bool(self.own & (other.words | (other.included - self.included))) or any(
             name in other.words and other.aliases.get(name) != line
             for name, line in self.aliases.items())
+
+
+def included(folder, text):
+    """The names that the headers included by a text in `folder` declare outside classes."""
+    candidates = [[near / name for near in (folder, *INCLUDE_FOLDERS)]
+                  for name in INCLUDE.findall(text)]
+    found = [next((path.resolve() for path in paths if path.exists()), None) for paths in candidates]
+    return frozenset().union(*(offered(path) for path in found if path))
+
+
+@functools.cache
+def offered(header):
+    """The names that a header and those it includes declare outside classes."""
+    whole = header.read_text(encoding="utf-8")
+    text = COMMENTS_AND_STRINGS.sub('""', whole)
+    own = {name for line in text.splitlines() if WORD.match(line) for name in declared(line)}
+    return included(header.parent, whole) | own
 
 
 def declared(line):

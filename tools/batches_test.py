@@ -11,8 +11,10 @@ KEEPS = "namespace a {\nnamespace {\n%s\n}  // namespace\n}  // namespace a\n"
 
 
 class Batches(unittest.TestCase):
-    def batches(self, texts):
+    def batches(self, texts, headers=None):
         with tempfile.TemporaryDirectory() as folder:
+            for name, text in (headers or {}).items():
+                pathlib.Path(folder, name).write_text(text, encoding="utf-8")
             paths = []
             for name, text in texts.items():
                 paths.append(pathlib.Path(folder, name))
@@ -35,6 +37,13 @@ class Batches(unittest.TestCase):
             self.assertFalse(self.together("int use() { return found(1); }\n", KEEPS % kept), kept)
         self.assertFalse(self.together("#define found 1\n", "int found();\n"))
         self.assertFalse(self.together("static int found() { return 1; }\n", "int found();\n"))
+
+    def test_a_name_kept_by_one_and_declared_by_a_header_of_the_other(self):
+        header = {"near.hpp": '#include "far.hpp"\n', "far.hpp": "inline constexpr int found = 1;\n"}
+        including = '#include "near.hpp"\n'
+        keeps = KEEPS % "int found(int a);"
+        self.assertEqual(len(self.batches({"a.cpp": including, "b.cpp": keeps}, header)), 2)
+        self.assertEqual(len(self.batches({"a.cpp": including, "b.cpp": including + keeps}, header)), 1)
 
     def test_comments_and_strings_mention_nothing(self):
         self.assertTrue(self.together(KEEPS % "int found = 1;",

@@ -21,6 +21,7 @@ from check_layers import module_of
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 JOBS = str(os.cpu_count())
+PROGRAM = ("apps", "viewer")  # what the program is made of beside the modules
 
 
 def changed_files(base):
@@ -51,6 +52,12 @@ def modules_to_test(files, depends):
         elif (module := module_of(path)) in depends:
             modules |= {module} | {name for name, of in depends.items() if module in of}
     return modules & set(depends)
+
+
+def not_covered(files, depends):
+    """Changed files that nothing here builds or tests, but `make test` does."""
+    return [path for path in files if not modules_to_test([path], depends)
+            and path.parts[0] not in PROGRAM and path.suffix != ".md"]
 
 
 def step(title, command):
@@ -84,16 +91,22 @@ def run_tests(modules):
 
 def main(arguments):
     files = changed_files(arguments[0] if arguments else "HEAD")
-    modules = sorted(modules_to_test(files, dependencies()))
+    depends = dependencies()
+    modules = sorted(modules_to_test(files, depends))
     print(f"{len(files)} files changed; unit tests of: {', '.join(modules) or 'no module'}")
+    if others := not_covered(files, depends):
+        print("for `make test` alone: " + ", ".join(map(str, others)))
 
     sources = [str(path) for path in files
                if path.suffix in (".cpp", ".hpp") and (ROOT / path).exists()]
     checks = [step("layers", [sys.executable, "tools/check_layers.py"])]
     if sources:
         checks.append(step("format", ["tools/format.sh", "--check", *sources]))
-    targets = [f"test_{module}" for module in modules if list(
-        (ROOT / "tests" / module).glob("*_test.cpp"))]
+    targets = [f"test_{module}" for module in modules if any(
+        not path.name.endswith("_slow_test.cpp")
+        for path in (ROOT / "tests" / module).glob("*_test.cpp"))]
+    if any(path.parts[0] in PROGRAM for path in files):
+        targets.append("slalom_app")
     if targets:
         checks.append(
             step("build", ["cmake", "--preset", "release", "-DSLALOM_TESTS=ON", "--log-level=WARNING"])

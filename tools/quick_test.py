@@ -25,6 +25,13 @@ class Quick(unittest.TestCase):
         self.assertEqual(self.modules("tests/CMakeLists.txt"), set(DEPENDS))
         self.assertEqual(self.modules("docs/ocp.md", "tests/cli/drive_test.py"), set())
 
+    def test_what_only_the_whole_test_covers_is_named(self):
+        files = [pathlib.Path(name) for name in (
+            "src/ocp/mesh.cpp", "apps/slalom/main.cpp", "viewer/map.js", "config/planners/P_A.yaml",
+            "tests/cli/drive_test.py", "docs/ocp.md")]
+        self.assertEqual([str(path) for path in quick.not_covered(files, DEPENDS)],
+                         ["config/planners/P_A.yaml", "tests/cli/drive_test.py"])
+
     def test_dependencies_are_those_of_the_build(self):
         depends = quick.dependencies()
         self.assertIn("nlp", depends["ocp"])

@@ -182,11 +182,12 @@
         const values = l.values || data.plant.t.map(() => l.value);
         element('path', { class: 'limit' + (l.hard ? ' hard' : ''), d: this.path(data.plant.t, values) }, this.plot);
       }
+      // Under the curves: a limit is named where a curve comes near it.
+      for (const l of spec.limits) if (l.label) this.limitLabel(l);
       this.planned = element('path', { class: 'planned' }, this.plot);
       for (const s of spec.series) {
         element('path', { class: 'series', style: `stroke:var(${s.colour})`, d: this.path(data.plant.t, s.values) }, this.plot);
       }
-      for (const l of spec.limits) if (l.label) this.limitLabel(l);
     }
 
     limitLabel(l) {
@@ -196,7 +197,7 @@
       const below = y - margin.top < 14;
       const left = l.side === 'left';
       element('text', { class: 'limit-label', x: left ? margin.left + 4 : this.width - margin.right - 3,
-        y: below ? y + 11 : y - 3, 'text-anchor': left ? 'start' : 'end' }, this.svg)
+        y: below ? y + 11 : y - 3, 'text-anchor': left ? 'start' : 'end' }, this.plot)
         .textContent = l.label;
     }
 
