@@ -7,6 +7,7 @@
 
 #include "../io/document.hpp"
 #include "evaluate.hpp"
+#include "judged.hpp"
 
 namespace slalom::paper {
 
@@ -30,7 +31,6 @@ class Template {
   std::vector<Piece> pieces_;
 };
 
-enum class Verdict { holds, in_part, fails };
 const char* verdict_words(Verdict verdict);  ///< "holds", "holds in part", "does not hold"
 
 /// A claim of the paper and the rule by which it is judged; config/paper/claims.yaml.
@@ -53,10 +53,6 @@ struct Claims {
 /// Throws InvalidValue with file:line:column when the file is not as it should be.
 Claims load_claims();
 
-struct Judged {
-  std::string id, says, at, printed, ours;
-  Verdict verdict = Verdict::fails;
-};
 /// The claims in their order; those that ask for what was not driven are left out.
 std::vector<Judged> judge(const std::vector<Claim>& claims, const Evidence& evidence);
 

@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "judged.hpp"
 #include "slalom/report/report.hpp"
 #include "slalom/sim/drive.hpp"
 #include "slalom/sim/scenario.hpp"
 
 namespace slalom::paper {
-
-struct Judged;
 
 /// One of the drives of the paper's figures, with ours.
 struct ReproducedDrive {
