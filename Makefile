@@ -23,7 +23,7 @@ run: ## set up, build, and drive the paper's environments E_B and E_C into run/
 	@echo "  $(CURDIR)/run/E_B/report.html"
 	@echo "  $(CURDIR)/run/E_C/report.html"
 
-quick: ## build and run the unit tests of what changed, with format and layers (a minute)
+quick: ## build and run the unit tests of what changed, with format and layers
 	tools/quick.py
 
 test: ## set up, build, and run every test and check, with sanitizers too
