@@ -12,8 +12,8 @@ from program import ProgramTest, interrupt, run, start
 FILES = ["cycles.csv", "figures", "plans.csv", "plant.csv", "report.html", "resolved.yaml",
          "summary.json"]
 
-# Many short cycles: minutes of driving.
-LONG = ["simulate", "E_C", "--set", "loop.tex=0.01"]
+# So many short cycles that no machine is through with them before it is interrupted.
+LONG = ["simulate", "E_C", "--set", "loop.tex=0.001"]
 
 
 class Interrupt(ProgramTest):
