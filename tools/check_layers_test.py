@@ -13,8 +13,8 @@ CHECKER = pathlib.Path(__file__).resolve().parent / "check_layers.py"
 
 RIGHT = {
     "include/slalom/base/error.hpp": "#pragma once\n#include <string>\n",
-    "include/slalom/sim/plant.hpp": '#include "slalom/planner/plan.hpp"\n',
-    "src/sim/plant.cpp": '#include "slalom/sim/plant.hpp"\n#include "detail.hpp"\n',
+    "include/slalom/sim/sensing.hpp": '#include "slalom/planner/plan.hpp"\n',
+    "src/sim/sensing.cpp": '#include "slalom/sim/sensing.hpp"\n#include "detail.hpp"\n',
     "src/sim/detail.hpp": '#include "slalom/base/error.hpp"\n',
     "src/io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
     "apps/slalom/main.cpp": '#include <CLI/CLI.hpp>\n#include "slalom/io/files.hpp"\n',
@@ -43,18 +43,18 @@ class CheckLayers(unittest.TestCase):
         self.assertIn("6 files, 0 errors", result.stdout)
 
     def test_include_against_the_flow(self):
-        self.assert_wrong("src/base/error.cpp", '\n#include "slalom/sim/plant.hpp"\n',
-                          "src/base/error.cpp:2: base includes slalom/sim/plant.hpp")
+        self.assert_wrong("src/base/error.cpp", '\n#include "slalom/sim/sensing.hpp"\n',
+                          "src/base/error.cpp:2: base includes slalom/sim/sensing.hpp")
 
     def test_include_against_the_flow_in_a_header(self):
         self.assert_wrong("include/slalom/expr/expr.hpp", "#include <slalom/nlp/solver.hpp>\n",
                           "expr includes slalom/nlp/solver.hpp")
 
     def test_a_header_that_gathers_a_module_belongs_to_it(self):
-        gathering = {"include/slalom/sim.hpp": '#include "slalom/sim/plant.hpp"\n'}
+        gathering = {"include/slalom/sim.hpp": '#include "slalom/sim/sensing.hpp"\n'}
         self.assertEqual(self.run_on(RIGHT | gathering).returncode, 0)
-        self.assert_wrong("include/slalom/base.hpp", '#include "slalom/sim/plant.hpp"\n',
-                          "base includes slalom/sim/plant.hpp")
+        self.assert_wrong("include/slalom/base.hpp", '#include "slalom/sim/sensing.hpp"\n',
+                          "base includes slalom/sim/sensing.hpp")
         self.assert_wrong("src/base/error.cpp", '#include "slalom/sim.hpp"\n',
                           "src/base/error.cpp:1: base includes slalom/sim.hpp")
         self.assert_wrong("include/slalom/all.hpp", "\n", "in no known module")

@@ -6,7 +6,7 @@
 #include "binding.hpp"
 #include "scenario.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/sim/plant.hpp"
+#include "slalom/vehicle/plant.hpp"
 
 namespace slalom::python {
 namespace {
@@ -119,8 +119,8 @@ void bind_plan(nb::module_& module) {
 }
 
 void bind_plant(nb::module_& module) {
-  using sim::Plant;
-  nb::class_<Plant>(module, "Plant", doc::sim_Plant)
+  using vehicle::Plant;
+  nb::class_<Plant>(module, "Plant", doc::vehicle_Plant)
       .def(
           "__init__",
           [](Plant* self, const Scenario& s) {
@@ -135,7 +135,7 @@ void bind_plant(nb::module_& module) {
              double t1) {
             if (!(t1 >= t0))
               throw InvalidValue("advance", "t1 before t0", "t0 <= t1, absolute times [s]");
-            const auto signal = plan ? sim::ControlSignal(*plan) : sim::ControlSignal();
+            const auto signal = plan ? control_signal(*plan) : vehicle::ControlSignal();
             const auto begin = state_of(state, "advance: state");
             const auto end = [&] {
               const nb::gil_scoped_release unlock;

@@ -18,4 +18,24 @@ std::string SolveReport::status_text() const {
   return text;
 }
 
+namespace {
+
+/// Absolute times of the nodes.
+std::vector<double> times(const Plan& plan) {
+  std::vector<double> result;
+  result.reserve(plan.t.size());
+  for (const double t : plan.t) result.push_back(plan.t_start + t);
+  return result;
+}
+
+}  // namespace
+
+bool usable(const Plan& plan) {
+  return vehicle::ControlSignal::usable(times(plan), plan.controls);
+}
+
+vehicle::ControlSignal control_signal(const Plan& plan) {
+  return {times(plan), plan.controls};
+}
+
 }  // namespace slalom::planner

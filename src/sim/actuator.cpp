@@ -6,7 +6,7 @@
 
 namespace slalom::sim {
 
-void Actuator::command(ControlSignal signal, double t) {
+void Actuator::command(vehicle::ControlSignal signal, double t) {
   driven_.push_back({t + delay_, signal.delayed(delay_)});
   commanded_ = std::move(signal);
 }
@@ -17,7 +17,7 @@ std::size_t Actuator::in_force(double t) const {
   return static_cast<std::size_t>(next - driven_.begin());
 }
 
-const ControlSignal& Actuator::driven(double t) const {
+const vehicle::ControlSignal& Actuator::driven(double t) const {
   const std::size_t count = in_force(t);
   return count == 0 ? straight_on_ : driven_[count - 1].signal;
 }

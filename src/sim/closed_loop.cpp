@@ -101,13 +101,13 @@ class ClosedLoop {
   /// The plant takes the plan over, if it is one to be driven.
   void swap(Cycle& cycle) {
     if (!to_be_driven(cycle.plan)) return;
-    actuator_.command(ControlSignal(cycle.plan), t_);
+    actuator_.command(control_signal(cycle.plan), t_);
     drive_.plant.back().control = actuator_.driven(t_).at(t_);
     cycle.used = true;
   }
 
   static bool to_be_driven(const planner::Plan& plan) {
-    return (plan.report.solved || plan.report.best_iterate) && ControlSignal::usable(plan);
+    return (plan.report.solved || plan.report.best_iterate) && usable(plan);
   }
 
   /// Lets the plant drive until `t_end`, the timeout or the first event, on the signals that reach
@@ -121,7 +121,7 @@ class ClosedLoop {
     return end;
   }
 
-  std::optional<End> drive_on(const ControlSignal& signal, double t_end) {
+  std::optional<End> drive_on(const vehicle::ControlSignal& signal, double t_end) {
     for (const double t1 : plant_.instants(signal, t_, t_end)) {
       if (interrupted()) return End{Outcome::interrupted, "interrupted while driving"};
       try {
@@ -131,7 +131,7 @@ class ClosedLoop {
         t_ = event ? event->t : t1;
         record();
         if (event) return end_by(*event);
-      } catch (const PlantError& error) {
+      } catch (const vehicle::PlantError& error) {
         return End{Outcome::not_optimal, fmt::format("no usable plan was left: {}", error.what())};
       }
     }
@@ -203,7 +203,7 @@ class ClosedLoop {
   const std::function<void(const Cycle&)>& on_cycle_;
   Timing timing_;
   Planning planning_;
-  Plant plant_;
+  vehicle::Plant plant_;
   Actuator actuator_;  ///< straight on at constant speed until the first plan takes over
   Watch watch_;
   vehicle::State state_;

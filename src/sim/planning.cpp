@@ -21,7 +21,7 @@ Planning::Planning(const Scenario& scenario, const Timing& timing, const PlanFun
       sensors_(scenario.sensing, scenario.plant.cg_shift) {}
 
 Cycle Planning::cycle(int index, double t0, const History& history,
-                      const ControlSignal& commanded) const {
+                      const vehicle::ControlSignal& commanded) const {
   Cycle cycle;
   cycle.index = index;
   cycle.t0 = t0;
@@ -29,7 +29,7 @@ Cycle Planning::cycle(int index, double t0, const History& history,
   try {
     const auto measured = sensors_.measured(history(t0 - scenario_.sensing.delay), index);
     cycle.X0p = believed_.predict(measured, commanded, t0, timing_.plan_start(t0));
-  } catch (const PlantError& error) {
+  } catch (const vehicle::PlantError& error) {
     cycle.X0p.fill(std::nan(""));
     cycle.plan.report.status = planner::PlanStatus::no_prediction;
     cycle.plan.report.detail = error.what();

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "slalom/sim/closed_loop.hpp"
-#include "slalom/sim/control_signal.hpp"
-#include "slalom/sim/plant.hpp"
 #include "slalom/sim/sensing.hpp"
+#include "slalom/vehicle/control_signal.hpp"
+#include "slalom/vehicle/plant.hpp"
 #include "timing.hpp"
 
 namespace slalom::sim {
@@ -26,7 +26,8 @@ class Planning {
 
   /// Cycle `index`, which begins at t0 [s] with `commanded` under way. Its charge and its swap are
   /// left to Timing::settle.
-  Cycle cycle(int index, double t0, const History& history, const ControlSignal& commanded) const;
+  Cycle cycle(int index, double t0, const History& history,
+              const vehicle::ControlSignal& commanded) const;
   /// The same from the scenario's start.
   Cycle first_cycle(int index) const;
   /// The first OCP as cycle 0, before the clock starts; none if the scenario wants none.
@@ -41,7 +42,7 @@ class Planning {
   const Timing& timing_;
   const PlanFunction& plan_;
   const std::function<bool()>& interrupted_;
-  Plant believed_;  ///< what prediction takes the plant for
+  vehicle::Plant believed_;  ///< what prediction takes the plant for
   Sensors sensors_;
 };
 

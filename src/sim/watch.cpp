@@ -108,8 +108,8 @@ void for_each_low_load(const vehicle::Dynamics& dynamics, const Stretch& s, doub
 
 }  // namespace
 
-Stretch Stretch::driven(const Plant& plant, const ControlSignal& signal, const State& state,
-                        double t0, double t1) {
+Stretch Stretch::driven(const vehicle::Plant& plant, const vehicle::ControlSignal& signal,
+                        const State& state, double t0, double t1) {
   Stretch stretch{t0, t1, state, {}, [&plant, &signal, state, t0](double t) {
                     return plant.advance(state, signal, t0, t);
                   }};

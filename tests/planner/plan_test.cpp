@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
 #include <string>
+#include <utility>
+
+#include "slalom/base/error.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -26,6 +31,45 @@ TEST(PlanStatus, ADetailStandsBehindIt) {
   report.status = PlanStatus::no_prediction;
   report.detail = "the plant cannot be integrated";
   EXPECT_EQ(report.status_text(), "no prediction: the plant cannot be integrated");
+}
+
+Plan straight_on() {
+  Plan plan;
+  plan.t_start = .5;
+  for (int k = 0; k <= 8; ++k) {
+    plan.t.push_back(.25 * k);
+    plan.states.push_back({});
+    plan.controls.push_back({.01 * k, 0});
+  }
+  return plan;
+}
+
+TEST(ControlSignalOfAPlan, StartsWithThePlan) {
+  const auto signal = control_signal(straight_on());
+  EXPECT_EQ(signal.knots().front(), .5);
+  EXPECT_EQ(signal.knots().back(), 2.5);
+  EXPECT_DOUBLE_EQ(signal.at(1)[vehicle::SR], .02);
+}
+
+TEST(ControlSignalOfAPlan, RefusesPlansThatCannotBeDriven) {
+  const auto good = straight_on();
+  EXPECT_TRUE(usable(good));
+  auto plan = good;
+  plan.t.clear();
+  EXPECT_FALSE(usable(plan));
+  EXPECT_THROW(control_signal(plan), Error);
+  plan = good;
+  plan.controls.pop_back();
+  EXPECT_FALSE(usable(plan));
+  plan = good;
+  plan.controls[3][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(usable(plan));
+  plan = good;
+  std::swap(plan.t[2], plan.t[5]);
+  EXPECT_FALSE(usable(plan));
+  plan = good;
+  plan.t_start = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(usable(plan));
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 namespace slalom::sim {
 namespace {
 
+using vehicle::ControlSignal;
+
 using vehicle::Control;
 
 /// A plan from t on whose jerk is `jerk` + t.
@@ -17,7 +19,7 @@ ControlSignal ramp(double t, double jerk) {
   planner::Request request;
   request.t0 = t;
   request.t_start = t;
-  return ControlSignal(testing::plan_of(
+  return control_signal(testing::plan_of(
       request,
       [jerk](double at) {
         return Control{0.01 * jerk, jerk + at};

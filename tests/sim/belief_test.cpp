@@ -8,10 +8,13 @@
 #include "sim/fakes.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/sim/closed_loop.hpp"
-#include "slalom/sim/plant.hpp"
+#include "slalom/vehicle/plant.hpp"
 
 namespace slalom::sim {
 namespace {
+
+using vehicle::ControlSignal;
+using vehicle::Plant;
 
 using testing::open_field;
 using vehicle::Control;
@@ -58,7 +61,7 @@ void expect_driven_by(const Plant& plant, const Drive& d) {
     line.t = {a.t, b.t};
     line.controls = {a.control, b.control};
     line.states = {a.state, b.state};
-    expect_near(plant.advance(a.state, ControlSignal(line), a.t, b.t), b.state, 1e-8);
+    expect_near(plant.advance(a.state, control_signal(line), a.t, b.t), b.state, 1e-8);
   }
 }
 
@@ -75,7 +78,7 @@ TEST(Belief, ThePlantIsDrivenAndTheVehiclePredicted) {
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const auto& start = sample_at(d, asked[k].t0).state;
     EXPECT_EQ(asked[k].X0p, believed.predict(start, signal, asked[k].t0, asked[k].t0 + 0.5));
-    signal = ControlSignal(d.cycles[k].plan);
+    signal = control_signal(d.cycles[k].plan);
   }
   // And that is not where the plant arrives.
   const auto &last = d.cycles.back(), &before = d.cycles[d.cycles.size() - 2];
@@ -92,7 +95,7 @@ TEST(Belief, ADelayedPlantDrivesWhatWasCommandedThatMuchEarlier) {
     const auto commanded = [&, &cycles = d.cycles](double t) {
       Control control{};
       for (const auto& cycle : cycles)
-        if (cycle.used && cycle.plan.t_start <= t) control = ControlSignal(cycle.plan).at(t);
+        if (cycle.used && cycle.plan.t_start <= t) control = control_signal(cycle.plan).at(t);
       return control;
     };
     int compared = 0;
@@ -108,7 +111,7 @@ TEST(Belief, ADelayedPlantDrivesWhatWasCommandedThatMuchEarlier) {
     // Prediction takes the command for driven.
     const Plant believed(s.vehicle, s.loop.plant_tolerance, s.loop.sample_step);
     const auto& start = sample_at(d, asked[2].t0).state;
-    EXPECT_EQ(asked[2].X0p, believed.predict(start, ControlSignal(d.cycles[1].plan), 1, 1.5));
+    EXPECT_EQ(asked[2].X0p, believed.predict(start, control_signal(d.cycles[1].plan), 1, 1.5));
   }
 }
 
@@ -132,7 +135,8 @@ TEST(Belief, ThePlannerIsToldAnOlderState) {
       line.t = {a.t, b.t};
       line.controls = {a.control, b.control};
       line.states = {a.state, b.state};
-      const State then = Plant(s.vehicle, 1e-9, 0.02).advance(a.state, ControlSignal(line), a.t, t);
+      const State then =
+          Plant(s.vehicle, 1e-9, 0.02).advance(a.state, control_signal(line), a.t, t);
       expect_near(request.X0p, then, 1e-8);
     }
   }

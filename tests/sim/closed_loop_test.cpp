@@ -8,8 +8,8 @@
 #include <set>
 
 #include "sim/fakes.hpp"
-#include "sim/reintegrate.hpp"
 #include "slalom/sim/solve_times.hpp"
+#include "vehicle/reintegrate.hpp"
 
 namespace slalom::sim {
 namespace {
@@ -251,8 +251,8 @@ TEST(ClosedLoop, ReintegratedPlansGiveTheDrive) {
         if (plan->t_start + node > t + 1e-9 && plan->t_start + node < end - 1e-9)
           corners.push_back(plan->t_start + node);
     corners.push_back(end);
-    x = testing::integrate_rk4(
-        x, [&](double at) { return plan ? ControlSignal(*plan).at(at) : Control{}; }, corners);
+    x = vehicle::testing::integrate_rk4(
+        x, [&](double at) { return plan ? control_signal(*plan).at(at) : Control{}; }, corners);
     t = end;
     for (const auto& sample : d.plant) {
       if (std::abs(sample.t - end) > 1e-12) continue;
@@ -275,7 +275,7 @@ TEST(ClosedLoop, ReintegratedSamplesGiveTheDrive) {
       return Control{a.control[0] + share * (b.control[0] - a.control[0]),
                      a.control[1] + share * (b.control[1] - a.control[1])};
     };
-    x = testing::integrate_rk4(x, control, {a.t, b.t});
+    x = vehicle::testing::integrate_rk4(x, control, {a.t, b.t});
     EXPECT_NEAR(b.state[vehicle::X], x[vehicle::X], 1e-4 / 100);
     EXPECT_NEAR(b.state[vehicle::Y], x[vehicle::Y], 1e-4 / 100);
     EXPECT_NEAR(b.state[vehicle::PSI], x[vehicle::PSI], 1e-5 / 100);

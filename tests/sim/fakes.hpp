@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "slalom/sim/closed_loop.hpp"
-#include "slalom/sim/control_signal.hpp"
+#include "slalom/vehicle/control_signal.hpp"
 
 namespace slalom::sim::testing {
 

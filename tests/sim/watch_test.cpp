@@ -12,6 +12,9 @@
 namespace slalom::sim {
 namespace {
 
+using vehicle::ControlSignal;
+using vehicle::Plant;
+
 /// Straight on northwards from the origin at 17 m/s for 4 s, or up to the first event.
 struct Watched {
   std::optional<Event> event;

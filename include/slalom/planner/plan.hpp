@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "slalom/nlp/solver.hpp"
+#include "slalom/vehicle/control_signal.hpp"
 #include "slalom/vehicle/state.hpp"
 
 namespace slalom::planner {
@@ -63,5 +64,11 @@ struct Plan {
 
   bool empty() const { return t.empty(); }
 };
+
+/// A plan can be driven: its times and controls are those of a signal. Whether the solver calls it
+/// solved is another question.
+bool usable(const Plan& plan);
+/// The controls of a usable plan, from plan.t_start on. Throws Error when it is not usable.
+vehicle::ControlSignal control_signal(const Plan& plan);
 
 }  // namespace slalom::planner

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "slalom/sim/control_signal.hpp"
+#include "slalom/vehicle/control_signal.hpp"
 
 namespace slalom::sim {
 
@@ -13,12 +13,12 @@ class Actuator {
   explicit Actuator(double delay) : delay_(delay) {}
 
   /// From t on, `signal` is commanded. Calls come in the order of time.
-  void command(ControlSignal signal, double t);
+  void command(vehicle::ControlSignal signal, double t);
   /// What is commanded now; straight on at constant speed before the first command.
-  const ControlSignal& commanded() const { return commanded_; }
+  const vehicle::ControlSignal& commanded() const { return commanded_; }
 
   /// What the plant drives from t on, until the next change.
-  const ControlSignal& driven(double t) const;
+  const vehicle::ControlSignal& driven(double t) const;
   /// The first time after t at which the plant goes over to another signal that is commanded
   /// already; infinity if there is none.
   double next_change(double t) const;
@@ -26,13 +26,13 @@ class Actuator {
  private:
   struct Driven {
     double from;
-    ControlSignal signal;
+    vehicle::ControlSignal signal;
   };
   /// Of the last one in force at t, counted from 1; 0: straight on.
   std::size_t in_force(double t) const;
 
   double delay_;
-  ControlSignal commanded_, straight_on_;
+  vehicle::ControlSignal commanded_, straight_on_;
   std::vector<Driven> driven_;  ///< all there were, in the order of time
 };
 

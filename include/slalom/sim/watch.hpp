@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "slalom/sim/drive.hpp"
-#include "slalom/sim/plant.hpp"
+#include "slalom/vehicle/plant.hpp"
 #include "slalom/world/goal.hpp"
 #include "slalom/world/obstacle.hpp"
 
@@ -21,7 +21,7 @@ struct Stretch {
 
   /// What `plant` drives on `signal` from `state` at t0 to t1; both outlive it. Throws PlantError,
   /// and so may `at`.
-  static Stretch driven(const Plant& plant, const ControlSignal& signal,
+  static Stretch driven(const vehicle::Plant& plant, const vehicle::ControlSignal& signal,
                         const vehicle::State& state, double t0, double t1);
 };
 

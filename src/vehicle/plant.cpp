@@ -1,4 +1,4 @@
-#include "slalom/sim/plant.hpp"
+#include "slalom/vehicle/plant.hpp"
 
 #include <fmt/format.h>
 
@@ -12,12 +12,10 @@
 
 #include "../base/integrate.hpp"
 
-namespace slalom::sim {
+namespace slalom::vehicle {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
-using vehicle::Control;
-using vehicle::State;
 
 /// Knots nearer than this to another instant are no instants of their own [s].
 constexpr double kSameInstant = 1e-7;
@@ -28,31 +26,35 @@ const Method kMethod;
 
 }  // namespace
 
-Plant::Plant(const vehicle::Parameters& vehicle, double tolerance, double sample_step)
+Plant::Plant(const Parameters& vehicle, double tolerance, double sample_step)
     : dynamics_(vehicle), tolerance_(tolerance), sample_step_(sample_step) {}
 
 State Plant::advance(const State& state, const ControlSignal& signal, double t0, double t1) const {
+  return advance(state, signal.at(t0), signal.at(t1), t0, t1);
+}
+
+State Plant::advance(const State& state, const Control& first, const Control& last, double t0,
+                     double t1) const {
   const double length = t1 - t0;
   if (!(length > 0)) return state;
-  const Control first = signal.at(t0), last = signal.at(t1);
   const auto rhs = [&](const State& x, State& dxdt, double t) {
     Control control;
-    for (std::size_t i = 0; i < vehicle::kControls; ++i)
+    for (std::size_t i = 0; i < kControls; ++i)
       control[i] = first[i] + (last[i] - first[i]) * (t / length);
     dxdt = dynamics_.derivative(x, control);
   };
 
   State x = state;
-  x[vehicle::X] = x[vehicle::Y] = 0;
+  x[X] = x[Y] = 0;
   double t = 0;
   if (integrate(odeint::make_controlled(tolerance_, tolerance_, kMethod), rhs, length, 0, x, t)) {
-    x[vehicle::X] += state[vehicle::X];
-    x[vehicle::Y] += state[vehicle::Y];
+    x[X] += state[X];
+    x[Y] += state[Y];
     return x;
   }
   throw PlantError(fmt::format(
       "the plant cannot be integrated past t = {:.9g} s (ux = {:.6g} m/s, ax = {:.6g} m/s^2)",
-      t0 + t, x[vehicle::UX], x[vehicle::AX]));
+      t0 + t, x[UX], x[AX]));
 }
 
 std::vector<double> Plant::instants(const ControlSignal& signal, double t0, double t1) const {
@@ -83,4 +85,4 @@ State Plant::predict(State state, const ControlSignal& signal, double t0, double
   return state;
 }
 
-}  // namespace slalom::sim
+}  // namespace slalom::vehicle

@@ -7,17 +7,17 @@
 #include "slalom/vehicle/state.hpp"
 #include "vehicle/reference_model.hpp"
 
-namespace slalom::sim::testing {
+namespace slalom::vehicle::testing {
 
 /// Classical Runge–Kutta of order 4 with steps of at most 1 ms and the reference model: another
 /// method, another step and another implementation of the model than the plant's. `corners`:
 /// start, every kink or jump of the control, end.
 template <class ControlAt>
-vehicle::State integrate_rk4(vehicle::State x, const ControlAt& control_at,
-                             const std::vector<double>& corners, bool asymmetric = true) {
+State integrate_rk4(State x, const ControlAt& control_at, const std::vector<double>& corners,
+                    bool asymmetric = true) {
   const reference::HMMWV model{asymmetric};
-  const auto plus = [](const vehicle::State& a, double h, const vehicle::State& b) {
-    vehicle::State sum = a;
+  const auto plus = [](const State& a, double h, const State& b) {
+    State sum = a;
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += h * b[i];
     return sum;
   };
@@ -29,7 +29,7 @@ vehicle::State integrate_rk4(vehicle::State x, const ControlAt& control_at,
     const double edge = std::min(1e-9, length / 4);
     const auto first = control_at(from + edge), last = control_at(from + length - edge);
     const auto control = [&](double t) {
-      vehicle::Control c;
+      Control c;
       for (std::size_t i = 0; i < c.size(); ++i)
         c[i] = first[i] + (last[i] - first[i]) * (t / length);
       return c;
@@ -47,4 +47,4 @@ vehicle::State integrate_rk4(vehicle::State x, const ControlAt& control_at,
   return x;
 }
 
-}  // namespace slalom::sim::testing
+}  // namespace slalom::vehicle::testing
