@@ -9,7 +9,21 @@ PlanStatus plan_status(nlp::Status status) {
 const char* to_string(PlanStatus status) {
   if (status == PlanStatus::not_confirmed) return "not_confirmed";
   if (status == PlanStatus::no_prediction) return "no prediction";
+  if (status == PlanStatus::unverified) return "unverified";
   return nlp::to_string(static_cast<nlp::Status>(status));
+}
+
+const char* to_string(Rung rung) {
+  switch (rung) {
+    case Rung::new_plan:
+      return "new";
+    case Rung::rest:
+      return "rest";
+    case Rung::least_bad:
+      return "least_bad";
+    default:
+      return "";
+  }
 }
 
 std::string SolveReport::status_text() const {

@@ -9,11 +9,13 @@
 
 #include "guess.hpp"
 #include "obstacle_choice.hpp"
+#include "planning_method.hpp"
 #include "slalom/base/timer.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "trajectory_problem.hpp"
+#include "verified_planner.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -59,11 +61,10 @@ struct Form {
   }
 };
 
-}  // namespace
-
-class Planner::Impl {
+/// The paper's planner.
+class RecedingHorizon final : public PlanningMethod {
  public:
-  explicit Impl(const Task& task)
+  explicit RecedingHorizon(const Task& task)
       : task_(with_groups(task)),
         settings_(task_.planner),
         chosen_(choose_obstacles(settings_, {}, task_.obstacles)),
@@ -72,7 +73,7 @@ class Planner::Impl {
     prepare();
   }
 
-  Plan plan(const Request& request) {
+  Plan plan(const Request& request) override {
     const Timer timer;
     const bool in_range = goal_in_range(task_, request.X0p);
     choose(request);
@@ -96,8 +97,8 @@ class Planner::Impl {
     return plan;
   }
 
-  void reset() { last_.reset(); }
-  void record(Recorder recorder) {
+  void reset() override { last_.reset(); }
+  void record(Recorder recorder) override {
     recorder_.reset();
     if (recorder.wanted && recorder.take) recorder_ = std::move(recorder);
   }
@@ -228,19 +229,26 @@ class Planner::Impl {
   double longest_reading_s_ = 0;  ///< thread time of a cycle after its solve
 };
 
-Planner::Planner(const Task& task) : impl_(std::make_unique<Impl>(task)) {}
+}  // namespace
+
+Planner::Planner(const Task& task) {
+  if (task.planner.method == Method::verified)
+    method_ = std::make_unique<VerifiedPlanner>(task);
+  else
+    method_ = std::make_unique<RecedingHorizon>(task);
+}
 Planner::~Planner() = default;
 Planner::Planner(Planner&&) noexcept = default;
 Planner& Planner::operator=(Planner&&) noexcept = default;
 
 Plan Planner::plan(const Request& request) {
-  return impl_->plan(request);
+  return method_->plan(request);
 }
 void Planner::reset() {
-  impl_->reset();
+  method_->reset();
 }
 void Planner::record(Recorder recorder) {
-  impl_->record(std::move(recorder));
+  method_->record(std::move(recorder));
 }
 
 }  // namespace slalom::planner

@@ -26,6 +26,10 @@ const std::vector<std::string>& solver_names() {
 void add_what_tells_planners_apart(Table& table) {
   using S = Settings;
   table.text("name", &S::name, "Name of the planner, shown in reports.")
+      .choice("method", &S::method, {"receding_horizon", "verified"},
+              "receding_horizon: the paper's OCP, from cycle to cycle. verified: whole ways to the "
+              "goal, found by a search in place and time, of which none is driven before the plant "
+              "as it is believed in has driven it; see docs/verified-planner.md.")
       .real("w_t", &S::w_t, Range::non_negative(), "1/s",
             "Weight of the final time tf in the cost (paper Eqn. 5, first term): 0 for P_A, 100 "
             "for P_B, P_C and P_D.",
@@ -157,6 +161,42 @@ void add_tolerances_and_solver(Table& table) {
                "Iterations after which the NLP counts as not solved.", kSection);
 }
 
+void add_verification(Table& table) {
+  using S = Settings;
+  table
+      .choice(
+          "known", &S::known, {"all", "range"},
+          "Of method verified: which obstacles it is told of. all: every one, as the paper's "
+          "planners; range: those whose edge lies within L_range of the vehicle at that moment. "
+          "Nothing is assumed of those it has not seen.")
+      .real("verified_clearance", &S::verified_clearance, Range::non_negative(), "m",
+            "Least distance of a verified plan from the edges of obstacles as they are predicted: "
+            "the 2 m of a crash and .15 m for errors of belief.")
+      .real(
+          "verified_wheel_load", &S::verified_wheel_load, Range::any(), "N",
+          "Least wheel load of a verified plan. A wheel lifts at 100 N; the OCP's rows keep 1000 N "
+          "at the points of its mesh.")
+      .real("standing_horizon", &S::standing_horizon, Range::positive(), "s",
+            "How long a plan that ends standing must stay clear of all obstacles as predicted.")
+      .real("arrival_margin", &S::arrival_margin, Range::non_negative(), "m",
+            "Margin of the OCP's obstacles beyond verified_clearance: a tracked motion is off its "
+            "reference by up to this.")
+      .integer("arrival_N", &S::arrival_N, Range::closed(2, 1000), "1",
+               "Mesh intervals of the OCP over the whole way, by Hermite-Simpson.")
+      .real("arrival_tf_max", &S::arrival_tf_max, Range::positive(), "s", "Longest way of the OCP.")
+      .integer("arrival_max_iterations", &S::arrival_max_iterations, Range::closed(1, 1000000), "1",
+               "Iterations after which a solve of a whole way is given up.")
+      .real("improvement_period", &S::improvement_period, Range::non_negative(), "s",
+            "While the last plan still leads to the goal, a better one is looked for this often.")
+      .real("hysteresis", &S::hysteresis, Range::non_negative(), "s",
+            "A new plan is driven when it is sooner at the goal by this, so that plans do not "
+            "alternate.")
+      .integer("search_places", &S::search_places, Range::closed(1, 100000000), "1",
+               "Places a search for a way looks at before it gives up, while none is known.")
+      .integer("improvement_places", &S::improvement_places, Range::closed(1, 100000000), "1",
+               "Places a search for a better way looks at.");
+}
+
 }  // namespace
 
 const char* to_string(SolverChoice solver) {
@@ -170,6 +210,7 @@ const OptionTable<Settings>& setting_options() {
     add_weights(options);
     add_horizon(options);
     add_tolerances_and_solver(options);
+    add_verification(options);
     return options;
   }();
   return table;

@@ -4,31 +4,14 @@
 #include <string>
 #include <utility>
 
+#include "in_terms_of.hpp"
+
 namespace slalom::planner {
 
 using ocp::Bounds;
 using ocp::End;
 using ocp::Points;
 using namespace vehicle;
-
-namespace {
-
-/// The model's expressions with the problem's own symbols in place of the model's.
-template <std::size_t N>
-std::array<ocp::Expr, N> in_terms_of(const std::array<ocp::Expr, N>& values, const Model& model,
-                                     const std::array<ocp::Expr, kStates>& states,
-                                     const std::array<ocp::Expr, kControls>& controls) {
-  std::vector<ocp::Expr> from(model.state.begin(), model.state.end());
-  from.insert(from.end(), model.control.begin(), model.control.end());
-  std::vector<ocp::Expr> to(states.begin(), states.end());
-  to.insert(to.end(), controls.begin(), controls.end());
-  const auto replaced = expr::substitute({values.begin(), values.end()}, from, to);
-  std::array<ocp::Expr, N> result;
-  std::copy(replaced.begin(), replaced.end(), result.begin());
-  return result;
-}
-
-}  // namespace
 
 const ocp::Scheme& scheme_of(const Settings& settings) {
   static const ocp::Scheme backward_euler = ocp::backward_euler();

@@ -50,6 +50,7 @@ planner::Request Planning::request(const Cycle& cycle) const {
   request.t_start = timing_.plan_start(cycle.t0);
   request.obstacles = sensors_.believed(scenario_.obstacles, cycle.index, cycle.t0);
   request.time_limit = timing_.time_limit();
+  request.warm_up = cycle.index == 0;
   if (loop.on_failure == OnFailure::best_iterate) request.best_iterate_tol = loop.best_iterate_tol;
   request.interrupted = interrupted_;
   return request;

@@ -23,6 +23,7 @@ enum class PlanStatus {
   numerical_failure = static_cast<int>(nlp::Status::numerical_failure),
   not_confirmed,  ///< the solver says solved, and the residuals deny it
   no_prediction,  ///< there was no state to plan from, for it could not be predicted
+  unverified,     ///< the least bad motion, driven although it could not be verified
 };
 /// The word that files have: the solver's, "not_confirmed" or "no prediction".
 const char* to_string(PlanStatus status);
@@ -51,6 +52,32 @@ struct SolveReport {
   std::string status_text() const;
 };
 
+/// What a planner that verifies its plans can say of one: that the plant as it is believed in,
+/// driven by the plan from the state predicted, keeps these distances and loads from all obstacles
+/// as they are predicted.
+struct Certificate {
+  bool verified = false;
+  double least_clearance = 0;   ///< to the nearest edge of an obstacle, not grown [m]; inf: none
+  std::string nearest;          ///< that obstacle's name
+  double least_wheel_load = 0;  ///< [N]
+  double until = 0;             ///< absolute time to which the motion is driven [s]
+  std::string refused;          ///< why it is not verified; empty if it is
+  double refused_at = 0;        ///< absolute time of that [s]
+};
+
+/// Where a plan of a verifying planner comes from, best first: a new motion; the rest of the last
+/// one, verified anew; the least bad motion of those refused.
+enum class Rung { none, new_plan, rest, least_bad };
+/// "", "new", "rest" or "least_bad".
+const char* to_string(Rung rung);
+
+/// A motion that a verifying planner looked at.
+struct Candidate {
+  std::string name;  ///< what it comes from, e.g. "guided 2, solved"
+  double cost = 0;   ///< by which candidates are compared, in the cost's unit; verified ones only
+  Certificate certificate;
+};
+
 /// A planned trajectory at its mesh nodes. Controls are linear between nodes.
 struct Plan {
   double t_start = 0;  ///< absolute time of node 0: t0 + tex [s]
@@ -61,6 +88,12 @@ struct Plan {
   std::vector<vehicle::Control> controls;  ///< one per node
   double obstacle_time_held = -1;  ///< absolute time at which obstacles are held; < 0: they move
   SolveReport report;
+
+  // Of planners that verify: where the plan comes from, what is known of it, and what else there
+  // was.
+  Rung rung = Rung::none;
+  Certificate certificate;
+  std::vector<Candidate> candidates;
 
   bool empty() const { return t.empty(); }
 };

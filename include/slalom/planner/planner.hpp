@@ -17,6 +17,9 @@ struct Request {
   double t0 = 0;         ///< absolute time of planning [s]
   double t_start = 0.5;  ///< absolute time at which the plan begins: t0 + tex [s]
   double time_limit = std::numeric_limits<double>::infinity();  ///< thread time of planning [s]
+  /// Nothing is driven while it plans, so that a planner that shares its time out over cycles need
+  /// not.
+  bool warm_up = false;
   /// A plan that is not solved, but violates no row or bound by more than this [its unit], is one
   /// to be driven, and the next solve starts from it. Negative: none is.
   double best_iterate_tol = -1;
@@ -26,9 +29,13 @@ struct Request {
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
 
-/// Plans one trajectory in each cycle by solving the OCP of section 3. The solve starts warm from
+class PlanningMethod;
+
+/// Plans one trajectory in each cycle, by the method of its settings. The paper's solves the OCP of
+/// section 3; the solve starts warm from
 /// the last plan that was solved, that was to be driven although unsolved, or whose solve was
-/// cut short (by the deadline or an interrupt). Not thread-safe; use one planner for each thread.
+/// cut short (by the deadline or an interrupt). The other drives no plan that is not verified
+/// (Settings::method). Not thread-safe; use one planner for each thread.
 class Planner {
  public:
   explicit Planner(const Task& task);
@@ -45,8 +52,7 @@ class Planner {
   void record(Recorder recorder);
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<PlanningMethod> method_;
 };
 
 }  // namespace slalom::planner

@@ -22,9 +22,17 @@ enum class ObstacleConstraint { hard, soft };
 /// The obstacles that a plan avoids.
 enum class ObstacleChoice { all, in_reach, nearest };
 
+/// How a planner plans: the paper's OCP over a receding horizon, or whole ways to the goal of which
+/// none is driven before it is verified.
+enum class Method { receding_horizon, verified };
+
+/// The obstacles that a verifying planner is told of: all, or those within L_range.
+enum class Known { all, range };
+
 /// Settings of the trajectory-planning OCP; names as in section 3 of docs/formulation.md.
 struct Settings {
   std::string name = "P_D";
+  Method method = Method::receding_horizon;
 
   // What tells the planners P_A to P_D apart.
   double w_t = 100;              ///< weight of final time [1/s]
@@ -71,6 +79,20 @@ struct Settings {
   double floor = 0.9;  ///< barrier floor mu [cost units]; 0: solve to `tol`
   double tol = 1e-6;   ///< optimality tolerance
   int max_iterations = 500;
+
+  // Of `verified` alone.
+  Known known = Known::all;
+  double verified_clearance = 2.15;  ///< from obstacles' edges, at all times [m]
+  double verified_wheel_load = 400;  ///< [N]
+  double standing_horizon = 60;      ///< for which standing must be clear of obstacles [s]
+  double arrival_margin = 0.3;       ///< of the OCP's obstacles beyond verified_clearance [m]
+  int arrival_N = 40;                ///< mesh intervals of a whole way
+  double arrival_tf_max = 70;        ///< longest way [s]
+  int arrival_max_iterations = 200;  ///< of one solve
+  double improvement_period = 0.5;   ///< between searches for a better way than the last [s]
+  double hysteresis = 0.02;          ///< by which a new way must be sooner to be driven [s]
+  int search_places = 150'000;       ///< a search looks at when no way is known
+  int improvement_places = 20'000;   ///< a search looks at for a better way
 };
 
 /// The registered options of Settings with unit, range, meaning and source.

@@ -1,0 +1,170 @@
+#include "arrival_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "in_terms_of.hpp"
+#include "slalom/ocp/scheme.hpp"
+
+namespace slalom::planner {
+
+using namespace vehicle;
+using ocp::Bounds;
+using ocp::Points;
+
+namespace {
+
+/// Each interval of the mesh is longer than the one before by this factor.
+constexpr double kGrowth = 1.03;
+/// Where the end may lie, in half-widths of the goal's square from its centre.
+constexpr double kEnd = 0.6;
+/// Points of the guess for each interval.
+constexpr int kGuessPoints = 4;
+/// An answer that is not solved starts a tracked motion still, up to this violation [its unit].
+constexpr double kNearlySolved = 1e-2;
+/// Rows of wheel loads are in kilonewtons, of one size with the others.
+constexpr double kKilo = 1e-3;
+/// Weight of the steering rate beside that of the paper: whole ways are smoother for it.
+constexpr double kSteeringRate = 20, kJerk = 5;
+/// Share of the paper's weight of the area between the path and the line through the goal.
+constexpr double kArea = 0.02;
+
+ocp::Mesh growing_mesh(int intervals) {
+  std::vector<double> tau{0};
+  double length = 1;
+  for (int k = 0; k < intervals; ++k, length *= kGrowth) tau.push_back(tau.back() + length);
+  const double whole = tau.back();
+  for (double& t : tau) t /= whole;
+  return ocp::Mesh(tau);
+}
+
+}  // namespace
+
+ArrivalProblem::ArrivalProblem(const Task& task, std::size_t obstacles)
+    : members_(obstacles), intervals_(task.planner.arrival_N), problem_("arrival") {
+  add_dynamics(task);
+  add_obstacles();
+  add_cost_and_end(task);
+  set_obstacles({});
+  transcription_.emplace(problem_, growing_mesh(task.planner.arrival_N), ocp::hermite_simpson());
+}
+
+void ArrivalProblem::add_dynamics(const Task& task) {
+  const Parameters& p = task.vehicle;
+  const Model model = make_model(p);
+  std::array<Bounds, kStates> bounds;
+  bounds[X] = {task.region.x_min, task.region.x_max};
+  bounds[Y] = {task.region.y_min, task.region.y_max};
+  bounds[SA] = {-p.sa_max(), p.sa_max()};
+  bounds[UX] = {p.ux_min, p.ux_max};
+  for (std::size_t i = 0; i < kStates; ++i) {
+    X_[i] = problem_.state(kStateNames[i], bounds[i]);
+    X0p_[i] = problem_.parameter(std::string("X0p_") + kStateNames[i], 0);
+  }
+  U_[SR] = problem_.control("sr", {-p.sr_max(), p.sr_max()});
+  U_[JX] = problem_.control("jx", {-p.jx_max, p.jx_max});
+  t_start_ = problem_.parameter("t_start", 0);
+  problem_.initial_time(Bounds::equal(0), 0);
+  problem_.final_time({task.planner.tf_min, task.planner.arrival_tf_max}, 10);
+  const auto rate = in_terms_of(model.derivative, model, X_, U_);
+  for (std::size_t i = 0; i < kStates; ++i) {
+    problem_.dynamics(X_[i], rate[i]);
+    problem_.boundary(std::string("initial ") + kStateNames[i], problem_.initial(X_[i]) - X0p_[i],
+                      Bounds::equal(0));
+  }
+  add_limits(model, p);
+}
+
+void ArrivalProblem::add_limits(const Model& model, const Parameters& vehicle) {
+  const auto limits = in_terms_of(std::array{model.ax_min, model.ax_max}, model, X_, U_);
+  const auto add = [&](const std::string& name, const Expr& spare) {
+    problem_.path(name, spare, Bounds::at_least(0), Points::after_first);
+  };
+  add("ax above ax_min", X_[AX] - limits[0]);
+  add("ax below ax_max", limits[1] - X_[AX]);
+  const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
+  for (std::size_t w = 0; w < kWheels; ++w)
+    add(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle.Fz_min));
+}
+
+void ArrivalProblem::add_obstacles() {
+  const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
+  const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
+  const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
+  const Expr t = t_start_ + problem_.time();
+  const Expr outside = square((X_[X] - xo - vx * t) / a) + square((X_[Y] - yo - vy * t) / b);
+  obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
+                                        Bounds::at_least(0), Points::after_first);
+}
+
+/// Places that no obstacle takes are taken by one far away from everything.
+void ArrivalProblem::set_obstacles(const std::vector<world::Obstacle>& grown) {
+  constexpr double far = 1e5;
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> numbers;
+  for (std::size_t k = 0; k < members_; ++k) {
+    names.push_back(fmt::format("{}", k));
+    if (k < grown.size()) {
+      const auto& o = grown[k];
+      numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
+    } else {
+      numbers.push_back({far, far, 1e3, 1e3, 0, 0});
+    }
+  }
+  problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
+}
+
+void ArrivalProblem::add_cost_and_end(const Task& task) {
+  const Settings& s = task.planner;
+  const auto& goal = task.goal;
+  problem_.mayer("final_time", s.w_t * problem_.final_time());
+  problem_.lagrange("control_effort",
+                    s.w_ce * (s.w_sa * square(X_[SA]) + kSteeringRate * s.w_sr * square(U_[SR]) +
+                              kJerk * s.w_jx * square(U_[JX])));
+  problem_.lagrange("heading_area", kArea * s.w_haf *
+                                        square(std::sin(goal.psi) * (X_[X] - goal.x) -
+                                               std::cos(goal.psi) * (X_[Y] - goal.y)));
+  const double within = kEnd * goal.sigma;
+  problem_.boundary("goal x", problem_.final(X_[X]) - goal.x, {-within, within});
+  problem_.boundary("goal y", problem_.final(X_[Y]) - goal.y, {-within, within});
+}
+
+std::optional<Motion> ArrivalProblem::solve(const Motion& guess, const State& X0p,
+                                            const std::vector<world::Obstacle>& grown,
+                                            nlp::Solver& solver, nlp::Options options) {
+  const double t_start = guess.begin(), tf = guess.end() - t_start;
+  set_obstacles(grown);
+  for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], X0p[i]);
+  problem_.set_parameter(t_start_, t_start);
+  transcription_->update(problem_);
+  ocp::Trajectory start;
+  start.tf = tf;
+  const int points = kGuessPoints * intervals_;
+  for (int k = 0; k <= points; ++k) {
+    const double tau = static_cast<double>(k) / points;
+    const State x = k == 0 ? X0p : guess.state_at(t_start + tau * tf);
+    const Control u = guess.control_at(t_start + tau * tf);
+    start.tau.push_back(tau);
+    start.states.emplace_back(x.begin(), x.end());
+    start.controls.emplace_back(u.begin(), u.end());
+  }
+  solver.solve(*transcription_, {transcription_->point(start), {}, {}, {}}, options, answer_);
+  if (answer_.status != nlp::Status::solved && !(answer_.violation < kNearlySolved))
+    return std::nullopt;
+  const auto found = transcription_->trajectory(answer_.point.x);
+  Motion motion;
+  for (std::size_t k = 0; k < found.tau.size(); ++k) {
+    State x;
+    Control u;
+    std::copy_n(found.states[k].begin(), x.size(), x.begin());
+    std::copy_n(found.controls[k].begin(), u.size(), u.begin());
+    motion.add(t_start + found.tau[k] * found.tf, x, u);
+  }
+  return motion;
+}
+
+}  // namespace slalom::planner

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "motion.hpp"
+#include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/transcription.hpp"
+#include "slalom/planner/task.hpp"
+
+namespace slalom::planner {
+
+/// The OCP of section 3 of docs/formulation.md with its end changed: the whole way in one, from X0p
+/// exactly to the goal's square, without the LiDAR's edge. Hermite–Simpson, its rows at midpoints
+/// too; intervals grow along the way, for what is near is driven first. Transcribed once for a
+/// number of obstacles, and solved for any fewer.
+class ArrivalProblem {
+ public:
+  ArrivalProblem(const Task& task, std::size_t obstacles);
+
+  /// Solves from `guess` (whose end is the guess of the final time) for obstacles grown as they are
+  /// given, no more of them than it was made for. None when it is not solved, nor near it. `solver`
+  /// is used for this alone.
+  std::optional<Motion> solve(const Motion& guess, const vehicle::State& X0p,
+                              const std::vector<world::Obstacle>& grown, nlp::Solver& solver,
+                              nlp::Options options);
+
+  int iterations() const { return answer_.iterations; }  ///< of the last solve
+  nlp::Status status() const { return answer_.status; }
+
+ private:
+  using Expr = ocp::Expr;
+  void set_obstacles(const std::vector<world::Obstacle>& grown);
+  void add_dynamics(const Task& task);
+  void add_limits(const vehicle::Model& model, const vehicle::Parameters& vehicle);
+  void add_obstacles();
+  void add_cost_and_end(const Task& task);
+
+  std::size_t members_;
+  int intervals_;
+  ocp::Problem problem_;
+  ocp::ConstraintId obstacle_rows_{};
+  std::array<Expr, vehicle::kStates> X_, X0p_;
+  std::array<Expr, vehicle::kControls> U_;
+  Expr t_start_;
+  std::optional<ocp::Transcription> transcription_;
+  nlp::Answer answer_;
+};
+
+}  // namespace slalom::planner

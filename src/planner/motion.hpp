@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "slalom/vehicle/state.hpp"
+
+namespace slalom::planner {
+
+/// A motion through time: states and controls at knots of absolute time [s], the controls linear
+/// between them.
+struct Motion {
+  std::vector<double> t;
+  std::vector<vehicle::State> states;
+  std::vector<vehicle::Control> controls;
+
+  std::size_t size() const { return t.size(); }
+  double begin() const { return t.front(); }
+  double end() const { return t.back(); }
+  void add(double at, const vehicle::State& state, const vehicle::Control& control) {
+    t.push_back(at);
+    states.push_back(state);
+    controls.push_back(control);
+  }
+
+  /// Linear between knots; the first before them, and the last after them.
+  vehicle::State state_at(double at) const;
+  vehicle::Control control_at(double at) const;
+};
+
+}  // namespace slalom::planner

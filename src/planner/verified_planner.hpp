@@ -1,0 +1,67 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arrival_problem.hpp"
+#include "motion.hpp"
+#include "planning_method.hpp"
+#include "slalom/nlp/solver.hpp"
+#include "slalom/vehicle/plant.hpp"
+#include "slalom/world/way_finder.hpp"
+#include "tracker.hpp"
+#include "verifier.hpp"
+
+namespace slalom::planner {
+
+/// Plans whole ways to the goal and drives none that is not verified (docs/verified-planner.md). In
+/// each cycle the rest of the last plan comes first, driven anew by the plant from the state
+/// predicted; then, as long as time is left, new motions: the last one's OCP solved again, ways of
+/// a search, tracked as they are and solved from there, and stops. What is driven is the cheapest
+/// that is verified, else the rest, else the motion whose first violation is the latest.
+class VerifiedPlanner final : public PlanningMethod {
+ public:
+  explicit VerifiedPlanner(const Task& task);
+
+  Plan plan(const Request& request) override;
+  void reset() override { last_.reset(); }
+
+ private:
+  struct Option {
+    std::string name;
+    Motion motion;
+    Verdict verdict;
+    double cost = 0;
+  };
+  struct Cycle;
+
+  std::vector<world::Obstacle> known(const Request& request) const;
+  void continue_last(Cycle& cycle);
+  void improve(Cycle& cycle);
+  void guide(Cycle& cycle);
+  void stop(Cycle& cycle);
+  void solve(Cycle& cycle, const Motion& guess, const std::string& name);
+  Motion settled(Motion motion) const;
+  bool consider(Cycle& cycle, const std::string& name, Motion motion);
+  std::vector<world::Obstacle> near(const Cycle& cycle, const Motion& guess,
+                                    const std::vector<double>& extra) const;
+  ArrivalProblem& problem_for(std::size_t obstacles);
+  double cost_of(const Motion& motion, const Verdict& verdict) const;
+  Plan choose(Cycle& cycle);
+
+  const Task task_;
+  const vehicle::Plant plant_;
+  Tracker tracker_;
+  Verifier verifier_;
+  world::WayFinder ways_;
+  std::unique_ptr<nlp::Solver> solver_;
+  std::map<std::size_t, ArrivalProblem> problems_;
+  std::optional<Option> last_;                   ///< what is driven
+  std::vector<world::Obstacle> last_obstacles_;  ///< among which it was verified
+  double last_improved_ = 0;
+};
+
+}  // namespace slalom::planner

@@ -1,0 +1,184 @@
+#include "verifier.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace slalom::planner {
+namespace {
+
+using namespace vehicle;
+
+/// An interval as short as this [s] is not divided further: what its bound does not show is
+/// refused.
+constexpr double kShortest = 5e-4;
+/// Speed grows by less than this within an interval between knots [m/s].
+constexpr double kSpeedSlack = 0.5;
+/// Wheel loads are looked at this often [s] at least. Between, they change by less than what
+/// verified_wheel_load stands above the load at which a wheel lifts.
+constexpr double kLoadStep = 0.026;
+/// What the integrator and the loop's other choice of instants may add to ax [m/s^2], ux [m/s] and
+/// sa [rad] at their limits.
+constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e-3;
+/// A vehicle stands when it is slower than this [m/s] and accelerates by less than this [m/s^2].
+constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
+/// Standing, distances are looked at this far apart at the least [m].
+constexpr double kLook = 0.01;
+/// Within the goal's square by this much counts as there [m].
+constexpr double kInside = 0.1;
+
+double speed(const Parameters& p, const State& x) {
+  return std::hypot(x[UX], x[V] + p.la * x[R]);
+}
+
+/// Distance to an obstacle's edge, or a lower bound of it where it is beyond `far`.
+double distance_within(const world::Obstacle& o, const State& x, double t, double far) {
+  const double dx = x[X] - o.x_at(t), dy = x[Y] - o.y_at(t);
+  const double bound = std::hypot(dx, dy) - std::max(o.a, o.b);
+  return bound > far || o.a == o.b ? bound : world::distance(o, x[X], x[Y], t);
+}
+
+}  // namespace
+
+/// Between two knots, or a part of it.
+struct Verifier::Interval {
+  double t0, t1;
+  const State &x0, &x1;
+  Control u0, u1;
+};
+
+void Verifier::refuse(double t, std::string why) {
+  auto& certificate = verdict_.certificate;
+  if (!certificate.refused.empty()) return;
+  certificate.refused = fmt::format("{} at {:.4g} s", why, t);
+  certificate.refused_at = t;
+}
+
+void Verifier::note_limits(double t, const State& x) {
+  const Parameters& p = task_.vehicle;
+  auto& certificate = verdict_.certificate;
+  const WheelLoads loads = plant_.dynamics().wheel_loads(x);
+  for (std::size_t w = 0; w < kWheels; ++w) {
+    certificate.least_wheel_load = std::min(certificate.least_wheel_load, loads[w]);
+    if (!(loads[w] >= task_.planner.verified_wheel_load))
+      refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
+  }
+  if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
+  if (!(x[UX] <= p.ux_max + kUxSlack && x[UX] >= p.ux_min))
+    refuse(t, fmt::format("speed of {:.4g} m/s", x[UX]));
+  if (!(std::fabs(x[SA]) <= p.sa_max() + kSteeringSlack)) refuse(t, "steering angle");
+  if (!(x[AX] >= p.ax_min_at(x[UX]) - kAccelerationSlack &&
+        x[AX] <= p.ax_max_at(x[UX]) + kAccelerationSlack))
+    refuse(t, fmt::format("acceleration of {:.3g} m/s^2", x[AX]));
+}
+
+/// Along an interval, distance falls below the mean of its ends by half the way that vehicle and
+/// obstacle can go towards each other at the most.
+void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
+  const auto& o = (*obstacles_)[obstacle];
+  const double need = task_.planner.verified_clearance;
+  const double rate = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
+                      kSpeedSlack + std::hypot(o.vx, o.vy);
+  const double reach = rate * (i.t1 - i.t0);
+  const double d0 = distance_within(o, i.x0, i.t0, need + reach);
+  const double d1 = distance_within(o, i.x1, i.t1, need + reach);
+  auto& certificate = verdict_.certificate;
+  const double least = std::min(d0, d1);
+  verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], least);
+  if (least < certificate.least_clearance) {
+    certificate.least_clearance = least;
+    certificate.nearest = o.name;
+  }
+  if (!(least >= need)) return refuse(i.t0, "clearance to " + o.name);
+  if ((d0 + d1 - reach) / 2 >= need) return;
+  if (i.t1 - i.t0 < kShortest) return refuse(i.t0, "clearance to " + o.name);
+  const double middle = (i.t0 + i.t1) / 2;
+  Control u;
+  for (std::size_t c = 0; c < kControls; ++c) u[c] = (i.u0[c] + i.u1[c]) / 2;
+  const State x = plant_.advance(i.x0, i.u0, u, i.t0, middle);
+  keep_off({i.t0, middle, i.x0, x, i.u0, u}, obstacle);
+  keep_off({middle, i.t1, x, i.x1, u, i.u1}, obstacle);
+}
+
+/// After its end the motion goes on straight at the speed it ends with. Distance is looked at as
+/// often as both speeds allow it to fall to what is needed.
+void Verifier::stand_for_good(const Motion& motion) {
+  const State& x = motion.states.back();
+  const double forward_x = std::cos(x[PSI]) * x[UX], forward_y = std::sin(x[PSI]) * x[UX];
+  const double need = task_.planner.verified_clearance;
+  for (std::size_t k = 0; k < obstacles_->size(); ++k) {
+    const auto& o = (*obstacles_)[k];
+    const double rate = std::hypot(o.vx - forward_x, o.vy - forward_y);
+    double after = 0;
+    while (after <= task_.planner.standing_horizon) {
+      const double d = world::distance(o, x[X] + forward_x * after, x[Y] + forward_y * after,
+                                       motion.end() + after);
+      verdict_.nearest[k] = std::min(verdict_.nearest[k], d);
+      if (!(d >= need + kLook))
+        return refuse(motion.end() + after, "standing in the way of " + o.name);
+      if (rate == 0) break;
+      after += std::max(d - need, kLook) / rate;
+    }
+  }
+}
+
+void Verifier::find_end(const Motion& motion, double tex) {
+  const auto& goal = task_.goal;
+  for (double t = motion.begin(); t <= motion.end() + 1e-9; t += tex) {
+    const State x = motion.state_at(t);
+    if (goal.outside(x[X], x[Y]) > -kInside) continue;
+    verdict_.end = MotionEnd::arrives;
+    verdict_.arrival = t;
+    // The square's edge is passed a little earlier, which tells motions apart that are looked at
+    // at the same moment.
+    for (std::size_t k = motion.size(); k-- > 0;)
+      if (motion.t[k] <= t) {
+        if (goal.outside(motion.states[k][X], motion.states[k][Y]) > 0) break;
+        verdict_.arrival = motion.t[k];
+      }
+    return;
+  }
+  const State& last = motion.states.back();
+  if (last[UX] < kStanding && std::fabs(last[AX]) < kStandingAcceleration)
+    verdict_.end = MotionEnd::stands;
+}
+
+Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
+                        double tex) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  obstacles_ = &obstacles;
+  verdict_ = {};
+  verdict_.nearest.assign(obstacles.size(), inf);
+  auto& certificate = verdict_.certificate;
+  certificate.least_clearance = certificate.least_wheel_load = inf;
+  if (motion.size() < 2) {
+    refuse(0, "no motion");
+    return verdict_;
+  }
+  certificate.until = motion.end();
+  note_limits(motion.t[0], motion.states[0]);
+  for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {
+    const Interval i{motion.t[k],          motion.t[k + 1],    motion.states[k],
+                     motion.states[k + 1], motion.controls[k], motion.controls[k + 1]};
+    note_limits(i.t1, i.x1);
+    if (i.t1 - i.t0 > kLoadStep) {
+      const double middle = (i.t0 + i.t1) / 2;
+      State x;
+      for (std::size_t s = 0; s < kStates; ++s) x[s] = (i.x0[s] + i.x1[s]) / 2;
+      note_limits(middle, x);
+    }
+    for (std::size_t o = 0; o < obstacles.size(); ++o) keep_off(i, o);
+  }
+  if (certificate.refused.empty()) {
+    find_end(motion, tex);
+    if (verdict_.end == MotionEnd::open) refuse(motion.end(), "it neither arrives nor stands");
+    if (verdict_.end == MotionEnd::stands) stand_for_good(motion);
+  }
+  certificate.verified = certificate.refused.empty();
+  return verdict_;
+}
+
+}  // namespace slalom::planner

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "motion.hpp"
+#include "slalom/planner/plan.hpp"
+#include "slalom/planner/task.hpp"
+#include "slalom/vehicle/plant.hpp"
+#include "slalom/world/obstacle.hpp"
+
+namespace slalom::planner {
+
+/// How a motion ends.
+enum class MotionEnd {
+  arrives,  ///< it is within the goal's square when the loop looks
+  stands,   ///< it creeps, clear of every obstacle's path for good
+  open      ///< neither
+};
+
+/// What verify() found.
+struct Verdict {
+  Certificate certificate;
+  MotionEnd end = MotionEnd::open;
+  double arrival = 0;           ///< when it arrives [s]
+  std::vector<double> nearest;  ///< least distance to each obstacle's edge [m]
+};
+
+/// Judges motions of the plant: whether, driven as they stand, they keep off all obstacles as
+/// predicted, within the region and the vehicle's limits, and end where the vehicle can stay.
+/// Between knots the distance to an obstacle is bounded by the sum of both speeds; where the bound
+/// does not decide, the plant's own integrator gives the state between (conservative advancement:
+/// B. Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996, section 2.3). Not
+/// thread-safe.
+class Verifier {
+ public:
+  /// Both outlive it.
+  Verifier(const Task& task, const vehicle::Plant& plant) : task_(task), plant_(plant) {}
+
+  /// `motion` among `obstacles`, of a cycle whose plan begins at motion.begin() and whose next
+  /// checks of arrival are `tex` [s] apart from there.
+  Verdict judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles, double tex);
+
+  /// The last verdict.
+  const Verdict& last() const { return verdict_; }
+
+ private:
+  struct Interval;
+  void note_limits(double t, const vehicle::State& state);
+  void keep_off(const Interval& interval, std::size_t obstacle);
+  void find_end(const Motion& motion, double tex);
+  void stand_for_good(const Motion& motion);
+  void refuse(double t, std::string why);
+
+  const Task& task_;
+  const vehicle::Plant& plant_;
+  const std::vector<world::Obstacle>* obstacles_ = nullptr;
+  Verdict verdict_;
+};
+
+}  // namespace slalom::planner
