@@ -20,6 +20,9 @@ namespace {
 
 /// Each interval of the mesh is longer than the one before by this factor.
 constexpr double kGrowth = 1.03;
+/// Where rows of moving obstacles hold about each point, in lengths of the interval: points are
+/// half an interval apart.
+constexpr std::array kShares = {-0.2, -0.1, 0., 0.1, 0.2};
 /// Where the end may lie, in half-widths of the goal's square from its centre.
 constexpr double kEnd = 0.6;
 /// Points of the guess for each interval.
@@ -44,8 +47,19 @@ ocp::Mesh growing_mesh(int intervals) {
 
 }  // namespace
 
-ArrivalProblem::ArrivalProblem(const Task& task, std::size_t obstacles)
-    : members_(obstacles), intervals_(task.planner.arrival_N), problem_("arrival") {
+ArrivalProblem::Room ArrivalProblem::room_for(const std::vector<world::Obstacle>& obstacles) {
+  const auto moving = static_cast<std::size_t>(
+      std::count_if(obstacles.begin(), obstacles.end(), [](const auto& o) { return o.moves(); }));
+  const auto in_steps = [](std::size_t number, std::size_t first) {
+    std::size_t room = 0;
+    while (room < number) room = std::max(first, 2 * room);
+    return room;
+  };
+  return {in_steps(obstacles.size() - moving, 4), in_steps(moving, 1)};
+}
+
+ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
+    : room_(room), intervals_(task.planner.arrival_N), problem_("arrival") {
   add_dynamics(task);
   add_obstacles();
   add_cost_and_end(task);
@@ -70,9 +84,9 @@ void ArrivalProblem::add_dynamics(const Task& task) {
   t_start_ = problem_.parameter("t_start", 0);
   problem_.initial_time(Bounds::equal(0), 0);
   problem_.final_time({task.planner.tf_min, task.planner.arrival_tf_max}, 10);
-  const auto rate = in_terms_of(model.derivative, model, X_, U_);
+  rate_ = in_terms_of(model.derivative, model, X_, U_);
   for (std::size_t i = 0; i < kStates; ++i) {
-    problem_.dynamics(X_[i], rate[i]);
+    problem_.dynamics(X_[i], rate_[i]);
     problem_.boundary(std::string("initial ") + kStateNames[i], problem_.initial(X_[i]) - X0p_[i],
                       Bounds::equal(0));
   }
@@ -95,27 +109,43 @@ void ArrivalProblem::add_obstacles() {
   const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
   const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
-  const Expr t = t_start_ + problem_.time();
-  const Expr outside = square((X_[X] - xo - vx * t) / a) + square((X_[Y] - yo - vy * t) / b);
-  obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
-                                        Bounds::at_least(0), Points::after_first);
+  const Expr share = Expr::symbol("share");
+  if (room_.standing > 0)
+    standing_rows_ = problem_.path_family("standing obstacle", {xo, yo, a, b},
+                                          square((X_[X] - xo) / a) + square((X_[Y] - yo) / b) - 1,
+                                          Bounds::at_least(0), Points::after_first);
+  if (room_.moving == 0) return;
+  // The length of the interval about a point, as the mesh grows along tau.
+  const double whole = std::pow(kGrowth, intervals_) - 1;
+  const Expr interval =
+      (1 + whole * problem_.tau()) * ((kGrowth - 1) / whole) * problem_.final_time();
+  const Expr after = share * interval;
+  const Expr t = t_start_ + problem_.time() + after;
+  const Expr x = X_[X] + after * rate_[X] - xo - vx * t, y = X_[Y] + after * rate_[Y] - yo - vy * t;
+  moving_rows_ = problem_.path_family("moving obstacle", {xo, yo, a, b, vx, vy, share},
+                                      square(x / a) + square(y / b) - 1, Bounds::at_least(0),
+                                      Points::after_first);
 }
 
 /// Places that no obstacle takes are taken by one far away from everything.
 void ArrivalProblem::set_obstacles(const std::vector<world::Obstacle>& grown) {
-  constexpr double far = 1e5;
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> numbers;
-  for (std::size_t k = 0; k < members_; ++k) {
-    names.push_back(fmt::format("{}", k));
-    if (k < grown.size()) {
-      const auto& o = grown[k];
-      numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
-    } else {
-      numbers.push_back({far, far, 1e3, 1e3, 0, 0});
-    }
+  constexpr double far = 1e5, size = 1e3;
+  std::vector<std::vector<double>> standing, moving;
+  for (const auto& o : grown) {
+    if (!o.moves()) standing.push_back({o.x, o.y, o.a, o.b});
+    if (!o.moves()) continue;
+    for (const double share : kShares) moving.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy, share});
   }
-  problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
+  standing.resize(room_.standing, {far, far, size, size});
+  moving.resize(room_.moving * kShares.size(), {far, far, size, size, 0, 0, 0});
+  const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers) {
+    if (numbers.empty()) return;
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < numbers.size(); ++k) names.push_back(fmt::format("{}", k));
+    problem_.set_members(rows, std::move(names), std::move(numbers));
+  };
+  set(standing_rows_, std::move(standing));
+  set(moving_rows_, std::move(moving));
 }
 
 void ArrivalProblem::add_cost_and_end(const Task& task) {

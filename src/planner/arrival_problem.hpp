@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <optional>
 #include <vector>
 
@@ -14,15 +15,25 @@ namespace slalom::planner {
 
 /// The OCP of section 3 of docs/formulation.md with its end changed: the whole way in one, from X0p
 /// exactly to the goal's square, without the LiDAR's edge. Hermite–Simpson, its rows at midpoints
-/// too; intervals grow along the way, for what is near is driven first. Transcribed once for a
-/// number of obstacles, and solved for any fewer.
+/// too; intervals grow along the way, for what is near is driven first. An obstacle that moves
+/// could pass between two points: its rows hold at moments between them too, to which vehicle and
+/// obstacle go on at the velocity they have at the point. Transcribed once for a number of
+/// obstacles, and solved for any fewer.
 class ArrivalProblem {
  public:
-  ArrivalProblem(const Task& task, std::size_t obstacles);
+  /// How many obstacles of each kind there is room for.
+  struct Room {
+    std::size_t standing = 0, moving = 0;
+    friend auto operator<=>(const Room&, const Room&) = default;
+  };
+
+  ArrivalProblem(const Task& task, const Room& room);
+  /// The room that these obstacles need, in steps, so that few problems serve all cycles.
+  static Room room_for(const std::vector<world::Obstacle>& obstacles);
 
   /// Solves from `guess` (whose end is the guess of the final time) for obstacles grown as they are
-  /// given, no more of them than it was made for. None when it is not solved, nor near it. `solver`
-  /// is used for this alone.
+  /// given, no more of them than there is room for. None when it is not solved, nor near it.
+  /// `solver` is used for this alone.
   std::optional<Motion> solve(const Motion& guess, const vehicle::State& X0p,
                               const std::vector<world::Obstacle>& grown, nlp::Solver& solver,
                               nlp::Options options);
@@ -38,11 +49,11 @@ class ArrivalProblem {
   void add_obstacles();
   void add_cost_and_end(const Task& task);
 
-  std::size_t members_;
+  Room room_;
   int intervals_;
   ocp::Problem problem_;
-  ocp::ConstraintId obstacle_rows_{};
-  std::array<Expr, vehicle::kStates> X_, X0p_;
+  ocp::ConstraintId standing_rows_{}, moving_rows_{};
+  std::array<Expr, vehicle::kStates> X_, X0p_, rate_;
   std::array<Expr, vehicle::kControls> U_;
   Expr t_start_;
   std::optional<ocp::Transcription> transcription_;

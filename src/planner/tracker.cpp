@@ -22,7 +22,7 @@ constexpr double kSettling = 1.2;
 /// Below this speed the linearisation is that of this speed [m/s]: tyres react ever faster.
 constexpr double kSlowest = 0.8;
 /// Weights of the controls [1/(rad/s)^2, 1/(m/s^3)^2] against those of state_weight().
-constexpr double kSteeringRateWeight = 120, kJerkWeight = 0.15;
+constexpr double kSteeringRateWeight = 300, kJerkWeight = 0.15;
 
 /// Weights of being off the reference: 25/m^2 across it and 2/m^2 along it, for where in time one
 /// passes matters less than where.
@@ -76,12 +76,13 @@ Square product(const Square& a, const Square& b) {
   return result;
 }
 
-/// A step of h [s] of x' = A x + B u with u held, by the (1, 2) Padé approximation of exp(A h): of
-/// order 3, and L-stable, for tyres at low speed react within milliseconds.
-void discretise(double h, Square& A, std::array<Control, kStates>& B) {
+/// A step of h [s] of x' = f + A x + B u with u held, from x = 0 for f's part, by the (1, 2) Padé
+/// approximation of exp(A h): of order 3, and L-stable, for tyres at low speed react within
+/// milliseconds.
+void discretise(double h, Square& A, std::array<Control, kStates>& B, State& f) {
   const Square A2 = product(A, A);
   Square left;
-  std::array<std::array<double, kInputs>, kStates> right{};
+  std::array<std::array<double, kInputs + 1>, kStates> right{};
   for (std::size_t i = 0; i < kStates; ++i)
     for (std::size_t j = 0; j < kStates; ++j) {
       const double one = i == j ? 1 : 0;
@@ -90,11 +91,13 @@ void discretise(double h, Square& A, std::array<Control, kStates>& B) {
       // (A h)^-1 (exp(A h) - 1) of the same approximation: (1 - A h / 6) over its denominator.
       for (std::size_t c = 0; c < kControls; ++c)
         right[i][kStates + c] += h * (one - h / 6 * A[i][j]) * B[j][c];
+      right[i][kInputs] += h * (one - h / 6 * A[i][j]) * f[j];
     }
   solve(left, right);
   for (std::size_t i = 0; i < kStates; ++i) {
     for (std::size_t j = 0; j < kStates; ++j) A[i][j] = right[i][j];
     for (std::size_t c = 0; c < kControls; ++c) B[i][c] = right[i][kStates + c];
+    f[i] = right[i][kInputs];
   }
 }
 
@@ -120,8 +123,8 @@ void Tracker::linearise(std::size_t steps, double h) {
     inputs_[UX * steps + k] = std::max(state_[k][UX], kSlowest);
     for (std::size_t c = 0; c < kControls; ++c) inputs_[(kStates + c) * steps + k] = control_[k][c];
   }
-  derivative_.evaluate(steps, inputs_, {}, {}, {.values = false, .jacobian = true}, {}, jacobian_,
-                       {});
+  derivatives_.resize(kStates * steps);
+  derivative_.evaluate(steps, inputs_, {}, {}, {.jacobian = true}, derivatives_, jacobian_, {});
   A_.assign(steps, {});
   B_.assign(steps, {});
   for (std::size_t e = 0; e < pattern.size(); ++e)
@@ -133,7 +136,12 @@ void Tracker::linearise(std::size_t steps, double h) {
       else
         B_[k][row][column - kStates] = value;
     }
-  for (std::size_t k = 0; k < steps; ++k) discretise(h, A_[k], B_[k]);
+  defect_.resize(steps);
+  for (std::size_t k = 0; k < steps; ++k) {
+    for (std::size_t i = 0; i < kStates; ++i) defect_[k][i] = derivatives_[i * steps + k];
+    discretise(h, A_[k], B_[k], defect_[k]);
+    for (std::size_t i = 0; i < kStates; ++i) defect_[k][i] += state_[k][i] - state_[k + 1][i];
+  }
 }
 
 /// The Riccati recursion, backwards: P = Q + A' P A - G' (R + B' P B) G, where
@@ -218,16 +226,16 @@ Motion Tracker::follow(const Motion& reference, const State& X0, double t0, doub
   motion.add(t0, x, u);
   for (std::size_t k = 0; k < steps; ++k) {
     // The next knot's control is found from where the linear model expects to be by then.
-    State ahead = state_[k + 1];
+    State ahead = state_[k + 1], expected = defect_[k];
     for (std::size_t i = 0; i < kStates; ++i) {
-      for (std::size_t j = 0; j < kStates; ++j) ahead[i] += A_[k][i][j] * off[j];
-      for (std::size_t c = 0; c < kControls; ++c) ahead[i] += B_[k][i][c] * (u[c] - control_[k][c]);
-      off[i] = ahead[i] - state_[k + 1][i];
+      for (std::size_t j = 0; j < kStates; ++j) expected[i] += A_[k][i][j] * off[j];
+      for (std::size_t c = 0; c < kControls; ++c)
+        expected[i] += B_[k][i][c] * (u[c] - control_[k][c]);
     }
     ahead[UX] = x[UX] + h * x[AX];
     ahead[AX] = x[AX] + h * u[JX];
     ahead[SA] = x[SA] + h * u[SR];
-    const Control next = steered(k + 1, off, ahead, h);
+    const Control next = steered(k + 1, expected, ahead, h);
     const double t = t0 + static_cast<double>(k) * h, t1 = t0 + static_cast<double>(k + 1) * h;
     try {
       x = plant_.advance(x, u, next, t, t1);

@@ -45,8 +45,9 @@ class Tracker {
   std::vector<vehicle::Control> control_;
   std::vector<Square> A_;
   std::vector<Inputs> B_;
+  std::vector<vehicle::State> defect_;  ///< by which the reference is no motion of the plant
   std::vector<Gain> gain_;
-  std::vector<double> inputs_, jacobian_;
+  std::vector<double> inputs_, derivatives_, jacobian_;
 };
 
 }  // namespace slalom::planner

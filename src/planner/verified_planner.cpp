@@ -268,10 +268,9 @@ std::vector<world::Obstacle> VerifiedPlanner::near(const Cycle& cycle, const Mot
   return result;
 }
 
-/// The problem for so many obstacles, one for 4, 8, 16, ...
-ArrivalProblem& VerifiedPlanner::problem_for(std::size_t obstacles) {
-  std::size_t room = 4;
-  while (room < obstacles) room *= 2;
+/// The problem with room for these obstacles, made when it is first wanted.
+ArrivalProblem& VerifiedPlanner::problem_for(const std::vector<world::Obstacle>& obstacles) {
+  const auto room = ArrivalProblem::room_for(obstacles);
   const auto found = problems_.find(room);
   return (found != problems_.end() ? found : problems_.try_emplace(room, task_, room).first)
       ->second;
@@ -295,11 +294,11 @@ void VerifiedPlanner::solve(Cycle& cycle, const Motion& guess, const std::string
     if (from.end() - from.begin() < shortest) return;
     const auto obstacles = near(cycle, from, extra);
     nlp::Options options;
-    options.floor = task_.planner.floor;
+    options.floor = task_.planner.arrival_floor;
     options.tol = task_.planner.tol;
     options.max_iterations = task_.planner.arrival_max_iterations;
     options.time_limit = cycle.left();
-    ArrivalProblem& problem = problem_for(obstacles.size());
+    ArrivalProblem& problem = problem_for(obstacles);
     auto answer = problem.solve(from, cycle.request.X0p, obstacles, *solver_, options);
     cycle.iterations += problem.iterations();
     if (!answer) return;

@@ -48,7 +48,7 @@ class VerifiedPlanner final : public PlanningMethod {
   bool consider(Cycle& cycle, const std::string& name, Motion motion);
   std::vector<world::Obstacle> near(const Cycle& cycle, const Motion& guess,
                                     const std::vector<double>& extra) const;
-  ArrivalProblem& problem_for(std::size_t obstacles);
+  ArrivalProblem& problem_for(const std::vector<world::Obstacle>& obstacles);
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   Plan choose(Cycle& cycle);
 
@@ -58,7 +58,7 @@ class VerifiedPlanner final : public PlanningMethod {
   Verifier verifier_;
   world::WayFinder ways_;
   std::unique_ptr<nlp::Solver> solver_;
-  std::map<std::size_t, ArrivalProblem> problems_;
+  std::map<ArrivalProblem::Room, ArrivalProblem> problems_;
   std::optional<Option> last_;                   ///< what is driven
   std::vector<world::Obstacle> last_obstacles_;  ///< among which it was verified
   double last_improved_ = 0;

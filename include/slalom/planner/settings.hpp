@@ -86,6 +86,7 @@ struct Settings {
   double verified_wheel_load = 400;  ///< [N]
   double standing_horizon = 60;      ///< for which standing must be clear of obstacles [s]
   double arrival_margin = 0.3;       ///< of the OCP's obstacles beyond verified_clearance [m]
+  double arrival_floor = 0.1;        ///< barrier floor of that OCP [cost units]
   int arrival_N = 40;                ///< mesh intervals of a whole way
   double arrival_tf_max = 70;        ///< longest way [s]
   int arrival_max_iterations = 200;  ///< of one solve
