@@ -29,10 +29,12 @@ constexpr double kBeyondHorizons = 2, kBeyond = 1;
 constexpr double kShare = 0.8;
 /// Obstacles farther from a guess than this [m] are left out of its OCP.
 constexpr double kFar = 18;
+/// Standing ones nearer than this to the edge of their margin have rows between the points [m].
+constexpr double kClose = 1.5;
 /// An obstacle that a tracked motion came too near to grows by the shortfall and this [m], so many
 /// times.
 constexpr double kRegrow = 0.08;
-constexpr int kRounds = 3;
+constexpr int kRounds = 5;
 /// A way found while another leads to the goal is looked at if it is sooner by this [s].
 constexpr double kSooner = 0.3;
 /// How stops brake [m/s^2].
@@ -248,28 +250,27 @@ void VerifiedPlanner::guide(Cycle& cycle) {
   }
 }
 
-std::vector<world::Obstacle> VerifiedPlanner::near(const Cycle& cycle, const Motion& guess,
-                                                   const std::vector<double>& extra) const {
-  std::vector<std::pair<double, world::Obstacle>> found;
+/// The obstacles that the OCP keeps off: those that come near the guess, grown by their margins.
+ArrivalProblem::Obstacles VerifiedPlanner::near(const Cycle& cycle, const Motion& guess,
+                                                const std::vector<double>& extra) const {
+  ArrivalProblem::Obstacles result;
   const double margin = task_.planner.verified_clearance + task_.planner.arrival_margin;
   for (std::size_t k = 0; k < cycle.obstacles.size(); ++k) {
     const auto& o = cycle.obstacles[k];
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < guess.size(); ++i)
-      least = std::min(least, std::hypot(guess.states[i][X] - o.x_at(guess.t[i]),
-                                         guess.states[i][Y] - o.y_at(guess.t[i])) -
-                                  std::max(o.a, o.b));
-    if (least < kFar + margin) found.emplace_back(least, o.grown(margin + extra[k]));
+      least =
+          std::min(least, world::distance(o, guess.states[i][X], guess.states[i][Y], guess.t[i]));
+    if (o.moves() ? least < kFar + margin : least < kClose + margin)
+      result.close.push_back(o.grown(margin + extra[k]));
+    else if (least < kFar + margin)
+      result.far.push_back(o.grown(margin + extra[k]));
   }
-  std::sort(found.begin(), found.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<world::Obstacle> result;
-  for (auto& [distance, o] : found) result.push_back(std::move(o));
   return result;
 }
 
 /// The problem with room for these obstacles, made when it is first wanted.
-ArrivalProblem& VerifiedPlanner::problem_for(const std::vector<world::Obstacle>& obstacles) {
+ArrivalProblem& VerifiedPlanner::problem_for(const ArrivalProblem::Obstacles& obstacles) {
   const auto room = ArrivalProblem::room_for(obstacles);
   const auto found = problems_.find(room);
   return (found != problems_.end() ? found : problems_.try_emplace(room, task_, room).first)

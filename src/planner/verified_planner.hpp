@@ -46,9 +46,9 @@ class VerifiedPlanner final : public PlanningMethod {
   void solve(Cycle& cycle, const Motion& guess, const std::string& name);
   Motion settled(Motion motion) const;
   bool consider(Cycle& cycle, const std::string& name, Motion motion);
-  std::vector<world::Obstacle> near(const Cycle& cycle, const Motion& guess,
-                                    const std::vector<double>& extra) const;
-  ArrivalProblem& problem_for(const std::vector<world::Obstacle>& obstacles);
+  ArrivalProblem::Obstacles near(const Cycle& cycle, const Motion& guess,
+                                 const std::vector<double>& extra) const;
+  ArrivalProblem& problem_for(const ArrivalProblem::Obstacles& obstacles);
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   Plan choose(Cycle& cycle);
 
