@@ -161,7 +161,7 @@ void ArrivalProblem::add_cost_and_end(const Task& task) {
 
 std::optional<Motion> ArrivalProblem::solve(const Motion& guess, const State& X0p,
                                             const Obstacles& obstacles, nlp::Solver& solver,
-                                            nlp::Options options) {
+                                            const nlp::Options& options) {
   const double t_start = guess.begin(), tf = guess.end() - t_start;
   set_obstacles(obstacles);
   for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], X0p[i]);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "motion.hpp"
@@ -29,7 +29,9 @@ class ArrivalProblem {
   /// How many of each kind there is room for.
   struct Room {
     std::size_t far = 0, close = 0;
-    friend auto operator<=>(const Room&, const Room&) = default;
+    friend bool operator<(const Room& a, const Room& b) {
+      return std::pair(a.far, a.close) < std::pair(b.far, b.close);
+    }
   };
 
   ArrivalProblem(const Task& task, const Room& room);
@@ -41,7 +43,7 @@ class ArrivalProblem {
   /// alone.
   std::optional<Motion> solve(const Motion& guess, const vehicle::State& X0p,
                               const Obstacles& obstacles, nlp::Solver& solver,
-                              nlp::Options options);
+                              const nlp::Options& options);
 
   int iterations() const { return answer_.iterations; }  ///< of the last solve
   nlp::Status status() const { return answer_.status; }
