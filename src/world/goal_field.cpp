@@ -40,7 +40,7 @@ constexpr std::array<Neighbour, 16> kNeighbours = {{{-1, -2, kRoot5},
 void GoalField::build(const Frame& frame, double start_x, double start_y, double half_u,
                       double half_w, const Region& region, const std::vector<Ellipse>& obstacles) {
   half_u_ = half_u;
-  place_box(frame, frame.u(start_x, start_y), frame.w(start_x, start_y));
+  place_box(frame.u(start_x, start_y), frame.w(start_x, start_y));
   shut(frame, region, obstacles);
   open_.clear();
   const int in_u = static_cast<int>(half_u / h_), in_w = static_cast<int>(half_w / h_);
@@ -54,7 +54,7 @@ void GoalField::build(const Frame& frame, double start_x, double start_y, double
   spread();
 }
 
-void GoalField::place_box(const Frame&, double start_u, double start_w) {
+void GoalField::place_box(double start_u, double start_w) {
   const double u0 = std::min(start_u, 0.0) - kMargin, u1 = std::max(start_u, 0.0) + kMargin;
   const double w0 = std::min(start_w, 0.0) - kMargin, w1 = std::max(start_w, 0.0) + kMargin;
   h_ = kCell;

@@ -55,14 +55,14 @@ class GoalField {
     const double length = std::sqrt(u * u + w * w) - half_u_;
     return length > 0 ? length : 0;
   }
-  void place_box(const Frame& frame, double start_u, double start_w);
+  void place_box(double start_u, double start_w);
   void shut(const Frame& frame, const Region& region, const std::vector<Ellipse>& obstacles);
   void shut(const Frame& frame, const Ellipse& obstacle);
   void spread();
 
   double h_ = 1, half_u_ = 0;
   int i0_ = 0, j0_ = 0, columns_ = 0, rows_ = 0;
-  std::vector<float> length_;  ///< rows of columns; less than nothing where shut
+  std::vector<float> length_;  ///< of each cell, row by row
   std::vector<char> shut_;
   std::vector<std::pair<float, int>> open_;  ///< a heap
 };

@@ -1,9 +1,12 @@
 #include "slalom/world/way_finder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "place_search.hpp"
+#include "slalom/world/way_signature.hpp"
 
 namespace slalom::world {
 namespace {
@@ -32,6 +35,30 @@ PlaceSearch::Place first_place(const State& start, const Goal& goal,
   return place;
 }
 
+/// What find_ways() makes of the search it is given, in their order: as it is, slower and closer,
+/// and at last closest and sharpest.
+struct Variant {
+  double speed, clearance, lateral_acceleration;  ///< shares
+};
+constexpr std::array<Variant, 5> kVariants = {
+    {{1, 1, 1}, {0.72, 0.75, 1}, {0.46, 0.5, 1}, {0.29, 0.5, 1}, {0.9, 0.375, 1.25}}};
+
+WaySearch varied(const WaySearch& search, const Variant& by) {
+  WaySearch result = search;
+  result.v_max = std::max(search.v_max * by.speed, search.v_min);
+  result.clearance *= by.clearance;
+  result.lateral_acceleration *= by.lateral_acceleration;
+  return result;
+}
+
+/// A wall of circles that goes along with an obstacle and shuts the side on which a way passes it,
+/// from its edge to so far beyond the way; the half of its thickness [m].
+constexpr double kWallBeyond = 10, kWallHalf = 2;
+constexpr double kWallWithin = 10;  ///< of the way, farther from it obstacles get no wall [m]
+constexpr double kWallAfter = 1;    ///< sooner there is no time left to pass otherwise [s]
+constexpr int kWallsPerWay = 4;     ///< tried at the most, for each way wanted
+constexpr int kWallPlaces = 4;      ///< a wall's search looks at so many times fewer places
+
 }  // namespace
 
 class WayFinder::Impl {
@@ -45,21 +72,104 @@ class WayFinder::Impl {
   std::optional<Way> find(const State& start, double t_start,
                           const std::vector<Obstacle>& obstacles, const WaySearch& search,
                           const std::function<bool()>& out_of_budget) {
+    looked_at_ = 0;
+    wall_.clear();
+    return search_once({start, t_start, obstacles, out_of_budget}, search);
+  }
+
+  std::vector<Way> find_ways(const State& start, double t_start,
+                             const std::vector<Obstacle>& obstacles, const WaySearch& search,
+                             int most, const std::function<bool()>& out_of_budget) {
+    looked_at_ = 0;
+    wall_.clear();
+    const Question question = {start, t_start, obstacles, out_of_budget};
+    Answer answer;
+    for (const auto& variant : kVariants) {
+      if (static_cast<int>(answer.ways.size()) >= most || question.over()) return answer.ways;
+      add_way(question, varied(search, variant), answer);
+    }
+    WaySearch walled = search;
+    walled.max_places = search.max_places / kWallPlaces;
+    int left = kWallsPerWay * most;
+    for (std::size_t k = 0; k < answer.ways.size(); ++k)
+      for (const auto i : to_wall(question, answer.signatures[k])) {
+        if (static_cast<int>(answer.ways.size()) >= most || question.over() || left-- <= 0)
+          return answer.ways;
+        build_wall(answer.ways[k], answer.signatures[k][i], obstacles[i]);
+        add_way(question, walled, answer);
+      }
+    return answer.ways;
+  }
+
+  int looked_at() const { return looked_at_; }
+
+ private:
+  struct Question {
+    const State& start;
+    double t_start;
+    const std::vector<Obstacle>& obstacles;
+    const std::function<bool()>& out_of_budget;
+
+    bool over() const { return out_of_budget && out_of_budget(); }
+  };
+  struct Answer {
+    std::vector<Way> ways;
+    std::vector<WaySignature> signatures;
+  };
+
+  std::optional<Way> search_once(const Question& q, const WaySearch& search) {
     ellipses_.clear();
-    for (const auto& o : obstacles) add(o, start, t_start, search.clearance);
-    const auto place = first_place(start, goal_, vehicle_);
+    for (const auto& o : q.obstacles) add(o, q.start, q.t_start, search.clearance);
+    for (const auto& o : wall_) add(o, q.start, q.t_start, search.clearance);
+    const auto place = first_place(q.start, goal_, vehicle_);
     const bool found =
-        search_.run(place, region_for(place, search), ellipses_, search, out_of_budget);
+        search_.run(place, region_for(place, search), ellipses_, search, q.out_of_budget);
     looked_at_ += search_.looked_at();
     if (!found) return std::nullopt;
     Way way;
-    search_.write(t_start, way);
+    search_.write(q.t_start, way);
     return way;
   }
 
-  int looked_at_ = 0;
+  /// Searches, and keeps the way if it passes differently from those before.
+  void add_way(const Question& q, const WaySearch& search, Answer& answer) {
+    auto way = search_once(q, search);
+    if (!way) return;
+    auto passings = signature(*way, q.obstacles);
+    for (const auto& before : answer.signatures)
+      if (!differ(before, passings)) return;
+    answer.ways.push_back(std::move(*way));
+    answer.signatures.push_back(std::move(passings));
+  }
 
- private:
+  /// The obstacles worth a wall: those that move first, else in the order of passing.
+  static std::vector<std::size_t> to_wall(const Question& q, const WaySignature& passings) {
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < passings.size(); ++i) {
+      const auto& o = q.obstacles[i];
+      if (passings[i].nearest - std::max(o.a, o.b) < kWallWithin &&
+          passings[i].when > q.t_start + kWallAfter)
+        result.push_back(i);
+    }
+    std::stable_sort(result.begin(), result.end(), [&](std::size_t i, std::size_t j) {
+      const bool moves = q.obstacles[i].moves();
+      if (moves != q.obstacles[j].moves()) return moves;
+      return passings[i].when < passings[j].when;
+    });
+    return result;
+  }
+
+  void build_wall(const Way& way, const Passing& passing, const Obstacle& o) {
+    wall_.clear();
+    const auto at = std::lower_bound(way.begin(), way.end() - 1, passing.when,
+                                     [](const WayPoint& p, double t) { return p.t < t; });
+    const double dx = (at->x - o.x_at(at->t)) / passing.nearest;
+    const double dy = (at->y - o.y_at(at->t)) / passing.nearest;
+    const double edge = 1 / std::hypot(dx / o.a, dy / o.b);
+    for (double r = edge; r < passing.nearest + kWallBeyond; r += kWallHalf)
+      wall_.push_back({{}, o.x + r * dx, o.y + r * dy, kWallHalf, kWallHalf, o.vx, o.vy});
+  }
+
   Region region_for(const PlaceSearch::Place& start, const WaySearch& search) const {
     const auto x = static_cast<double>(start.x), y = static_cast<double>(start.y);
     return {side_for(region_.x_min - goal_.x, x, search.inset, 1),
@@ -90,7 +200,9 @@ class WayFinder::Impl {
   const Region region_;
   const vehicle::Parameters vehicle_;
   PlaceSearch search_;
+  std::vector<Obstacle> wall_;
   std::vector<Ellipse> ellipses_;
+  int looked_at_ = 0;
 };
 
 WayFinder::WayFinder(const Environment& environment, const vehicle::Parameters& vehicle)
@@ -102,7 +214,6 @@ WayFinder& WayFinder::operator=(WayFinder&&) noexcept = default;
 std::optional<Way> WayFinder::find(const State& start, double t_start,
                                    const std::vector<Obstacle>& obstacles, const WaySearch& search,
                                    const std::function<bool()>& out_of_budget) {
-  impl_->looked_at_ = 0;
   return impl_->find(start, t_start, obstacles, search, out_of_budget);
 }
 
@@ -110,16 +221,11 @@ std::vector<Way> WayFinder::find_ways(const State& start, double t_start,
                                       const std::vector<Obstacle>& obstacles,
                                       const WaySearch& search, int most,
                                       const std::function<bool()>& out_of_budget) {
-  impl_->looked_at_ = 0;
-  std::vector<Way> ways;
-  if (most > 0)
-    if (auto way = impl_->find(start, t_start, obstacles, search, out_of_budget))
-      ways.push_back(std::move(*way));
-  return ways;
+  return impl_->find_ways(start, t_start, obstacles, search, most, out_of_budget);
 }
 
 int WayFinder::looked_at() const {
-  return impl_->looked_at_;
+  return impl_->looked_at();
 }
 
 }  // namespace slalom::world
