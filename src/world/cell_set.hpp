@@ -10,6 +10,9 @@ namespace slalom::world {
 /// A set of keys above zero, in a table of open addressing that keeps its memory when cleared.
 class CellSet {
  public:
+  CellSet() { clear(); }
+
+  std::size_t size() const { return keys_.size(); }
   void clear() {
     keys_.clear();
     resize(kLeast);

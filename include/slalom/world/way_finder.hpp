@@ -36,7 +36,7 @@ struct WaySearch {
   double greed = 2;                   ///< how much more the way ahead counts than the way so far
   /// Cells within which places count as one: along the goal's direction and across it [m], heading
   /// [rad], speed [m/s], curvature (as a share of the most at the speed) and time [s].
-  double cell_along = 2, cell_across = 1, cell_heading = 0.04, cell_speed = 3, cell_curvature = 0.4,
+  double cell_along = 2, cell_across = 1, cell_heading = 0.16, cell_speed = 3, cell_curvature = 0.4,
          cell_time = 0.8;
   int max_places = 150'000;  ///< looked at before the search gives up
 };
