@@ -9,7 +9,8 @@ namespace {
 /// Of the goal's half-width, along its direction and across: a way that ends there is well inside
 /// the square, whatever the direction.
 constexpr double kAlong = 0.5, kAcross = 0.6;
-constexpr double kWayStep = 0.05;  ///< between a way's points [s]
+constexpr double kRounding = 1e-4;  ///< of curvatures, relative
+constexpr double kWayStep = 0.05;   ///< between a way's points [s]
 
 /// Turns the unit vector (c, s) by a small angle: a series, for a move has twenty such.
 void turn(double& c, double& s, double angle) {
@@ -162,14 +163,14 @@ void PlaceSearch::go_on(std::int32_t index) {
   const double v_least = std::min(p_.v_min, v), v_most = std::max(p_.v_max, v);
   const std::array<double, 3> pushes = {p_.acceleration_share * vehicle_.ax_max_at(v), 0,
                                         -p_.braking};
-  const bool too_sharp = std::fabs(kappa) > most_curvature(v);
+  const bool too_sharp = std::fabs(kappa) > (1 + 2 * kRounding) * most_curvature(v);
   for (const double share : {0.0, -1.0, 1.0, -0.4, 0.4})
     for (const double a : pushes) {
       const double most = most_curvature(std::clamp(v + a * p_.dt, v_least, v_most));
       const double rate =
           std::clamp((share * most - kappa) / p_.dt, -p_.curvature_rate, p_.curvature_rate);
       const double then = std::fabs(kappa + rate * p_.dt);
-      if (then > most * 1.0001 && !(too_sharp && then < std::fabs(kappa))) continue;
+      if (then > (1 + kRounding) * most && !(too_sharp && then < std::fabs(kappa))) continue;
       Motion at = here;
       if (!move(at, a, rate, v_least, v_most)) continue;
       add({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.heading),

@@ -99,7 +99,11 @@ void expect_drivable(const World& w, const Way& way, const WaySearch& search = {
   EXPECT_NEAR(way.front().x, w.start[vehicle::X], 1e-4);
   EXPECT_NEAR(way.front().y, w.start[vehicle::Y], 1e-4);
   EXPECT_NEAR(way.front().v, w.start[vehicle::UX], 1e-5);
-  EXPECT_LT(w.environment.goal.outside(way.back().x, way.back().y), 0);
+  const auto& goal = w.environment.goal;
+  EXPECT_LT(goal.outside(way.back().x, way.back().y), 0);
+  const double dx = way.back().x - goal.x, dy = way.back().y - goal.y;
+  EXPECT_LE(std::fabs(dx * std::cos(goal.psi) + dy * std::sin(goal.psi)), 0.5 * goal.sigma + 1e-4);
+  EXPECT_LE(std::fabs(dy * std::cos(goal.psi) - dx * std::sin(goal.psi)), 0.6 * goal.sigma + 1e-4);
   EXPECT_GT(clearance(way, w.environment.obstacles), 0.8 * search.clearance);
   for (std::size_t k = 0; k < way.size(); ++k) {
     const auto& q = way[k];
@@ -130,6 +134,20 @@ TEST(WayFinder, DrivesStraightOnWhereNothingIs) {
   expect_drivable(w, *way);
   for (const auto& p : *way) EXPECT_NEAR(p.x, 0, 1e-3);
   EXPECT_LT(way->back().t, 12.3 + 150 / 17.0);
+}
+
+TEST(WayFinder, LooksNoLongerAheadThanItIsToldTo) {
+  const auto w = northwards();
+  EXPECT_FALSE(w.find({.t_max = 3})) << "140 m from 17 m/s on";
+  EXPECT_TRUE(w.find({.t_max = 9}));
+}
+
+TEST(WayFinder, TurnsAround) {
+  auto w = northwards(80);
+  w.start = state(0, 0, -kPi / 2, 4);
+  const auto way = w.find();
+  ASSERT_TRUE(way);
+  expect_drivable(w, *way);
 }
 
 TEST(WayFinder, FindsTheGapInAWall) {
