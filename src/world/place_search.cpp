@@ -77,8 +77,10 @@ bool PlaceSearch::arrived(const Place& place) const {
 void PlaceSearch::add(const Place& place) {
   const auto x = static_cast<double>(place.x), y = static_cast<double>(place.y);
   const auto v = static_cast<double>(place.v);
-  const double u = frame_.u(x, y), w = frame_.w(x, y);
-  std::uint64_t key = 1;  // no key is zero
+  const double u = frame_.u(x, y), w = frame_.w(x, y), t = place.moves * p_.dt;
+  const double least = (std::sqrt(u * u + w * w) - goal_.sigma) / std::max(v, p_.v_max);
+  if (t + least > p_.t_max) return;  // straight on it is too late already
+  std::uint64_t key = 1;             // no key is zero
   const auto mix = [&key](double value, double size, int bits) {
     key = key << bits | cell(value, size, bits);
   };
@@ -87,11 +89,11 @@ void PlaceSearch::add(const Place& place) {
   mix(static_cast<double>(place.heading) - goal_.psi, p_.cell_heading, 10);
   mix(v, p_.cell_speed, 6);
   mix(static_cast<double>(place.kappa) / most_curvature(v), p_.cell_curvature, 6);
-  mix(place.moves * p_.dt, p_.cell_time, 10);
+  mix(t, p_.cell_time, 10);
   if (!cells_.insert(key)) return;
   places_.push_back(place);
-  open_.push_back({place.moves * p_.dt + p_.greed * field_(u, w) / p_.v_max,
-                   static_cast<std::int32_t>(places_.size() - 1)});
+  open_.push_back(
+      {t + p_.greed * field_(u, w) / p_.v_max, static_cast<std::int32_t>(places_.size() - 1)});
   std::push_heap(open_.begin(), open_.end());
 }
 

@@ -140,6 +140,9 @@ TEST(WayFinder, LooksNoLongerAheadThanItIsToldTo) {
   const auto w = northwards();
   EXPECT_FALSE(w.find({.t_max = 3})) << "140 m from 17 m/s on";
   EXPECT_TRUE(w.find({.t_max = 9}));
+  auto f = w.finder();
+  EXPECT_FALSE(f.find(w.start, 0, {}, {.t_max = 4}));
+  EXPECT_EQ(f.looked_at(), 0) << "135 m take longer at 28 m/s";
 }
 
 TEST(WayFinder, TurnsAround) {

@@ -48,7 +48,7 @@ struct WaySearch {
 /// alone is gone on from. The rank of a place is its time and the time from there along the
 /// shortest path around what stands. The same questions have the same answers, to the bit.
 ///
-/// Keeps its memory: searches that are no larger than one before allocate nothing but their answer.
+/// Keeps its memory: a find() that is no larger than one before allocates nothing but its answer.
 class WayFinder {
  public:
   /// Ways lead to the goal of `environment` within its region; its obstacles are not used.
