@@ -88,9 +88,9 @@ void GoalField::shut(const Frame& frame, const Ellipse& obstacle) {
   };
   for (int row = first(j - reach); row <= last(j + reach, rows_); ++row)
     for (int column = first(i - reach); column <= last(i + reach, columns_); ++column) {
+      const int at = row * columns_ + column;
       const double u = (column + i0_) * h_, w = (row + j0_) * h_;
-      if (obstacle.contains(frame.x(u, w), frame.y(u, w)))
-        shut_[static_cast<std::size_t>(row * columns_ + column)] = 1;
+      if (obstacle.contains(frame.x(u, w), frame.y(u, w))) shut_[static_cast<std::size_t>(at)] = 1;
     }
 }
 
