@@ -99,7 +99,7 @@ function(slalom_library)
 endfunction()
 
 # slalom_test_module(NAME [LIBRARIES ...]): GoogleTest programs of tests/NAME.
-#   *_test.cpp       test_NAME, label `unit`: run in every build, with sanitizers too
+#   *_test.cpp       test_NAME, label `unit`: run with sanitizers, and in other builds but for SANITIZED
 #   *_slow_test.cpp  test_NAME_slow, label `slow`: whole drives and the like, run in Release only
 #   */*.cpp          a library for both, such as a collection of problems
 # LIBRARIES are what these need besides the module itself. With SANITIZED, the unit tests are run with

@@ -2,8 +2,8 @@
 """Runs clang-tidy over src/ and apps/ in parallel; any finding fails.
 
 Files that are compiled as one are looked at as one, and without clang's static analyzer, which takes
-an eighth of the time; --alone looks at each by itself and with the analyzer, which also finds a
-using-declaration that only a neighbour in the batch needs.
+much less time; --alone looks at each by itself and with the analyzer, which also finds a
+using-declaration that only a neighbour in the batch needs; so are FILEs that are named.
 
 What passed is not looked at again until its text, a header of this project it includes, its
 compile command, .clang-tidy or clang-tidy itself changes: the record is in BUILD/tidy.
@@ -133,12 +133,12 @@ def main():
     version = subprocess.run(["clang-tidy", "--version"], stdout=subprocess.PIPE,
                              check=True).stdout
     only = {pathlib.Path(name).resolve() for name in options.files}
-    jobs = batches(build, only, options.alone)
+    jobs = batches(build, only, options.alone or only)
     if not jobs:
         print("tidy: no file to look at")
         return 1
 
-    checks = "" if options.alone else "-clang-analyzer-*"
+    checks = "" if options.alone or only else "-clang-analyzer-*"
     failed = 0
     known = 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
