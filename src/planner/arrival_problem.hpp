@@ -46,7 +46,7 @@ class ArrivalProblem {
                               const nlp::Options& options);
 
   int iterations() const { return answer_.iterations; }  ///< of the last solve
-  nlp::Status status() const { return answer_.status; }
+  double solver_cpu_s() const { return answer_.cpu_s; }  ///< of it [s]
 
  private:
   using Expr = ocp::Expr;

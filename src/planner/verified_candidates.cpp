@@ -62,7 +62,7 @@ void VerifiedPlanner::guide(Cycle& cycle) {
     search.max_places =
         urgent ? variant.places * task_.planner.search_places : task_.planner.improvement_places;
     const auto way = ways_.find(cycle.request.X0p, cycle.t_start(), obstacles, search,
-                                [&] { return cycle.over(); });
+                                [&] { return cycle.over() || cycle.left() < longest_besides_s_; });
     if (!way) continue;
     if (!urgent && way->back().t > cycle.rest->verdict.arrival - kSooner) return;
     const std::string name = "way " + std::to_string(k + 1);
@@ -72,11 +72,7 @@ void VerifiedPlanner::guide(Cycle& cycle) {
         tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end());
     Motion guess = tracked;
     consider(cycle, name, std::move(tracked));
-    while (guess.size() > 2 && guess.end() > way->back().t + kSameTime) {
-      guess.t.pop_back();
-      guess.states.pop_back();
-      guess.controls.pop_back();
-    }
+    while (guess.size() > 2 && guess.end() > way->back().t + kSameTime) guess.drop_last();
     solve(cycle, guess, name + ", solved");
   }
 }
@@ -100,12 +96,31 @@ ArrivalProblem::Obstacles VerifiedPlanner::near(const Cycle& cycle, const Motion
   return result;
 }
 
-/// The problem with room for these obstacles, made when it is first wanted.
-ArrivalProblem& VerifiedPlanner::problem_for(const ArrivalProblem::Obstacles& obstacles) {
+/// The problem with room for these obstacles, made when it is first wanted and there is time to.
+/// While there is none, one with more room will do.
+ArrivalProblem* VerifiedPlanner::problem_for(const Cycle& cycle,
+                                             const ArrivalProblem::Obstacles& obstacles) {
   const auto room = ArrivalProblem::room_for(obstacles);
   const auto found = problems_.find(room);
-  return (found != problems_.end() ? found : problems_.try_emplace(room, task_, room).first)
-      ->second;
+  if (found != problems_.end()) return &found->second;
+  if (cycle.left() > longest_making_s_) {
+    const Timer timer;
+    ArrivalProblem& made = problems_.try_emplace(room, task_, room).first->second;
+    longest_making_s_ = std::max(longest_making_s_, timer.cpu());
+    return &made;
+  }
+  for (auto& [other, problem] : problems_)
+    if (other.far >= room.far && other.close >= room.close) return &problem;
+  return nullptr;
+}
+
+/// A motion, but for what lies deep within the goal's square at its end.
+Motion VerifiedPlanner::to_the_goal(Motion motion) const {
+  const auto deep = [&](const State& x) {
+    return task_.goal.outside(x[X], x[Y]) < -task_.goal.sigma / 2;
+  };
+  while (motion.size() > 2 && deep(motion.states[motion.size() - 2])) motion.drop_last();
+  return motion;
 }
 
 /// Solves from a guess, tracks the answer, and where that came too near to an obstacle, solves
@@ -113,31 +128,28 @@ ArrivalProblem& VerifiedPlanner::problem_for(const ArrivalProblem::Obstacles& ob
 void VerifiedPlanner::solve(Cycle& cycle, const Motion& guess, const std::string& name) {
   constexpr double shortest = 0.4;
   std::vector<double> extra(cycle.obstacles.size(), 0);
-  Motion from = guess;
-  while (from.size() > 2 &&
-         task_.goal.contains(from.states[from.size() - 2][X], from.states[from.size() - 2][Y]) &&
-         task_.goal.outside(from.states[from.size() - 2][X], from.states[from.size() - 2][Y]) <
-             -task_.goal.sigma / 2) {
-    from.t.pop_back();
-    from.states.pop_back();
-    from.controls.pop_back();
-  }
-  for (int round = 0; round < kRounds && !cycle.over(); ++round) {
-    if (from.end() - from.begin() < shortest) return;
+  Motion from = to_the_goal(guess);
+  for (int round = 0; round < kRounds && cycle.left() > longest_besides_s_; ++round) {
+    if (from.end() - from.begin() < shortest || cycle.over()) return;
     const auto obstacles = near(cycle, from, extra);
     nlp::Options options;
     options.floor = task_.planner.arrival_floor;
     options.tol = task_.planner.tol;
     options.max_iterations = task_.planner.arrival_max_iterations;
-    options.time_limit = cycle.left();
-    ArrivalProblem& problem = problem_for(obstacles);
-    auto answer = problem.solve(from, cycle.request.X0p, obstacles, *solver_, options);
-    cycle.iterations += problem.iterations();
+    ArrivalProblem* problem = problem_for(cycle, obstacles);
+    if (!problem) return;
+    options.time_limit = cycle.left() - longest_besides_s_;
+    if (options.time_limit <= 0) return;
+    const Timer timer;
+    auto answer = problem->solve(from, cycle.request.X0p, obstacles, *solver_, options);
+    cycle.iterations += problem->iterations();
     if (!answer) return;
     const Motion reference = braked_on(*answer, task_.vehicle, cycle.beyond());
-    if (consider(cycle, name,
-                 tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end())))
-      return;
+    const bool verified =
+        consider(cycle, name,
+                 tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end()));
+    longest_besides_s_ = std::max(longest_besides_s_, timer.cpu() - problem->solver_cpu_s());
+    if (verified) return;
     const Verdict verdict = verifier_.last();
     bool regrown = false;
     for (std::size_t k = 0; k < extra.size(); ++k) {

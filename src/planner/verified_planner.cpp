@@ -21,6 +21,8 @@ constexpr double kSameTime = 1e-6;
 constexpr double kSameState = 1e-7;
 /// This near to its arrival a plan is not improved on [s].
 constexpr double kNearlyThere = 1;
+/// The longest wait until a better plan is looked for again, in improvement periods.
+constexpr double kLongestWaits = 8;
 /// Standing costs so much more than arriving, and each metre to the goal this.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
 
@@ -142,10 +144,13 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
 
 void VerifiedPlanner::improve(Cycle& cycle) {
   const bool arrives = cycle.rest_is(MotionEnd::arrives);
-  if (arrives && (cycle.t_start() - last_improved_ < task_.planner.improvement_period - kSameTime ||
+  if (arrives && (cycle.t_start() - last_improved_ < wait_ - kSameTime ||
                   cycle.rest->verdict.arrival - cycle.t_start() < kNearlyThere))
     return;
   last_improved_ = cycle.t_start();
+  // Until a plan is better, each search is waited for longer than the one before.
+  wait_ = arrives ? std::min(2 * wait_, kLongestWaits * task_.planner.improvement_period)
+                  : task_.planner.improvement_period;
   if (cycle.rest && cycle.rest->verdict.end == MotionEnd::arrives && !cycle.over())
     solve(cycle, cycle.rest->motion, "rest, solved");
   guide(cycle);
@@ -165,6 +170,7 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   if (best && (!rest || best->cost < cycle.rest->cost - hysteresis)) {
     chosen = best;
     plan.rung = Rung::new_plan;
+    wait_ = task_.planner.improvement_period;
   } else if (rest) {
     chosen = &*cycle.rest;
     plan.rung = Rung::rest;

@@ -83,7 +83,8 @@ class VerifiedPlanner final : public PlanningMethod {
   bool consider(Cycle& cycle, const std::string& name, Motion motion);
   ArrivalProblem::Obstacles near(const Cycle& cycle, const Motion& guess,
                                  const std::vector<double>& extra) const;
-  ArrivalProblem& problem_for(const ArrivalProblem::Obstacles& obstacles);
+  ArrivalProblem* problem_for(const Cycle& cycle, const ArrivalProblem::Obstacles& obstacles);
+  Motion to_the_goal(Motion motion) const;
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   Plan choose(Cycle& cycle);
 
@@ -96,7 +97,10 @@ class VerifiedPlanner final : public PlanningMethod {
   std::map<ArrivalProblem::Room, ArrivalProblem> problems_;
   std::optional<Option> last_;                   ///< what is driven
   std::vector<world::Obstacle> last_obstacles_;  ///< among which it was verified
-  double last_improved_ = 0;
+  double last_improved_ = 0;                     ///< when a better plan was looked for [s]
+  double wait_ = 0;                              ///< until the next time [s]
+  double longest_besides_s_ = 0;                 ///< thread time of a solve outside the solver
+  double longest_making_s_ = 0;                  ///< and of making its problem
 };
 
 }  // namespace slalom::planner
