@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "slalom/sim/solve_times.hpp"
+#include "slalom/sim/verification.hpp"
 
 namespace slalom::app {
 namespace {
@@ -12,6 +13,24 @@ namespace {
 /// A crash is located to rounding: what prints as -0.00 is 0.
 double without_sign(double clearance) {
   return std::fabs(clearance) < 0.005 ? 0 : clearance;
+}
+
+/// Nothing for a planner that does not verify its plans.
+std::string verification_text(const sim::Drive& drive) {
+  const auto v = sim::verification(drive);
+  if (!v || v->cycles == 0) return "";
+  const int fresh = v->of(planner::Rung::new_plan);
+  auto text = fmt::format(
+      "  plans              {} of {} cycles verified ({} new plan{}, {} the rest of the "
+      "last)\n",
+      v->cycles - v->unverified, v->cycles, fresh, fresh == 1 ? "" : "s",
+      v->of(planner::Rung::rest));
+  if (v->unverified > 0)
+    text += fmt::format(
+        "  warning            {} of {} cycles without a verified plan, the first at "
+        "{:.2f} s: {}\n",
+        v->unverified, v->cycles, v->first_unverified_t, v->first_refused);
+  return text;
 }
 
 }  // namespace
@@ -26,6 +45,8 @@ std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
                         without_sign(drive.least_clearance), drive.least_clearance_obstacle,
                         drive.least_clearance_t);
   text += fmt::format("  least wheel load   {:.0f} N\n", drive.least_wheel_load);
+
+  text += verification_text(drive);
 
   const auto wall = sim::solve_times(drive);
   if (wall.empty()) return text;

@@ -8,6 +8,7 @@
 #include "slalom/io/version.hpp"
 #include "slalom/report/report.hpp"
 #include "slalom/sim/solve_times.hpp"
+#include "slalom/sim/verification.hpp"
 
 namespace slalom::io {
 namespace {
@@ -31,6 +32,16 @@ Json warm_up_json(const sim::Cycle& cycle) {
           {"cpu_time_s", number(report.cpu_s)}};
 }
 
+/// Nothing for a planner that does not verify its plans.
+void add_verification(Json& summary, const sim::Drive& drive) {
+  const auto verification = sim::verification(drive);
+  if (!verification) return;
+  summary["cycles_unverified"] = verification->unverified;
+  Json& rungs = summary["rungs"] = Json::object();
+  for (const auto rung : {planner::Rung::new_plan, planner::Rung::rest, planner::Rung::least_bad})
+    rungs[planner::to_string(rung)] = verification->of(rung);
+}
+
 /// Median and greatest time of the solves on the clock; the warm-up stands by itself.
 void add_solve_times(Json& summary, const sim::Drive& drive) {
   const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
@@ -38,6 +49,7 @@ void add_solve_times(Json& summary, const sim::Drive& drive) {
   summary["cycles"] = wall.size();
   summary["cycles_unsolved"] = unsolved.cycles;
   summary["cycles_best_iterate"] = unsolved.best_iterates;
+  add_verification(summary, drive);
   summary["solve_time_median_s"] = number(sim::median(wall));
   summary["solve_time_max_s"] = number(sim::greatest(wall));
   summary["cpu_time_median_s"] = number(sim::median(cpu));

@@ -4,6 +4,7 @@
 
 #include "csv.hpp"
 #include "slalom/io/drive_files.hpp"
+#include "slalom/sim/verification.hpp"
 
 namespace slalom::io {
 namespace {
@@ -27,6 +28,15 @@ double cost_term(const planner::SolveReport& report, const std::string& name) {
   for (const auto& [term, value] : report.cost_terms)
     if (term == name) return value;
   return 0;
+}
+
+/// What a planner that verifies says of its plan. Of a plan that there is not, nothing but that.
+std::string verification_cells(const planner::Plan& plan) {
+  const auto& c = plan.certificate;
+  if (plan.rung == planner::Rung::none) return ",,0,,,,,";
+  return fmt::format(",{},{},{},{},{},{},{}", planner::to_string(plan.rung), c.verified ? 1 : 0,
+                     c.least_clearance, c.least_wheel_load, c.until, csv_cell(c.refused),
+                     plan.candidates.size());
 }
 
 }  // namespace
@@ -85,7 +95,12 @@ std::string cycles_csv(const sim::Drive& drive) {
   for (const auto& term : terms) text += "," + csv_cell("cost_" + term);
   text +=
       ",worst_constraint,worst_violation,stationarity,complementarity,phi,tf,goal_in_range,used,"
-      "backend,best_iterate,planning_cpu_s,charged_s,t_swap\n";
+      "backend,best_iterate,planning_cpu_s,charged_s,t_swap";
+  const bool verifies = sim::verification(drive).has_value();
+  if (verifies)
+    text +=
+        ",rung,verified,verified_clearance,verified_wheel_load,verified_until,refused,candidates";
+  text += "\n";
   for (const auto& cycle : drive.cycles) {
     if (cycle.index == 0) continue;
     const auto& report = cycle.plan.report;
@@ -94,11 +109,12 @@ std::string cycles_csv(const sim::Drive& drive) {
                     report.iterations, csv_cell(report.status_text()), report.cpu_s, report.cost);
     for (const auto& term : terms) text += fmt::format(",{}", cost_term(report, term));
     text +=
-        fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(report.worst_constraint),
+        fmt::format(",{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_cell(report.worst_constraint),
                     report.worst_violation, report.stationarity, report.complementarity, report.phi,
                     cycle.plan.tf, cycle.plan.goal_in_range ? 1 : 0, cycle.used ? 1 : 0,
                     csv_cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s,
                     cycle.charged, cycle.t_swap);
+    text += verifies ? verification_cells(cycle.plan) + "\n" : "\n";
   }
   return text;
 }

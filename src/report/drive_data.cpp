@@ -113,6 +113,30 @@ Json plan_data(const planner::Plan& plan) {
   return json;
 }
 
+Json certificate_data(const planner::Certificate& c) {
+  return {{"verified", c.verified},
+          {"clearance", rounded(c.least_clearance, 4)},
+          {"nearest", c.nearest},
+          {"wheel_load", rounded(c.least_wheel_load, 1)},
+          {"until", rounded(c.until, kTimeDigits)},
+          {"refused", c.refused}};
+}
+
+/// Of a planner that verifies: where its plan comes from, what is known of it, and what else there
+/// was, each a candidate with its cost (null: refused).
+void add_verification(Json& json, const planner::Plan& plan) {
+  if (plan.rung == planner::Rung::none) return;
+  json["rung"] = planner::to_string(plan.rung);
+  json["certificate"] = certificate_data(plan.certificate);
+  json["candidates"] = Json::array();
+  for (const auto& candidate : plan.candidates) {
+    const bool verified = candidate.certificate.verified;
+    json["candidates"].push_back({{"name", candidate.name},
+                                  {"cost", verified ? rounded(candidate.cost, 2) : Json(nullptr)},
+                                  {"certificate", certificate_data(candidate.certificate)}});
+  }
+}
+
 Json cycle_data(const sim::Cycle& cycle) {
   const auto& report = cycle.plan.report;
   Json json;
@@ -132,6 +156,7 @@ Json cycle_data(const sim::Cycle& cycle) {
   json["worst"] = report.worst_constraint;
   json["violation"] = exact(report.worst_violation);
   json["goal_in_range"] = cycle.plan.goal_in_range;
+  add_verification(json, cycle.plan);
   json["plan"] = plan_data(cycle.plan);
   return json;
 }

@@ -64,6 +64,34 @@ class Simulate(ProgramTest):
         self.assertEqual(drives[1], drives[2])
         self.assertEqual(len(set(drives)), 3)
 
+    def test_a_drive_of_verified_plans_says_so(self):
+        out = self.folder / "out"
+        result = run("simulate", "E_B", "--planner", "P_E", "--out", out, "--expect", "goal")
+        self.assertEqual((result.code, result.err), (0, ""))
+        summary = json.loads((out / "summary.json").read_text())
+        n, rungs = summary["cycles"], summary["rungs"]
+        self.assertIn(f"{n} of {n} cycles verified ({rungs['new']} new plan", result.out)
+        self.assertIn(f", {rungs['rest']} the rest of the last)\n", result.out)
+        self.assertNotIn("warning", result.out)
+        self.assertEqual((sum(rungs.values()), summary["cycles_unverified"]), (n, 0))
+        cycles = read_table(out / "cycles.csv")
+        for rung, count in rungs.items():
+            self.assertEqual(sum(row["rung"] == rung for row in cycles), count)
+
+    def test_an_unverified_cycle_is_a_warning(self):
+        # O1 stands in front of the vehicle, too near for any way around it.
+        out = self.folder / "out"
+        result = run("simulate", "E_B", "--planner", "P_E", "--set", "obstacles.O1.x=200", "--set",
+                     "obstacles.O1.y=20", "--set", "obstacles.O1.vx=0", "--out", out, "--expect", "crash")
+        self.assertEqual((result.code, result.err), (0, ""))
+        self.assertRegex(result.out, r"\n  warning  .* without a verified plan, the first at .*: unverified: .* O1")
+        rows = read_table(out / "cycles.csv")
+        unverified = [row for row in rows if row["verified"] == "0"]
+        self.assertTrue(unverified)
+        self.assertEqual(json.loads((out / "summary.json").read_text())["cycles_unverified"], len(unverified))
+        for row in unverified:
+            self.assertEqual(row["status"], "unverified: " + row["refused"])
+
     def test_that_there_is_no_plan_is_soon_known(self):
         # O2 comes at 27 m/s and is taken as standing: at last it is too near for any plan.
         out = self.folder / "out"

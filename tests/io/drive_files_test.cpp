@@ -67,6 +67,23 @@ sim::Drive made_up_drive() {
   return drive;
 }
 
+/// Of a planner that verifies: a new plan, then the least bad of two that were refused.
+sim::Drive verified_drive() {
+  auto drive = made_up_drive();
+  auto& first = drive.cycles[1].plan;
+  first.rung = planner::Rung::new_plan;
+  first.certificate = {true, 0.25, "O1", 2100, 7.5, "", 0};
+  first.candidates = {{"way 1", 12, first.certificate}};
+  auto& second = drive.cycles[2].plan;
+  second.rung = planner::Rung::least_bad;
+  second.certificate = {false, -0.5, "O1", 1900, 3, "clearance to O1, at 2 s", 2};
+  second.candidates = {{"rest", 11, second.certificate}, {"way 1", 0, second.certificate}};
+  drive.cycles[2].t_swap = 1.5;
+  second.report.status = planner::PlanStatus::unverified;
+  second.report.detail = second.certificate.refused;
+  return drive;
+}
+
 TEST(DriveFiles, PlantHasTheColumnsPromised) {
   const auto lines = lines_of(plant_csv(made_up_drive()));
   ASSERT_EQ(lines.size(), 3U);
@@ -106,6 +123,33 @@ TEST(DriveFiles, SummaryIsJsonWithoutInfinity) {
   EXPECT_EQ(json["warm_up"]["solve_time_s"], 9);
   EXPECT_EQ(json["tex_s"], 0.5);
   EXPECT_EQ(json["floor"], 0.9);
+}
+
+TEST(DriveFiles, CyclesOfAPlannerThatVerifiesSaySo) {
+  constexpr const char* added =
+      ",t_swap,rung,verified,verified_clearance,verified_wheel_load,verified_until,refused,"
+      "candidates";
+  auto drive = verified_drive();
+  const auto lines = lines_of(cycles_csv(drive));
+  EXPECT_TRUE(lines[0].ends_with(added)) << lines[0];
+  EXPECT_TRUE(lines[1].ends_with(",new,1,0.25,2100,7.5,,1")) << lines[1];
+  EXPECT_TRUE(lines[2].ends_with(",least_bad,0,-0.5,1900,3,\"clearance to O1, at 2 s\",2"))
+      << lines[2];
+  EXPECT_TRUE(lines_of(cycles_csv(made_up_drive()))[0].ends_with(",t_swap"));
+
+  drive.cycles[1].plan = {};
+  const auto without = lines_of(cycles_csv(drive));
+  EXPECT_TRUE(without[1].ends_with(",,0,,,,,")) << without[1];
+  EXPECT_EQ(columns(without[1]), columns(without[0]));
+}
+
+TEST(DriveFiles, SummaryCountsRungsAndUnverifiedCycles) {
+  const auto scenario = load_scenario({"E_C", "P_C", {}, {}});
+  const auto json = nlohmann::json::parse(summary_json(scenario, verified_drive()));
+  EXPECT_EQ(json["cycles_unverified"], 1);
+  EXPECT_EQ(json["rungs"], nlohmann::json({{"new", 1}, {"rest", 0}, {"least_bad", 1}}));
+  const auto without = nlohmann::json::parse(summary_json(scenario, made_up_drive()));
+  EXPECT_FALSE(without.contains("rungs") || without.contains("cycles_unverified"));
 }
 
 TEST(DriveFiles, AFileIsWrittenWholeAndLeavesNothingBeside) {

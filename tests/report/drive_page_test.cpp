@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <regex>
 
 #include "report/markup.hpp"
@@ -23,6 +24,25 @@ TEST(DrivePage, CarriesTheDrive) {
   ASSERT_EQ(data["cycles"].size(), drive.cycles.size());
   EXPECT_TRUE(data["cycles"][2]["plan"]["held"].is_null());
   EXPECT_DOUBLE_EQ(data["cycles"][3]["plan"]["held"], drive.cycles[3].plan.obstacle_time_held);
+}
+
+TEST(DrivePage, CarriesWhatWasVerified) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  auto drive = synthetic_drive();
+  auto& plan = drive.cycles[2].plan;
+  plan.rung = planner::Rung::rest;
+  plan.certificate = {true, inf, "", 2100, 7.5, "", 0};
+  plan.candidates = {{"rest", 12, plan.certificate},
+                     {"way <1>", 0, {false, -1, "O1", 900, 5, "clearance to O1", 3}}};
+  const auto data = page_data(drive_page(synthetic_scenario(), drive));
+  const auto& cycle = data["cycles"][2];
+  EXPECT_EQ(cycle["rung"], "rest");
+  EXPECT_TRUE(cycle["certificate"]["clearance"].is_null()) << "no obstacle";
+  ASSERT_EQ(cycle["candidates"].size(), 2U);
+  EXPECT_EQ(cycle["candidates"][0]["cost"], 12);
+  EXPECT_TRUE(cycle["candidates"][1]["cost"].is_null()) << "only verified ones are compared";
+  EXPECT_EQ(cycle["candidates"][1]["certificate"]["refused"], "clearance to O1");
+  EXPECT_FALSE(data["cycles"][1].contains("rung"));
 }
 
 TEST(DrivePage, SaysHowTheDriveEnded) {
