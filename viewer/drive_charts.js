@@ -270,7 +270,8 @@
     }
 
     tickText(v, marks) {
-      return this.log ? String(Number(v.toPrecision(1))) : super.tickText(v, marks);
+      if (!this.log) return super.tickText(v, marks);
+      return v < 1e-4 ? v.toExponential(0).replace('-', '−') : String(Number(v.toPrecision(1)));
     }
 
     content() {

@@ -47,6 +47,12 @@
     return i < 0 ? null : driven[i];
   }
 
+  /** When the next plan takes over from that of a planner that verifies; others' are drawn whole. */
+  function cutAt(cycle) {
+    const next = cycle.rung ? driven[driven.indexOf(cycle) + 1] : undefined;
+    return next ? next.plan.t_start : Infinity;
+  }
+
   /** The cycle that is being solved while the vehicle drives through t, or null. */
   function solvingAt(t) {
     const clocked = data.cycles.filter((c) => c.index > 0);
@@ -71,7 +77,7 @@
     return [p.ux[k] * c - lateral * s, p.ux[k] * s + lateral * c];
   }
 
-  /** Points along a plan: cubic Hermite between its nodes, whose slopes the model gives. */
+  /** Points along a plan with their absolute times: cubic Hermite between its nodes, whose slopes the model gives. */
   function planPath(plan) {
     const points = [];
     for (let k = 0; k + 1 < plan.t.length; ++k) {
@@ -89,11 +95,12 @@
         points.push([
           h00 * plan.x[k] + h10 * h * ax + h01 * plan.x[k + 1] + h11 * h * bx,
           h00 * plan.y[k] + h10 * h * ay + h01 * plan.y[k + 1] + h11 * h * by,
+          plan.t_start + plan.t[k] + s * h,
         ]);
       }
     }
     const n = plan.t.length - 1;
-    if (n >= 0) points.push([plan.x[n], plan.y[n]]);
+    if (n >= 0) points.push([plan.x[n], plan.y[n], plan.t_start + plan.t[n]]);
     return points;
   }
 
@@ -123,6 +130,11 @@
     return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
   }
 
+  /** A text as HTML. */
+  function escape(text) {
+    return String(text).replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
+  }
+
   /** Steps of 1, 2 or 5 times a power of ten that cut [lo, hi] into about `count` parts. */
   function ticks(lo, hi, count) {
     const raw = (hi - lo) / Math.max(count, 1);
@@ -136,7 +148,7 @@
   }
 
   Object.assign(slalom, {
-    data, start, end, lastAtOrBefore, sampleAt, cycleAt, solvingAt, obstacleAt, moves, planPath,
-    courseBox, number, ticks,
+    data, start, end, driven, lastAtOrBefore, sampleAt, cycleAt, cutAt, solvingAt, obstacleAt, moves, planPath,
+    courseBox, number, escape, ticks,
   });
 })(window.slalom = window.slalom || {});

@@ -2,7 +2,7 @@
 (function (slalom) {
   'use strict';
 
-  const { data, start, end, number, stage, charts } = slalom;
+  const { data, start, end, number, escape, stage, charts, verification } = slalom;
   const slider = document.getElementById('time');
   const timeText = document.getElementById('time-text');
   const readout = document.getElementById('readout');
@@ -11,10 +11,6 @@
   let playing = false;
   let last = 0;
   let shownCycle;
-
-  function escape(text) {
-    return String(text).replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
-  }
 
   function setTime(t) {
     slalom.now = Math.min(Math.max(t, start), end);
@@ -38,6 +34,11 @@
     return `<div><dt>${name}</dt><dd>${value}</dd></div>`;
   }
 
+  function costTerms(cycle) {
+    return `<div class="terms"><span>Cost <b>${number(cycle.cost, 2)}</b> =</span>
+      ${cycle.terms.map(([name, value]) => `<span>${escape(name)} <b>${number(value, 3)}</b></span>`).join('')}</div>`;
+  }
+
   /** What the plan being driven is, in words and numbers. */
   function showCycle() {
     const cycle = slalom.cycleAt(slalom.now);
@@ -52,19 +53,20 @@
     }
     const plan = cycle.plan;
     const held = plan.held !== null;
-    words.textContent = held ? 'obstacles as the plan holds them' : 'obstacles at the plan’s nodes and end';
+    words.textContent = held ? 'obstacles as the plan holds them' : cycle.rung ? 'obstacles along the plan and at its end' : 'obstacles at the plan’s nodes and end';
     panel.innerHTML = `<div class="row"><dl>
       ${fact('Cycle', cycle.index)}
       ${fact('Planned during', `${number(cycle.t0, 2)} – ${number(cycle.t0 + cycle.tex, 2)} s`)}
       ${fact('Horizon tf', `${number(plan.tf, 2)} s`)}
       ${fact('Solve time', `${number(cycle.wall, 3)} s <small>CPU ${number(cycle.cpu, 3)} s</small>`)}
-      ${fact('Solver', `${escape(cycle.status)}, ${cycle.iterations} iterations`)}
+      ${fact('Solver', `${cycle.rung ? '' : escape(cycle.status) + ', '}${cycle.iterations} iterations`)}
       ${fact('Goal', cycle.goal_in_range ? 'in range' : 'out of range')}
       ${fact('Obstacles', held ? `held where they are at ${number(plan.held, 2)} s` : 'move as predicted')}
       ${cycle.worst ? fact('Largest violation', `${escape(cycle.worst)} <small>${cycle.violation === null ? '' : cycle.violation.toExponential(1)}</small>`) : ''}
+      ${verification.facts(cycle).map(([name, value]) => fact(name, value)).join('')}
       </dl></div>
-      <div class="terms"><span>Cost <b>${number(cycle.cost, 2)}</b> =</span>
-      ${cycle.terms.map(([name, value]) => `<span>${escape(name)} <b>${number(value, 3)}</b></span>`).join('')}</div>`;
+      ${cycle.terms.length ? costTerms(cycle) : ''}
+      ${verification.table(cycle)}`;
   }
 
   function setPlaying(on) {
@@ -133,7 +135,7 @@
     if (data.goal_time !== null) addMark(data.goal_time, 'goal', 'goal reached');
     if (data.least_clearance_t !== null) addMark(data.least_clearance_t, 'near', 'least clearance');
     if (data.outcome !== 'goal' && data.plant.t.length) addMark(end, 'bad', data.outcome);
-    for (const c of data.cycles) if (c.index > 0 && !c.solved) addMark(c.t0 + c.tex, 'bad', 'not solved');
+    for (const c of data.cycles) if (c.index > 0 && !c.solved) addMark(Math.min(c.t0 + c.tex, end), 'bad', 'not solved');
   }
 
   slider.min = String(start);

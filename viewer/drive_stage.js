@@ -10,6 +10,8 @@
   const box = slalom.courseBox();
   const camera = { mode: 'follow', x: 0, y: 0, scale: 8, span: 90 };
   const layers = { grown: true, path: true, plan: true, ghosts: true, range: false };
+  /** At most so many of an obstacle are drawn along a plan. */
+  const MOST_GHOSTS = 40;
   let colour = {};
   let width = 1;
   let height = 1;
@@ -191,7 +193,8 @@
       const held = plan.held !== null;
       ctx.lineWidth = 1;
       ctx.setLineDash([]);
-      for (let k = 1; !held && k < n; ++k) {
+      const step = Math.ceil(n / MOST_GHOSTS);
+      for (let k = step; !held && k < n; k += step) {
         const p = slalom.obstacleAt(o, plan.t_start + plan.t[k]);
         ctx.globalAlpha = 0.22;
         ellipse(p.x, p.y, o.a, o.b);
@@ -226,14 +229,27 @@
     ctx.stroke();
   }
 
-  function drawPlan(plan) {
+  /** Solid as far as it is driven before the next plan takes over, dashed after that. */
+  function drawPlan(cycle) {
+    const { plan } = cycle;
+    const cut = slalom.cutAt(cycle);
+    const points = slalom.planPath(plan);
+    const kept = points.findIndex((p) => p[2] > cut + 1e-9);
+    const end = kept < 0 ? points.length : kept;
+    const line = (part) => {
+      ctx.beginPath();
+      part.forEach(([x, y], i) => (i ? ctx.lineTo(sx(x), sy(y)) : ctx.moveTo(sx(x), sy(y))));
+      ctx.stroke();
+    };
     ctx.strokeStyle = colour.orange;
     ctx.fillStyle = colour.orange;
     ctx.lineWidth = lineWidth();
-    ctx.beginPath();
-    slalom.planPath(plan).forEach(([x, y], i) => (i ? ctx.lineTo(sx(x), sy(y)) : ctx.moveTo(sx(x), sy(y))));
-    ctx.stroke();
-    for (let k = 0; k < plan.t.length; ++k) {
+    line(points.slice(0, end));
+    ctx.setLineDash([3 * lineWidth(), 3 * lineWidth()]);
+    line(points.slice(Math.max(end - 1, 0)));
+    ctx.setLineDash([]);
+    // A verified motion has a node at each of its many samples: only its end says anything.
+    for (let k = cycle.rung ? Math.max(plan.t.length - 1, 0) : 0; k < plan.t.length; ++k) {
       ctx.beginPath();
       ctx.arc(sx(plan.x[k]), sy(plan.y[k]), (k === plan.t.length - 1 ? 2 : 1.3) * lineWidth(), 0, 2 * Math.PI);
       ctx.fill();
@@ -279,7 +295,7 @@
     drawObstacles(t);
     if (cycle && layers.ghosts) drawGhosts(cycle.plan);
     drawNames(t);
-    if (cycle && layers.plan) drawPlan(cycle.plan);
+    if (cycle && layers.plan) drawPlan(cycle);
     if (sample) {
       slalom.drawVehicle(ctx, colour, sample, sx(sample.x), sy(sample.y), camera.scale);
       drawEnd(sample);

@@ -132,7 +132,7 @@ void add_verification(Json& json, const planner::Plan& plan) {
   for (const auto& candidate : plan.candidates) {
     const bool verified = candidate.certificate.verified;
     json["candidates"].push_back({{"name", candidate.name},
-                                  {"cost", verified ? rounded(candidate.cost, 2) : Json(nullptr)},
+                                  {"cost", verified ? rounded(candidate.cost, 4) : Json(nullptr)},
                                   {"certificate", certificate_data(candidate.certificate)}});
   }
 }

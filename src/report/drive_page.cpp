@@ -6,6 +6,7 @@
 #include "drive_data.hpp"
 #include "html.hpp"
 #include "slalom/report/report.hpp"
+#include "slalom/sim/verification.hpp"
 #include "viewer_assets.hpp"
 #include "words.hpp"
 
@@ -35,6 +36,10 @@ std::string facts(const sim::Scenario& scenario, const sim::Drive& drive) {
   html += fact("Solve time, median", number(1e3 * median(times), 2) + " ms",
                fmt::format("greatest {}, tex {} ms", number(1e3 * greatest(times), 2),
                            number(1e3 * tex, 0)));
+  if (const auto v = sim::verification(drive))
+    html += fact("Cycles verified", fmt::format("{} of {}", v->cycles - v->unverified, v->cycles),
+                 fmt::format("{} new, {} the rest of the last", v->of(planner::Rung::new_plan),
+                             v->of(planner::Rung::rest)));
   return html;
 }
 
@@ -91,8 +96,9 @@ std::string drive_page(const sim::Scenario& scenario, const sim::Drive& drive) {
                         settings_table("Vehicle " + scenario.vehicle.name,
                                        vehicle::parameter_options(), scenario.vehicle);
   std::string script;
-  for (const auto part : {viewer::drive_model_js, viewer::drive_parts_js, viewer::drive_stage_js,
-                          viewer::drive_charts_js, viewer::drive_page_js})
+  for (const auto part :
+       {viewer::drive_model_js, viewer::drive_parts_js, viewer::drive_stage_js,
+        viewer::drive_charts_js, viewer::drive_verification_js, viewer::drive_page_js})
     script.append(part).append("\n");
   return fill(viewer::drive_html,
               {{"title", escape(fmt::format("{} · {} · {}", scenario.name, scenario.planner.name,

@@ -1,0 +1,72 @@
+// What a planner that verifies its plans says of them: where each comes from, what is known of it
+// and which motions it looked at. Drives of other planners have none of this.
+(function (slalom) {
+  'use strict';
+
+  const { data, start, end, number, escape } = slalom;
+
+  /** Best first, as the planner chooses: the words of the legend. */
+  const RUNGS = { new: 'new', rest: 'rest of the last', least_bad: 'least bad, unverified' };
+
+  const verifies = data.cycles.some((c) => c.rung);
+
+  /** Colours the time line by the plan being driven; plans of one rung in a row are one piece. */
+  function showStrip() {
+    const strip = document.getElementById('rungs');
+    const length = Math.max(end - start, 1e-9);
+    let last = null;
+    for (const cycle of slalom.driven) {
+      const from = (100 * (cycle.plan.t_start - start)) / length;
+      if (last) last.style.right = `${100 - from}%`;
+      if (last && last.className === cycle.rung) continue;
+      last = document.createElement('i');
+      last.className = cycle.rung;
+      last.style.left = `${from}%`;
+      strip.appendChild(last);
+    }
+    if (last) last.style.right = '0';
+  }
+
+  function showLegend() {
+    const legend = document.getElementById('rung-legend');
+    const clocked = data.cycles.filter((c) => c.index > 0);
+    const keys = Object.entries(RUNGS).map(([rung, words]) =>
+      `<span class="key"><i class="swatch rung ${rung}"></i>${words} <b>${clocked.filter((c) => c.rung === rung).length}</b></span>`);
+    legend.innerHTML = `<span>Plans:</span>${keys.join('')}`;
+    legend.hidden = false;
+    document.getElementById('plan-words').textContent = 'plan, dashed from the next swap on';
+  }
+
+  /** Names and values for the panel of a cycle. */
+  function facts(cycle) {
+    if (!cycle.rung) return [];
+    const c = cycle.certificate;
+    return [
+      ['Comes from', RUNGS[cycle.rung]],
+      ['Verified', c.verified ? `until ${number(c.until, 2)} s` : `<span class="bad">no: ${escape(c.refused)}</span>`],
+      ['Its least clearance', c.nearest ? `${number(c.clearance, 2)} m <small>to ${escape(c.nearest)}</small>` : '–'],
+      ['Its least wheel load', `${number(c.wheel_load, 0)} N`],
+    ];
+  }
+
+  /** The candidates of a cycle as a table; the one that was taken stands out. */
+  function table(cycle) {
+    if (!cycle.candidates || !cycle.candidates.length) return '';
+    const certificate = JSON.stringify(cycle.certificate);
+    const taken = cycle.candidates.findIndex((c) => JSON.stringify(c.certificate) === certificate
+      && (c.cost === null || c.cost === cycle.cost));
+    const rows = cycle.candidates.map(({ name, cost, certificate: c }, i) => `<tr${i === taken ? ' class="taken"' : ''}>
+      <td>${escape(name)}</td><td class="num">${number(cost, 2)}</td>
+      <td class="num">${number(c.clearance, 2)}</td><td>${escape(c.nearest)}</td><td class="num">${number(c.wheel_load, 0)}</td>
+      <td>${c.verified ? `verified until ${number(c.until, 2)} s` : `<span class="bad">refused: ${escape(c.refused)}</span>`}${i === taken ? ', driven' : ''}</td></tr>`);
+    return `<div class="scroll"><table class="candidates"><thead><tr><th scope="col">Candidate</th><th scope="col" class="num">Cost</th>
+      <th scope="col" class="num">Clearance [m]</th><th scope="col">to</th><th scope="col" class="num">Wheel load [N]</th><th scope="col">Verdict</th></tr></thead>
+      <tbody>${rows.join('')}</tbody></table></div>`;
+  }
+
+  if (verifies) {
+    showStrip();
+    showLegend();
+  }
+  slalom.verification = { facts, table };
+})(window.slalom = window.slalom || {});
