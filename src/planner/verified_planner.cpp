@@ -106,32 +106,14 @@ bool VerifiedPlanner::consider(Cycle& cycle, const std::string& name, Motion mot
 void VerifiedPlanner::continue_last(Cycle& cycle) {
   if (!last_) return;
   const double t0 = cycle.t_start();
-  const Motion& old = last_->motion;
   Motion motion;
   bool unchanged = false;
-  if (t0 < old.end() - kSameTime) {
-    const auto next = static_cast<std::size_t>(
-        std::upper_bound(old.t.begin(), old.t.end(), t0 + kSameTime) - old.t.begin());
-    motion.add(t0, cycle.request.X0p, old.control_at(t0));
-    if (next > 0) {
-      const State expected = plant_.advance(old.states[next - 1], old.controls[next - 1],
-                                            motion.controls[0], old.t[next - 1], t0);
-      unchanged = gap(expected, cycle.request.X0p) < kSameState;
-    }
-    try {
-      for (std::size_t k = next; k < old.size(); ++k)
-        motion.add(old.t[k],
-                   unchanged ? old.states[k]
-                             : plant_.advance(motion.states.back(), motion.controls.back(),
-                                              old.controls[k], motion.end(), old.t[k]),
-                   old.controls[k]);
-    } catch (const PlantError&) {
-    }
-  } else {
-    motion.add(t0, cycle.request.X0p, {});
-    motion.add(t0 + cycle.beyond(),
-               plant_.advance(cycle.request.X0p, {}, {}, t0, t0 + cycle.beyond()), {});
+  try {
+    unchanged = rest_of_last(cycle, motion);
+  } catch (const PlantError&) {  // what there is of it is judged
   }
+  // The loop looks for arrival at other moments when a plan was late.
+  unchanged = unchanged && std::fabs(std::remainder(t0 - last_begin_, cycle.tex())) < kSameTime;
   cycle.rest = Option{"rest", std::move(motion), last_->verdict, last_->cost};
   if (!(unchanged && same(cycle.obstacles, last_obstacles_))) {
     cycle.rest->verdict = verifier_.judge(cycle.rest->motion, cycle.obstacles, cycle.tex());
@@ -140,6 +122,32 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
   const Certificate& certificate = cycle.rest->verdict.certificate;
   cycle.looked_at.push_back({"rest", cycle.rest->cost, certificate});
   if (!certificate.verified) cycle.least_bad = cycle.rest;
+}
+
+/// Puts the rest of the last plan into `motion`; whether it is that plan's own motion.
+bool VerifiedPlanner::rest_of_last(const Cycle& cycle, Motion& motion) const {
+  const double t0 = cycle.t_start();
+  const Motion& old = last_->motion;
+  if (t0 >= old.end() - kSameTime) {  // beyond its end, straight on
+    motion.add(t0, cycle.request.X0p, {});
+    const double t1 = t0 + cycle.beyond();
+    motion.add(t1, plant_.advance(cycle.request.X0p, {}, {}, t0, t1), {});
+    return false;
+  }
+  const auto next = static_cast<std::size_t>(
+      std::upper_bound(old.t.begin(), old.t.end(), t0 + kSameTime) - old.t.begin());
+  motion.add(t0, cycle.request.X0p, old.control_at(t0));
+  const State expected = next > 0 ? plant_.advance(old.states[next - 1], old.controls[next - 1],
+                                                   motion.controls[0], old.t[next - 1], t0)
+                                  : old.states[0];
+  const bool unchanged = next > 0 && gap(expected, cycle.request.X0p) < kSameState;
+  for (std::size_t k = next; k < old.size(); ++k)
+    motion.add(old.t[k],
+               unchanged ? old.states[k]
+                         : plant_.advance(motion.states.back(), motion.controls.back(),
+                                          old.controls[k], motion.end(), old.t[k]),
+               old.controls[k]);
+  return unchanged;
 }
 
 void VerifiedPlanner::improve(Cycle& cycle) {
@@ -196,6 +204,7 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   plan.report.iterations = cycle.iterations;
   plan.report.cost = chosen->cost;
   last_ = *chosen;
+  last_begin_ = cycle.t_start();
   last_obstacles_ = cycle.obstacles;
   plan.candidates = std::move(cycle.looked_at);
   plan.report.cpu_s = plan.report.planning_cpu_s = cycle.timer.cpu();

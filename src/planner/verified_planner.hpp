@@ -75,6 +75,7 @@ class VerifiedPlanner final : public PlanningMethod {
 
   std::vector<world::Obstacle> known(const Request& request) const;
   void continue_last(Cycle& cycle);
+  bool rest_of_last(const Cycle& cycle, Motion& motion) const;
   void improve(Cycle& cycle);
   void guide(Cycle& cycle);
   void stop(Cycle& cycle);
@@ -97,10 +98,11 @@ class VerifiedPlanner final : public PlanningMethod {
   std::map<ArrivalProblem::Room, ArrivalProblem> problems_;
   std::optional<Option> last_;                   ///< what is driven
   std::vector<world::Obstacle> last_obstacles_;  ///< among which it was verified
-  double last_improved_ = 0;                     ///< when a better plan was looked for [s]
-  double wait_ = 0;                              ///< until the next time [s]
-  double longest_besides_s_ = 0;                 ///< thread time of a solve outside the solver
-  double longest_making_s_ = 0;                  ///< and of making its problem
+  double last_begin_ = 0;         ///< the moment from which it looked for arrival [s]
+  double last_improved_ = 0;      ///< when a better plan was looked for [s]
+  double wait_ = 0;               ///< until the next time [s]
+  double longest_besides_s_ = 0;  ///< thread time of a solve outside the solver
+  double longest_making_s_ = 0;   ///< and of making its problem
 };
 
 }  // namespace slalom::planner

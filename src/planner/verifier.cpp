@@ -170,7 +170,11 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
       for (std::size_t s = 0; s < kStates; ++s) x[s] = (i.x0[s] + i.x1[s]) / 2;
       note_limits(middle, x);
     }
-    for (std::size_t o = 0; o < obstacles.size(); ++o) keep_off(i, o);
+    try {
+      for (std::size_t o = 0; o < obstacles.size(); ++o) keep_off(i, o);
+    } catch (const PlantError& error) {
+      refuse(i.t0, error.what());
+    }
   }
   if (certificate.refused.empty()) {
     find_end(motion, tex);
