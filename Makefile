@@ -30,7 +30,7 @@ test: ## set up, build, and run every test and check, with sanitizers too
 	tools/setup.sh test
 	tools/run_tests.sh
 
-tidy: ## clang-tidy on every source by itself; `make test` looks at them in batches
+tidy: ## clang-tidy on every source by itself, and with the analyzer, which `make test` leaves out
 	cmake --preset release -DSLALOM_TESTS=ON
 	tools/tidy.py --build build --alone --jobs $(JOBS)
 

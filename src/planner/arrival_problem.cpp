@@ -20,7 +20,7 @@ namespace {
 
 /// Each interval of the mesh is longer than the one before by this factor.
 constexpr double kGrowth = 1.03;
-/// Where rows of moving obstacles hold about each point, in lengths of the interval: points are
+/// Where rows of close obstacles hold about each point, in lengths of the interval: points are
 /// half an interval apart.
 constexpr std::array kShares = {-0.2, -0.1, 0., 0.1, 0.2};
 /// Where the end may lie, in half-widths of the goal's square from its centre.
@@ -47,15 +47,13 @@ ocp::Mesh growing_mesh(int intervals) {
 
 }  // namespace
 
-ArrivalProblem::Room ArrivalProblem::room_for(const std::vector<world::Obstacle>& obstacles) {
-  const auto moving = static_cast<std::size_t>(
-      std::count_if(obstacles.begin(), obstacles.end(), [](const auto& o) { return o.moves(); }));
+ArrivalProblem::Room ArrivalProblem::room_for(const Obstacles& obstacles) {
   const auto in_steps = [](std::size_t number, std::size_t first) {
     std::size_t room = 0;
     while (room < number) room = std::max(first, 2 * room);
     return room;
   };
-  return {in_steps(obstacles.size() - moving, 4), in_steps(moving, 1)};
+  return {in_steps(obstacles.far.size(), 4), in_steps(obstacles.close.size(), 2)};
 }
 
 ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
@@ -110,11 +108,11 @@ void ArrivalProblem::add_obstacles() {
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
   const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
   const Expr share = Expr::symbol("share");
-  if (room_.standing > 0)
-    standing_rows_ = problem_.path_family("standing obstacle", {xo, yo, a, b},
-                                          square((X_[X] - xo) / a) + square((X_[Y] - yo) / b) - 1,
-                                          Bounds::at_least(0), Points::after_first);
-  if (room_.moving == 0) return;
+  if (room_.far > 0)
+    far_rows_ = problem_.path_family("far obstacle", {xo, yo, a, b},
+                                     square((X_[X] - xo) / a) + square((X_[Y] - yo) / b) - 1,
+                                     Bounds::at_least(0), Points::after_first);
+  if (room_.close == 0) return;
   // The length of the interval about a point, as the mesh grows along tau.
   const double whole = std::pow(kGrowth, intervals_) - 1;
   const Expr interval =
@@ -122,30 +120,28 @@ void ArrivalProblem::add_obstacles() {
   const Expr after = share * interval;
   const Expr t = t_start_ + problem_.time() + after;
   const Expr x = X_[X] + after * rate_[X] - xo - vx * t, y = X_[Y] + after * rate_[Y] - yo - vy * t;
-  moving_rows_ = problem_.path_family("moving obstacle", {xo, yo, a, b, vx, vy, share},
-                                      square(x / a) + square(y / b) - 1, Bounds::at_least(0),
-                                      Points::after_first);
+  close_rows_ = problem_.path_family("close obstacle", {xo, yo, a, b, vx, vy, share},
+                                     square(x / a) + square(y / b) - 1, Bounds::at_least(0),
+                                     Points::after_first);
 }
 
 /// Places that no obstacle takes are taken by one far away from everything.
-void ArrivalProblem::set_obstacles(const std::vector<world::Obstacle>& grown) {
-  constexpr double far = 1e5, size = 1e3;
-  std::vector<std::vector<double>> standing, moving;
-  for (const auto& o : grown) {
-    if (!o.moves()) standing.push_back({o.x, o.y, o.a, o.b});
-    if (!o.moves()) continue;
-    for (const double share : kShares) moving.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy, share});
-  }
-  standing.resize(room_.standing, {far, far, size, size});
-  moving.resize(room_.moving * kShares.size(), {far, far, size, size, 0, 0, 0});
+void ArrivalProblem::set_obstacles(const Obstacles& obstacles) {
+  constexpr double away = 1e5, size = 1e3;
+  std::vector<std::vector<double>> far, close;
+  for (const auto& o : obstacles.far) far.push_back({o.x, o.y, o.a, o.b});
+  for (const auto& o : obstacles.close)
+    for (const double share : kShares) close.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy, share});
+  far.resize(room_.far, {away, away, size, size});
+  close.resize(room_.close * kShares.size(), {away, away, size, size, 0, 0, 0});
   const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers) {
     if (numbers.empty()) return;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < numbers.size(); ++k) names.push_back(fmt::format("{}", k));
     problem_.set_members(rows, std::move(names), std::move(numbers));
   };
-  set(standing_rows_, std::move(standing));
-  set(moving_rows_, std::move(moving));
+  set(far_rows_, std::move(far));
+  set(close_rows_, std::move(close));
 }
 
 void ArrivalProblem::add_cost_and_end(const Task& task) {
@@ -164,10 +160,10 @@ void ArrivalProblem::add_cost_and_end(const Task& task) {
 }
 
 std::optional<Motion> ArrivalProblem::solve(const Motion& guess, const State& X0p,
-                                            const std::vector<world::Obstacle>& grown,
-                                            nlp::Solver& solver, nlp::Options options) {
+                                            const Obstacles& obstacles, nlp::Solver& solver,
+                                            const nlp::Options& options) {
   const double t_start = guess.begin(), tf = guess.end() - t_start;
-  set_obstacles(grown);
+  set_obstacles(obstacles);
   for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], X0p[i]);
   problem_.set_parameter(t_start_, t_start);
   transcription_->update(problem_);

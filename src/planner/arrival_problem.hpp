@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "motion.hpp"
@@ -16,34 +16,41 @@ namespace slalom::planner {
 /// The OCP of section 3 of docs/formulation.md with its end changed: the whole way in one, from X0p
 /// exactly to the goal's square, without the LiDAR's edge. Hermite–Simpson, its rows at midpoints
 /// too; intervals grow along the way, for what is near is driven first. An obstacle that moves
-/// could pass between two points: its rows hold at moments between them too, to which vehicle and
-/// obstacle go on at the velocity they have at the point. Transcribed once for a number of
-/// obstacles, and solved for any fewer.
+/// fast, or that the way bends about, could be passed through between two points: rows of close
+/// obstacles hold at moments between them too, to which vehicle and obstacle go on at the velocity
+/// they have at the point. Transcribed once for a number of obstacles, and solved for any fewer.
 class ArrivalProblem {
  public:
-  /// How many obstacles of each kind there is room for.
+  /// Obstacles, grown by their margins.
+  struct Obstacles {
+    std::vector<world::Obstacle> far;    ///< that stand and are not close
+    std::vector<world::Obstacle> close;  ///< with rows between the points
+  };
+  /// How many of each kind there is room for.
   struct Room {
-    std::size_t standing = 0, moving = 0;
-    friend auto operator<=>(const Room&, const Room&) = default;
+    std::size_t far = 0, close = 0;
+    friend bool operator<(const Room& a, const Room& b) {
+      return std::pair(a.far, a.close) < std::pair(b.far, b.close);
+    }
   };
 
   ArrivalProblem(const Task& task, const Room& room);
   /// The room that these obstacles need, in steps, so that few problems serve all cycles.
-  static Room room_for(const std::vector<world::Obstacle>& obstacles);
+  static Room room_for(const Obstacles& obstacles);
 
-  /// Solves from `guess` (whose end is the guess of the final time) for obstacles grown as they are
-  /// given, no more of them than there is room for. None when it is not solved, nor near it.
-  /// `solver` is used for this alone.
+  /// Solves from `guess` (whose end is the guess of the final time) for obstacles, no more of them
+  /// than there is room for. None when it is not solved, nor near it. `solver` is used for this
+  /// alone.
   std::optional<Motion> solve(const Motion& guess, const vehicle::State& X0p,
-                              const std::vector<world::Obstacle>& grown, nlp::Solver& solver,
-                              nlp::Options options);
+                              const Obstacles& obstacles, nlp::Solver& solver,
+                              const nlp::Options& options);
 
   int iterations() const { return answer_.iterations; }  ///< of the last solve
-  nlp::Status status() const { return answer_.status; }
+  double solver_cpu_s() const { return answer_.cpu_s; }  ///< of it [s]
 
  private:
   using Expr = ocp::Expr;
-  void set_obstacles(const std::vector<world::Obstacle>& grown);
+  void set_obstacles(const Obstacles& obstacles);
   void add_dynamics(const Task& task);
   void add_limits(const vehicle::Model& model, const vehicle::Parameters& vehicle);
   void add_obstacles();
@@ -52,7 +59,7 @@ class ArrivalProblem {
   Room room_;
   int intervals_;
   ocp::Problem problem_;
-  ocp::ConstraintId standing_rows_{}, moving_rows_{};
+  ocp::ConstraintId far_rows_{}, close_rows_{};
   std::array<Expr, vehicle::kStates> X_, X0p_, rate_;
   std::array<Expr, vehicle::kControls> U_;
   Expr t_start_;

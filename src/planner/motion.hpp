@@ -23,6 +23,12 @@ struct Motion {
     controls.push_back(control);
   }
 
+  void drop_last() {
+    t.pop_back();
+    states.pop_back();
+    controls.pop_back();
+  }
+
   /// Linear between knots; the first before them, and the last after them.
   vehicle::State state_at(double at) const;
   vehicle::Control control_at(double at) const;

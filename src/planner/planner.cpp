@@ -98,9 +98,9 @@ class RecedingHorizon final : public PlanningMethod {
   }
 
   void reset() override { last_.reset(); }
-  void record(Recorder recorder) override {
+  void record(const Recorder& recorder) override {
     recorder_.reset();
-    if (recorder.wanted && recorder.take) recorder_ = std::move(recorder);
+    if (recorder.wanted && recorder.take) recorder_ = recorder;
   }
 
  private:
@@ -248,7 +248,7 @@ void Planner::reset() {
   method_->reset();
 }
 void Planner::record(Recorder recorder) {
-  method_->record(std::move(recorder));
+  method_->record(recorder);
 }
 
 }  // namespace slalom::planner

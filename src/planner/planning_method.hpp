@@ -15,7 +15,7 @@ class PlanningMethod {
   virtual Plan plan(const Request& request) = 0;
   virtual void reset() = 0;
   /// Solves that are recorded are those of the paper's OCP; other methods record none.
-  virtual void record(Recorder) {}
+  virtual void record(const Recorder&) {}
 };
 
 }  // namespace slalom::planner

@@ -190,8 +190,10 @@ void add_verification(Table& table) {
       .real("arrival_tf_max", &S::arrival_tf_max, Range::positive(), "s", "Longest way of the OCP.")
       .integer("arrival_max_iterations", &S::arrival_max_iterations, Range::closed(1, 1000000), "1",
                "Iterations after which a solve of a whole way is given up.")
-      .real("improvement_period", &S::improvement_period, Range::non_negative(), "s",
-            "While the last plan still leads to the goal, a better one is looked for this often.")
+      .real(
+          "improvement_period", &S::improvement_period, Range::non_negative(), "s",
+          "While the last plan still leads to the goal, a better one is looked for this long after "
+          "a new one, and then in intervals that double, up to eightfold, while none is found.")
       .real("hysteresis", &S::hysteresis, Range::non_negative(), "s",
             "A new plan is driven when it is sooner at the goal by this, so that plans do not "
             "alternate.")

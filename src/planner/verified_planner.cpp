@@ -1,7 +1,6 @@
 #include "verified_planner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,35 +21,10 @@ constexpr double kSameTime = 1e-6;
 constexpr double kSameState = 1e-7;
 /// This near to its arrival a plan is not improved on [s].
 constexpr double kNearlyThere = 1;
-/// A plan goes on for so many execution horizons after it arrives, and for so long at the least
-/// [s]: the loop looks at the end of each.
-constexpr double kBeyondHorizons = 2, kBeyond = 1;
-/// Share of its time that a cycle plans; the rest is for reading and choosing.
-constexpr double kShare = 0.8;
-/// Obstacles farther from a guess than this [m] are left out of its OCP.
-constexpr double kFar = 18;
-/// An obstacle that a tracked motion came too near to grows by the shortfall and this [m], so many
-/// times.
-constexpr double kRegrow = 0.08;
-constexpr int kRounds = 3;
-/// A way found while another leads to the goal is looked at if it is sooner by this [s].
-constexpr double kSooner = 0.3;
-/// How stops brake [m/s^2].
-constexpr std::array kStops = {3.4, 2.0, 1.0};
+/// The longest wait until a better plan is looked for again, in improvement periods.
+constexpr double kLongestWaits = 8;
 /// Standing costs so much more than arriving, and each metre to the goal this.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
-
-/// A search: its speed limit [m/s], what it keeps off beyond verified_clearance [m], and its
-/// lateral acceleration [m/s^2]. A lower speed finds other orders in time.
-struct Variant {
-  double v_max, clearance, lateral, v_min = 1.5;
-  int places = 1;  ///< in multiples of the setting's
-};
-constexpr std::array kVariants = {Variant{28, 0.65, 3.2},      Variant{20, 0.45, 3.2},
-                                  Variant{13, 0.25, 3.2},      Variant{8, 0.25, 3.2},
-                                  Variant{25, 0.15, 4.0, 3.0}, Variant{8, 0.1, 4.0, 1.5, 3}};
-/// These come last: only if none of those before led to a verified arrival.
-constexpr std::size_t kLastResorts = 4;
 
 bool same(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
@@ -64,41 +38,7 @@ double gap(const State& a, const State& b) {
   return most;
 }
 
-std::vector<world::Obstacle> grown(std::vector<world::Obstacle> obstacles, double margin) {
-  for (auto& o : obstacles) o = o.grown(margin);
-  return obstacles;
-}
-
 }  // namespace
-
-/// One call of plan().
-struct VerifiedPlanner::Cycle {
-  const Request& request;
-  std::vector<world::Obstacle> obstacles;
-  Timer timer;
-  std::optional<Option> rest;       ///< of the last plan, verified or not
-  std::vector<Option> verified;     ///< new ones
-  std::optional<Option> least_bad;  ///< of those refused, the one that goes on longest
-  std::vector<Candidate> looked_at;
-  int iterations = 0;
-
-  double t_start() const { return request.t_start; }
-  double tex() const { return std::max(request.t_start - request.t0, 1e-3); }
-  double beyond() const { return std::max(kBeyond, kBeyondHorizons * tex()); }
-  double left() const {
-    return request.warm_up ? std::numeric_limits<double>::infinity()
-                           : kShare * request.time_limit - timer.cpu();
-  }
-  bool over() const { return left() <= 0 || (request.interrupted && request.interrupted()); }
-  bool rest_is(MotionEnd end) const {
-    return rest && rest->verdict.certificate.verified && rest->verdict.end == end;
-  }
-  bool arrives() const {
-    return rest_is(MotionEnd::arrives) ||
-           std::any_of(verified.begin(), verified.end(),
-                       [](const auto& o) { return o.verdict.end == MotionEnd::arrives; });
-  }
-};
 
 VerifiedPlanner::VerifiedPlanner(const Task& task)
     : task_(task),
@@ -204,160 +144,17 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
 
 void VerifiedPlanner::improve(Cycle& cycle) {
   const bool arrives = cycle.rest_is(MotionEnd::arrives);
-  if (arrives && (cycle.t_start() - last_improved_ < task_.planner.improvement_period - kSameTime ||
+  if (arrives && (cycle.t_start() - last_improved_ < wait_ - kSameTime ||
                   cycle.rest->verdict.arrival - cycle.t_start() < kNearlyThere))
     return;
   last_improved_ = cycle.t_start();
+  // Until a plan is better, each search is waited for longer than the one before.
+  wait_ = arrives ? std::min(2 * wait_, kLongestWaits * task_.planner.improvement_period)
+                  : task_.planner.improvement_period;
   if (cycle.rest && cycle.rest->verdict.end == MotionEnd::arrives && !cycle.over())
     solve(cycle, cycle.rest->motion, "rest, solved");
   guide(cycle);
   if (!cycle.arrives()) stop(cycle);
-}
-
-/// Ways of the search, tracked as they are and solved from there.
-void VerifiedPlanner::guide(Cycle& cycle) {
-  const bool urgent = !cycle.rest_is(MotionEnd::arrives);
-  const auto obstacles = grown(cycle.obstacles, task_.planner.verified_clearance);
-  for (std::size_t k = 0; k < (urgent ? kVariants.size() : 1) && !cycle.over(); ++k) {
-    if (k >= kLastResorts && cycle.arrives()) return;
-    const Variant& variant = kVariants[k];
-    world::WaySearch search;
-    search.v_max = variant.v_max;
-    search.v_min = variant.v_min;
-    search.clearance = variant.clearance;
-    search.lateral_acceleration = variant.lateral;
-    search.max_places =
-        urgent ? variant.places * task_.planner.search_places : task_.planner.improvement_places;
-    const auto way = ways_.find(cycle.request.X0p, cycle.t_start(), obstacles, search,
-                                [&] { return cycle.over(); });
-    if (!way) continue;
-    if (!urgent && way->back().t > cycle.rest->verdict.arrival - kSooner) return;
-    const std::string name = "way " + std::to_string(k + 1);
-    const Motion reference =
-        braked_on(reference_of(*way, task_.vehicle), task_.vehicle, cycle.beyond());
-    Motion tracked =
-        tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end());
-    Motion guess = tracked;
-    consider(cycle, name, std::move(tracked));
-    while (guess.size() > 2 && guess.end() > way->back().t + kSameTime) {
-      guess.t.pop_back();
-      guess.states.pop_back();
-      guess.controls.pop_back();
-    }
-    solve(cycle, guess, name + ", solved");
-  }
-}
-
-std::vector<world::Obstacle> VerifiedPlanner::near(const Cycle& cycle, const Motion& guess,
-                                                   const std::vector<double>& extra) const {
-  std::vector<std::pair<double, world::Obstacle>> found;
-  const double margin = task_.planner.verified_clearance + task_.planner.arrival_margin;
-  for (std::size_t k = 0; k < cycle.obstacles.size(); ++k) {
-    const auto& o = cycle.obstacles[k];
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < guess.size(); ++i)
-      least = std::min(least, std::hypot(guess.states[i][X] - o.x_at(guess.t[i]),
-                                         guess.states[i][Y] - o.y_at(guess.t[i])) -
-                                  std::max(o.a, o.b));
-    if (least < kFar + margin) found.emplace_back(least, o.grown(margin + extra[k]));
-  }
-  std::sort(found.begin(), found.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<world::Obstacle> result;
-  for (auto& [distance, o] : found) result.push_back(std::move(o));
-  return result;
-}
-
-/// The problem with room for these obstacles, made when it is first wanted.
-ArrivalProblem& VerifiedPlanner::problem_for(const std::vector<world::Obstacle>& obstacles) {
-  const auto room = ArrivalProblem::room_for(obstacles);
-  const auto found = problems_.find(room);
-  return (found != problems_.end() ? found : problems_.try_emplace(room, task_, room).first)
-      ->second;
-}
-
-/// Solves from a guess, tracks the answer, and where that came too near to an obstacle, solves
-/// again with it grown.
-void VerifiedPlanner::solve(Cycle& cycle, const Motion& guess, const std::string& name) {
-  constexpr double shortest = 0.4;
-  std::vector<double> extra(cycle.obstacles.size(), 0);
-  Motion from = guess;
-  while (from.size() > 2 &&
-         task_.goal.contains(from.states[from.size() - 2][X], from.states[from.size() - 2][Y]) &&
-         task_.goal.outside(from.states[from.size() - 2][X], from.states[from.size() - 2][Y]) <
-             -task_.goal.sigma / 2) {
-    from.t.pop_back();
-    from.states.pop_back();
-    from.controls.pop_back();
-  }
-  for (int round = 0; round < kRounds && !cycle.over(); ++round) {
-    if (from.end() - from.begin() < shortest) return;
-    const auto obstacles = near(cycle, from, extra);
-    nlp::Options options;
-    options.floor = task_.planner.arrival_floor;
-    options.tol = task_.planner.tol;
-    options.max_iterations = task_.planner.arrival_max_iterations;
-    options.time_limit = cycle.left();
-    ArrivalProblem& problem = problem_for(obstacles);
-    auto answer = problem.solve(from, cycle.request.X0p, obstacles, *solver_, options);
-    cycle.iterations += problem.iterations();
-    if (!answer) return;
-    const Motion reference = braked_on(*answer, task_.vehicle, cycle.beyond());
-    if (consider(cycle, name,
-                 tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end())))
-      return;
-    const Verdict verdict = verifier_.last();
-    bool regrown = false;
-    for (std::size_t k = 0; k < extra.size(); ++k) {
-      const double short_of = task_.planner.verified_clearance - verdict.nearest[k];
-      if (short_of <= 0) continue;
-      extra[k] += short_of + kRegrow;
-      regrown = true;
-    }
-    if (!regrown) return;
-    from = std::move(*answer);
-  }
-}
-
-/// Comes to a creep at no acceleration and no steering rate.
-Motion VerifiedPlanner::settled(Motion motion) const {
-  if (motion.size() < 3) return motion;
-  const std::size_t k = motion.size() - 1;
-  motion.controls[k] = {};
-  motion.states[k] = plant_.advance(motion.states[k - 1], motion.controls[k - 1], {},
-                                    motion.t[k - 1], motion.t[k]);
-  // A triangle of jerk that takes the acceleration away.
-  const double ax = motion.states[k][AX], t = motion.t[k];
-  const double length = std::max(0.1, std::fabs(ax) / 2);
-  const Control peak{0, -2 * ax / length};
-  const State middle = plant_.advance(motion.states[k], {}, peak, t, t + length / 2);
-  motion.add(t + length / 2, middle, peak);
-  motion.add(t + length, plant_.advance(middle, peak, {}, t + length / 2, t + length), {});
-  return motion;
-}
-
-/// Stops along the rest, straight on, and after swerves.
-void VerifiedPlanner::stop(Cycle& cycle) {
-  const State& X0p = cycle.request.X0p;
-  const double t0 = cycle.t_start();
-  std::vector<std::pair<std::string, Motion>> paths;
-  if (cycle.rest && cycle.rest->motion.size() > 3)
-    paths.emplace_back("stop along the rest", cycle.rest->motion);
-  paths.emplace_back("stop straight on", straight_reference(X0p, t0, 1));
-  paths.emplace_back("stop after a swerve to the left",
-                     swerve_reference(X0p, t0, 1, task_.vehicle));
-  paths.emplace_back("stop after a swerve to the right",
-                     swerve_reference(X0p, t0, -1, task_.vehicle));
-  for (const auto& [name, path] : paths)
-    for (const double deceleration : kStops) {
-      if (!cycle.verified.empty() && cycle.over()) return;
-      const Motion reference = braking_reference(path, X0p, t0, deceleration, task_.vehicle);
-      try {
-        if (consider(cycle, name, settled(tracker_.follow(reference, X0p, t0, reference.end()))))
-          break;
-      } catch (const PlantError&) {
-      }
-    }
 }
 
 Plan VerifiedPlanner::choose(Cycle& cycle) {
@@ -373,6 +170,7 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   if (best && (!rest || best->cost < cycle.rest->cost - hysteresis)) {
     chosen = best;
     plan.rung = Rung::new_plan;
+    wait_ = task_.planner.improvement_period;
   } else if (rest) {
     chosen = &*cycle.rest;
     plan.rung = Rung::rest;

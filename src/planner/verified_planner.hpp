@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +11,7 @@
 #include "arrival_problem.hpp"
 #include "motion.hpp"
 #include "planning_method.hpp"
+#include "slalom/base/timer.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/vehicle/plant.hpp"
 #include "slalom/world/way_finder.hpp"
@@ -36,7 +39,39 @@ class VerifiedPlanner final : public PlanningMethod {
     Verdict verdict;
     double cost = 0;
   };
-  struct Cycle;
+  /// One call of plan().
+  struct Cycle {
+    const Request& request;
+    std::vector<world::Obstacle> obstacles;
+    Timer timer;
+    std::optional<Option> rest;       ///< of the last plan, verified or not
+    std::vector<Option> verified;     ///< new ones
+    std::optional<Option> least_bad;  ///< of those refused, the one that goes on longest
+    std::vector<Candidate> looked_at;
+    int iterations = 0;
+
+    double t_start() const { return request.t_start; }
+    double tex() const { return std::max(request.t_start - request.t0, 1e-3); }
+    double beyond() const { return std::max(kBeyond, kBeyondHorizons * tex()); }
+    double left() const {
+      return request.warm_up ? std::numeric_limits<double>::infinity()
+                             : kShare * request.time_limit - timer.cpu();
+    }
+    bool over() const { return left() <= 0 || (request.interrupted && request.interrupted()); }
+    bool rest_is(MotionEnd end) const {
+      return rest && rest->verdict.certificate.verified && rest->verdict.end == end;
+    }
+    bool arrives() const {
+      return rest_is(MotionEnd::arrives) ||
+             std::any_of(verified.begin(), verified.end(),
+                         [](const auto& o) { return o.verdict.end == MotionEnd::arrives; });
+    }
+    /// A plan goes on for so many execution horizons after it arrives, and for so long at the least
+    /// [s]: the loop looks at the end of each.
+    static constexpr double kBeyondHorizons = 2, kBeyond = 1;
+    /// Share of its time that a cycle plans; the rest is for reading and choosing.
+    static constexpr double kShare = 0.8;
+  };
 
   std::vector<world::Obstacle> known(const Request& request) const;
   void continue_last(Cycle& cycle);
@@ -46,9 +81,10 @@ class VerifiedPlanner final : public PlanningMethod {
   void solve(Cycle& cycle, const Motion& guess, const std::string& name);
   Motion settled(Motion motion) const;
   bool consider(Cycle& cycle, const std::string& name, Motion motion);
-  std::vector<world::Obstacle> near(const Cycle& cycle, const Motion& guess,
-                                    const std::vector<double>& extra) const;
-  ArrivalProblem& problem_for(const std::vector<world::Obstacle>& obstacles);
+  ArrivalProblem::Obstacles near(const Cycle& cycle, const Motion& guess,
+                                 const std::vector<double>& extra) const;
+  ArrivalProblem* problem_for(const Cycle& cycle, const ArrivalProblem::Obstacles& obstacles);
+  Motion to_the_goal(Motion motion) const;
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   Plan choose(Cycle& cycle);
 
@@ -61,7 +97,10 @@ class VerifiedPlanner final : public PlanningMethod {
   std::map<ArrivalProblem::Room, ArrivalProblem> problems_;
   std::optional<Option> last_;                   ///< what is driven
   std::vector<world::Obstacle> last_obstacles_;  ///< among which it was verified
-  double last_improved_ = 0;
+  double last_improved_ = 0;                     ///< when a better plan was looked for [s]
+  double wait_ = 0;                              ///< until the next time [s]
+  double longest_besides_s_ = 0;                 ///< thread time of a solve outside the solver
+  double longest_making_s_ = 0;                  ///< and of making its problem
 };
 
 }  // namespace slalom::planner

@@ -14,7 +14,7 @@ using namespace vehicle;
 
 /// An interval as short as this [s] is not divided further: what its bound does not show is
 /// refused.
-constexpr double kShortest = 5e-4;
+constexpr double kShortest = 1e-4;
 /// Speed grows by less than this within an interval between knots [m/s].
 constexpr double kSpeedSlack = 0.5;
 /// Wheel loads are looked at this often [s] at least. Between, they change by less than what

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <queue>
-#include <unordered_set>
 #include <vector>
+
+#include "cell_set.hpp"
 
 namespace slalom::world {
 namespace {
@@ -82,7 +83,7 @@ class Search {
   }
 
   void add(const Place& p) {
-    std::uint64_t key = 0;
+    std::uint64_t key = 1;  // no key is zero
     const auto mix = [&key](double value, double size, int bits) {
       const auto cell = static_cast<std::uint64_t>(std::llround(value / size));
       key = key << bits | (cell & ((1U << bits) - 1));
@@ -93,7 +94,7 @@ class Search {
     mix(p.v, kSpeed, 6);
     mix(p.kappa, kCurvature, 6);
     mix(p.t, kTime, 8);
-    if (!seen_.insert(key).second) return;
+    if (!seen_.insert(key)) return;
     const double left = std::max(0.0, std::hypot(p.x - goal_.x, p.y - goal_.y) - goal_.sigma);
     open_.push({p.t + kGreed * left / p_.v_max, static_cast<std::uint32_t>(seen_.size()), p});
   }
@@ -103,7 +104,7 @@ class Search {
   const PathSearch p_;
   std::vector<Obstacle> obstacles_;  ///< grown
   std::priority_queue<Open> open_;
-  std::unordered_set<std::uint64_t> seen_;
+  CellSet seen_;
 };
 
 }  // namespace

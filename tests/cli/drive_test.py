@@ -218,7 +218,7 @@ class Others(ProgramTest):
         self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C",
                                                "E_C-no-cones", "E_C-range-50", "one-crossing",
                                                "one-standing"],
-                                 "planners": ["P_A", "P_B", "P_C", "P_D"],
+                                 "planners": ["P_A", "P_B", "P_C", "P_D", "P_E"],
                                  "vehicles": ["hmmwv"],
                                  "studies": ["latency", "paper", "paper-printed"]})
         text = run("list").out

@@ -67,7 +67,7 @@ TEST(BadScenario, PathsThatAreNoFile) {
   expect_contains(message_of({"/dev/zero", {}, {}, {}}), {"not a regular file"});
   expect_contains(message_of({"E_D", {}, {}, {}}), {"scenario 'E_D'", "E_A, E_A-figure, E_B, E_C"});
   expect_contains(message_of({"", {}, {}, {}}), {"scenario ''"});
-  expect_contains(message_of({"E_B", "P_E", {}, {}}), {"--planner", "planner 'P_E'", "P_A"});
+  expect_contains(message_of({"E_B", "P_X", {}, {}}), {"--planner", "planner 'P_X'", "P_A"});
 }
 
 TEST(BadScenario, HostileYamlEndsQuickly) {

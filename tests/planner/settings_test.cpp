@@ -61,9 +61,23 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "obstacle_group_gap",
                            "obstacle_constraint",
                            "w_obstacle",
-                           "tyre_force_limit"})
+                           "tyre_force_limit",
+                           "method",
+                           "known",
+                           "verified_clearance",
+                           "verified_wheel_load",
+                           "standing_horizon",
+                           "arrival_margin",
+                           "arrival_floor",
+                           "arrival_N",
+                           "arrival_tf_max",
+                           "arrival_max_iterations",
+                           "improvement_period",
+                           "hysteresis",
+                           "search_places",
+                           "improvement_places"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 39u);
+  EXPECT_EQ(names.size(), 53u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

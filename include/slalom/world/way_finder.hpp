@@ -11,53 +11,74 @@
 
 namespace slalom::world {
 
-/// A moment of a way, of the front axle's centre.
+/// A point of a way: absolute time t [s], front axle's centre (x, y) [m], direction of its motion
+/// [rad] from +x counter-clockwise, speed v [m/s], curvature kappa [1/m], left positive, and
+/// acceleration a [m/s^2] of the move that leads here (at the start: of the first move).
 struct WayPoint {
-  double t = 0;         ///< absolute time [s]
-  double x = 0, y = 0;  ///< [m]
-  double heading = 0;   ///< of its motion [rad]
-  double v = 0;         ///< speed [m/s]
-  double kappa = 0;     ///< curvature, left positive [1/m]
-  double a = 0;         ///< acceleration on the way there [m/s^2]
+  double t = 0, x = 0, y = 0, heading = 0, v = 0, kappa = 0, a = 0;
 };
 
-/// Moments .05 s apart, the first being the start.
+/// Points about 0.05 s apart, from the start into the goal; never fewer than one.
 using Way = std::vector<WayPoint>;
 
-/// What a way may be like, and how long to look for one.
+/// The search of WayFinder, and what the vehicle in it does.
 struct WaySearch {
-  double clearance = 0.8;             ///< kept from the obstacles as they are given [m]
+  double dt = 0.4;                    ///< of a move [s]
+  double clearance = 0.8;             ///< kept from the obstacles [m]
+  double inset = 0.5;                 ///< kept from the region's sides [m]
   double v_min = 1.5, v_max = 28;     ///< [m/s]
   double lateral_acceleration = 3.2;  ///< most [m/s^2]
   double curvature = 0.15;            ///< most [1/m]
   double curvature_rate = 0.024;      ///< most [1/(m s)]
   double braking = 3.3;               ///< [m/s^2]
-  double acceleration_share = 0.9;    ///< of the vehicle's ax_max at that speed
+  double acceleration_share = 0.9;    ///< of the vehicle's ax_max
   double t_max = 60;                  ///< longest way [s]
-  double greed = 2;                   ///< how much more the way ahead counts than the one so far
-  int max_places = 150'000;           ///< looked at before the search gives up
+  double greed = 2;                   ///< how much more the way ahead counts than the way so far
+  /// Cells within which places count as one: along the goal's direction and across it [m], heading
+  /// [rad], speed [m/s], curvature (as a share of the most at the speed) and time [s].
+  double cell_along = 2, cell_across = 1, cell_heading = 0.16, cell_speed = 3, cell_curvature = 0.4,
+         cell_time = 0.8;
+  int max_places = 150'000;  ///< looked at before the search gives up
 };
 
-/// Finds ways in place and time from a state to the goal's square, past obstacles that move at
-/// constant velocity: hybrid A* (D. Dolgov, S. Thrun, M. Montemerlo and J. Diebel, "Path planning
-/// for autonomous vehicles in unknown semi-structured environments", Int. J. Robotics Research
-/// 29(5), 2010) over place, heading, speed, curvature and time. A move of .4 s holds one rate of
-/// curvature and one acceleration; places are ranked by time, and by the distance left around what
-/// stands still. The same input gives the same way; memory is kept from search to search. Not
-/// thread-safe.
+/// Finds ways to the goal among obstacles of constant velocity: hybrid A* (D. Dolgov, S. Thrun, M.
+/// Montemerlo and J. Diebel, "Path planning for autonomous vehicles in unknown semi-structured
+/// environments", Int. J. Robotics Research 29(5), 2010) over place, heading, speed, curvature and
+/// time. A move holds one rate of curvature and one acceleration; of the places in a cell the first
+/// alone is gone on from. The rank of a place is its time and the time from there along the
+/// shortest path around what stands. The same questions have the same answers, to the bit.
+///
+/// Keeps its memory: a find() that is no larger than one before allocates nothing but its answer.
 class WayFinder {
  public:
-  /// Of the environment, goal and region; the obstacles are those of each search.
+  /// Ways lead to the goal of `environment` within its region; its obstacles are not used.
   WayFinder(const Environment& environment, const vehicle::Parameters& vehicle);
   ~WayFinder();
+  WayFinder(WayFinder&&) noexcept;
+  WayFinder& operator=(WayFinder&&) noexcept;
 
-  /// A way from `start` at t_start [s]; none where the search ends without one, by max_places or
-  /// because `over`, polled now and then, says so. An obstacle in which the start lies is left out
-  /// until the way has left it.
+  /// A way from `start` at absolute time t_start [s], that keeps the clearance from `obstacles` --
+  /// which are grown by the drive's margin already -- at every tenth of a move, and ends within
+  /// half the goal's sigma along its direction and 0.6 sigma across. nullopt when the search finds
+  /// none within max_places or before out_of_budget(), asked every 256 places, says so.
+  ///
+  /// A start that keeps too little distance may leave. An obstacle that has it within the clearance
+  /// counts without clearance; one that contains it counts by an ellipse of the same shape half as
+  /// far from its centre as the start. A side of the region nearer than the inset counts by itself,
+  /// one passed already lies 0.5 m behind the start. A speed below v_min or above v_max may be kept
+  /// and a curvature too great for the speed wound off.
   std::optional<Way> find(const vehicle::State& start, double t_start,
-                          const std::vector<Obstacle>& obstacles, const WaySearch& search,
-                          const std::function<bool()>& over = {});
-  /// Places that the last search looked at.
+                          const std::vector<Obstacle>& obstacles, const WaySearch& search = {},
+                          const std::function<bool()>& out_of_budget = {});
+
+  /// Up to `most` ways of which any two pass some obstacle differently (see differ()), in the order
+  /// in which they were found: by `search`, then slower, closer or sharper, then with the side on
+  /// which a way found passes an obstacle shut.
+  std::vector<Way> find_ways(const vehicle::State& start, double t_start,
+                             const std::vector<Obstacle>& obstacles, const WaySearch& search,
+                             int most, const std::function<bool()>& out_of_budget = {});
+
+  /// Places that the last find() or find_ways() looked at.
   int looked_at() const;
 
  private:

@@ -1,0 +1,219 @@
+#include "place_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slalom::world {
+namespace {
+
+/// Of the goal's half-width, along its direction and across: a way that ends there is well inside
+/// the square, whatever the direction.
+constexpr double kAlong = 0.5, kAcross = 0.6;
+constexpr double kRounding = 1e-4;  ///< of curvatures, relative
+constexpr double kWayStep = 0.05;   ///< between a way's points [s]
+
+/// Turns the unit vector (c, s) by a small angle: a series, for a move has twenty such.
+void turn(double& c, double& s, double angle) {
+  const double z = angle * angle;
+  const double cosine = 1 - z * (0.5 - z * (1.0 / 24));
+  const double sine = angle * (1 - z * (1.0 / 6 - z * (1.0 / 120)));
+  const double c0 = c;
+  c = c0 * cosine - s * sine;
+  s = s * cosine + c0 * sine;
+}
+
+/// The cell of a value, in `bits` bits; so many cells apart values would be taken for one.
+std::uint64_t cell(double value, double size, int bits) {
+  const auto half = std::int64_t{1} << (bits - 1);
+  const auto at = static_cast<std::int64_t>(std::floor(value / size + 0.5)) + half;
+  return static_cast<std::uint64_t>(at) & ((std::uint64_t{1} << bits) - 1);
+}
+
+}  // namespace
+
+PlaceSearch::PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle)
+    : goal_(goal), vehicle_(vehicle), frame_{std::cos(goal.psi), std::sin(goal.psi)} {}
+
+bool PlaceSearch::run(const Place& start, const Region& region,
+                      const std::vector<Ellipse>& obstacles, const WaySearch& search,
+                      const std::function<bool()>& out_of_budget) {
+  p_ = search;
+  region_ = region;
+  obstacles_.assign(obstacles.begin(), obstacles.end());
+  found_ = -1;
+  looked_at_ = 0;
+  places_.clear();
+  open_.clear();
+  cells_.clear();
+  field_.build(frame_, static_cast<double>(start.x), static_cast<double>(start.y),
+               kAlong * goal_.sigma, kAcross * goal_.sigma, region_, obstacles_);
+  const int most_moves = static_cast<int>(std::ceil(p_.t_max / p_.dt));
+  add(start);
+  for (; !open_.empty() && looked_at_ < p_.max_places; ++looked_at_) {
+    if (looked_at_ % 256 == 0 && out_of_budget && out_of_budget()) return false;
+    std::pop_heap(open_.begin(), open_.end());
+    const auto at = open_.back().place;
+    open_.pop_back();
+    const auto& place = places_[static_cast<std::size_t>(at)];
+    if (arrived(place)) {
+      found_ = at;
+      return true;
+    }
+    if (place.moves < most_moves) go_on(at);
+  }
+  return false;
+}
+
+double PlaceSearch::most_curvature(double v) const {
+  return std::min(p_.curvature, p_.lateral_acceleration / (v * v));
+}
+
+bool PlaceSearch::arrived(const Place& place) const {
+  const auto x = static_cast<double>(place.x), y = static_cast<double>(place.y);
+  return std::fabs(frame_.u(x, y)) <= kAlong * goal_.sigma &&
+         std::fabs(frame_.w(x, y)) <= kAcross * goal_.sigma;
+}
+
+void PlaceSearch::add(const Place& place) {
+  const auto x = static_cast<double>(place.x), y = static_cast<double>(place.y);
+  const auto v = static_cast<double>(place.v);
+  const double u = frame_.u(x, y), w = frame_.w(x, y), t = place.moves * p_.dt;
+  const double least = (std::sqrt(u * u + w * w) - goal_.sigma) / std::max(v, p_.v_max);
+  if (t + least > p_.t_max) return;  // straight on it is too late already
+  std::uint64_t key = 1;             // no key is zero
+  const auto mix = [&key](double value, double size, int bits) {
+    key = key << bits | cell(value, size, bits);
+  };
+  mix(u, p_.cell_along, 14);
+  mix(w, p_.cell_across, 14);
+  mix(static_cast<double>(place.heading) - goal_.psi, p_.cell_heading, 10);
+  mix(v, p_.cell_speed, 6);
+  mix(static_cast<double>(place.kappa) / most_curvature(v), p_.cell_curvature, 6);
+  mix(t, p_.cell_time, 10);
+  if (!cells_.insert(key)) return;
+  places_.push_back(place);
+  open_.push_back(
+      {t + p_.greed * field_(u, w) / p_.v_max, static_cast<std::int32_t>(places_.size() - 1)});
+  std::push_heap(open_.begin(), open_.end());
+}
+
+/// Those that a move from here may meet: in each one's view the place goes ahead at a constant
+/// velocity, but for what an acceleration makes of it within the move.
+void PlaceSearch::find_near(const Place& from) {
+  const auto x = static_cast<double>(from.x), y = static_cast<double>(from.y);
+  const auto v = static_cast<double>(from.v), heading = static_cast<double>(from.heading);
+  const double t = from.moves * p_.dt, c = std::cos(heading), s = std::sin(heading);
+  const double push = p_.acceleration_share * vehicle_.ax_max_at(v);
+  const double fast = v + std::max(push, 0.0) * p_.dt;
+  const double slow = std::max(v - p_.braking * p_.dt, std::min(p_.v_min, v));
+  const double kappa = std::max(std::fabs(static_cast<double>(from.kappa)), most_curvature(slow));
+  const double a = std::max(std::fabs(push), p_.braking);
+  const double aside = 0.5 * p_.dt * p_.dt * std::hypot(a, fast * fast * kappa);
+  near_.clear();
+  for (const auto& o : obstacles_) {
+    const double dx = o.x + o.vx * t - x, dy = o.y + o.vy * t - y;
+    const double vx = v * c - o.vx, vy = v * s - o.vy, square = vx * vx + vy * vy;
+    const double ahead = square > 0 ? (dx * vx + dy * vy) / square : 0;
+    const double at = std::clamp(ahead, 0.0, p_.dt);
+    const double ex = dx - at * vx, ey = dy - at * vy, reach = std::max(o.a, o.b) + aside;
+    if (ex * ex + ey * ey < reach * reach)
+      near_.push_back({x + dx, y + dy, o.vx, o.vy, 1 / o.a, 1 / o.b});
+  }
+}
+
+bool PlaceSearch::is_free(double x, double y, double after) const {
+  if (!region_.contains(x, y)) return false;
+  for (const auto& o : near_) {
+    const double dx = (x - o.x - o.vx * after) * o.per_a;
+    const double dy = (y - o.y - o.vy * after) * o.per_b;
+    if (dx * dx + dy * dy < 1) return false;
+  }
+  return true;
+}
+
+/// By the midpoint rule.
+void PlaceSearch::advance(Motion& at, double a, double kappa_rate, double h, double v_least,
+                          double v_most) const {
+  const double v = std::clamp(at.v + a * h / 2, v_least, v_most);
+  const double turned = v * (at.kappa + kappa_rate * h / 2) * h;
+  turn(at.c, at.s, turned / 2);
+  at.x += v * h * at.c;
+  at.y += v * h * at.s;
+  turn(at.c, at.s, turned / 2);
+  at.heading += turned;
+  at.v = std::clamp(at.v + a * h, v_least, v_most);
+  at.kappa += kappa_rate * h;
+}
+
+bool PlaceSearch::move(Motion& at, double a, double kappa_rate, double v_least,
+                       double v_most) const {
+  const double h = p_.dt / kParts;
+  for (int part = 1; part <= kParts; ++part) {
+    advance(at, a, kappa_rate, h, v_least, v_most);
+    if (!is_free(at.x, at.y, part * h)) return false;
+  }
+  return true;
+}
+
+void PlaceSearch::go_on(std::int32_t index) {
+  const Place from = places_[static_cast<std::size_t>(index)];
+  find_near(from);
+  const auto x = static_cast<double>(from.x), y = static_cast<double>(from.y);
+  const auto v = static_cast<double>(from.v), kappa = static_cast<double>(from.kappa);
+  const auto heading = static_cast<double>(from.heading);
+  const Motion here = {x, y, std::cos(heading), std::sin(heading), heading, v, kappa};
+  const double v_least = std::min(p_.v_min, v), v_most = std::max(p_.v_max, v);
+  const std::array<double, 3> pushes = {p_.acceleration_share * vehicle_.ax_max_at(v), 0,
+                                        -p_.braking};
+  const bool too_sharp = std::fabs(kappa) > (1 + 2 * kRounding) * most_curvature(v);
+  for (const double share : {0.0, -1.0, 1.0, -0.4, 0.4})
+    for (const double a : pushes) {
+      const double most = most_curvature(std::clamp(v + a * p_.dt, v_least, v_most));
+      const double rate =
+          std::clamp((share * most - kappa) / p_.dt, -p_.curvature_rate, p_.curvature_rate);
+      const double then = std::fabs(kappa + rate * p_.dt);
+      if (then > (1 + kRounding) * most && !(too_sharp && then < std::fabs(kappa))) continue;
+      Motion at = here;
+      if (!move(at, a, rate, v_least, v_most)) continue;
+      add({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.heading),
+           static_cast<float>(at.v), static_cast<float>(at.kappa), static_cast<float>(a),
+           from.moves + 1, index});
+    }
+}
+
+void PlaceSearch::write(double t_start, Way& way) {
+  chain_.clear();
+  for (auto i = found_; i >= 0; i = places_[static_cast<std::size_t>(i)].parent)
+    chain_.push_back(i);
+  std::reverse(chain_.begin(), chain_.end());
+  const int parts = std::max(1, static_cast<int>(std::lround(p_.dt / kWayStep)));
+  way.clear();
+  way.reserve((chain_.size() - 1) * static_cast<std::size_t>(parts) + 1);
+  const auto put = [&](double after, const Motion& at, double a) {
+    way.push_back({t_start + after, goal_.x + at.x, goal_.y + at.y, at.heading, at.v, at.kappa, a});
+  };
+  for (std::size_t k = 0; k < chain_.size(); ++k) {
+    const auto& from = places_[static_cast<std::size_t>(chain_[k])];
+    const auto heading = static_cast<double>(from.heading), v = static_cast<double>(from.v);
+    Motion at = {static_cast<double>(from.x),
+                 static_cast<double>(from.y),
+                 std::cos(heading),
+                 std::sin(heading),
+                 heading,
+                 v,
+                 static_cast<double>(from.kappa)};
+    const bool last = k + 1 == chain_.size();
+    const auto& to = last ? from : places_[static_cast<std::size_t>(chain_[k + 1])];
+    const auto a = static_cast<double>(to.a);
+    put(from.moves * p_.dt, at, k == 0 ? a : static_cast<double>(from.a));
+    if (last) break;
+    const double h = p_.dt / parts;
+    const double rate = (static_cast<double>(to.kappa) - at.kappa) / p_.dt;
+    for (int part = 1; part < parts; ++part) {
+      advance(at, a, rate, h, std::min(p_.v_min, v), std::max(p_.v_max, v));
+      put(from.moves * p_.dt + part * h, at, a);
+    }
+  }
+}
+
+}  // namespace slalom::world

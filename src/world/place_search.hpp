@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "cell_set.hpp"
+#include "goal_field.hpp"
+#include "slalom/vehicle/parameters.hpp"
+#include "slalom/world/way_finder.hpp"
+
+namespace slalom::world {
+
+/// The search of WayFinder in coordinates relative to the goal, and in time from the start on.
+class PlaceSearch {
+ public:
+  /// A node: where a move led, after how many, with which acceleration, and from where.
+  struct Place {
+    float x = 0, y = 0, heading = 0, v = 0, kappa = 0, a = 0;
+    std::int32_t moves = 0, parent = -1;
+  };
+
+  PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle);
+
+  /// Whether a way was found; region and obstacles as the search is to keep out of them.
+  bool run(const Place& start, const Region& region, const std::vector<Ellipse>& obstacles,
+           const WaySearch& search, const std::function<bool()>& out_of_budget);
+
+  int looked_at() const { return looked_at_; }
+  /// Of the last search: the way found, its times and places absolute.
+  void write(double t_start, Way& way);
+
+ private:
+  static constexpr int kParts = 10;  ///< of a move, each checked: a metre at 25 m/s
+
+  /// A place to go on from; `rank` is the time it would bring us to the goal at, at best.
+  struct Open {
+    double rank;
+    std::int32_t place;
+    /// Of two alike the older first.
+    bool operator<(const Open& other) const {
+      return rank > other.rank || (rank == other.rank && place > other.place);
+    }
+  };
+  /// An obstacle as a move's parts meet it: at its beginning, axes inverted.
+  struct Near {
+    double x, y, vx, vy, per_a, per_b;
+  };
+  /// What a move's way depends on.
+  struct Motion {
+    double x, y, c, s, heading, v, kappa;
+  };
+
+  double most_curvature(double v) const;
+  void add(const Place& place);
+  void go_on(std::int32_t from);
+  void find_near(const Place& from);
+  bool move(Motion& at, double a, double kappa_rate, double v_least, double v_most) const;
+  void advance(Motion& at, double a, double kappa_rate, double h, double v_least,
+               double v_most) const;
+  bool is_free(double x, double y, double after) const;
+  bool arrived(const Place& place) const;
+
+  const Goal goal_;
+  const vehicle::Parameters vehicle_;
+  const Frame frame_;
+  WaySearch p_;
+  Region region_;
+  std::vector<Ellipse> obstacles_;
+  GoalField field_;
+  std::vector<Place> places_;
+  std::vector<Open> open_;  ///< a heap
+  CellSet cells_;
+  std::vector<Near> near_;
+  std::vector<std::int32_t> chain_;
+  std::int32_t found_ = -1;
+  int looked_at_ = 0;
+};
+
+}  // namespace slalom::world

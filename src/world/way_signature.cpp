@@ -1,0 +1,57 @@
+#include "slalom/world/way_signature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace slalom::world {
+namespace {
+
+constexpr double kTurn = 0.75 * std::numbers::pi;  ///< between ways that pass differently [rad]
+constexpr double kOrder = 1;                       ///< between two passings in an order [s]
+
+Passing passing(const Way& way, const Obstacle& o) {
+  Passing result;
+  double x0 = 0, y0 = 0;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    const auto& p = way[k];
+    const double x = o.x_at(p.t) - p.x, y = o.y_at(p.t) - p.y, distance = std::hypot(x, y);
+    if (k == 0 || distance < result.nearest) {
+      result.nearest = distance;
+      result.when = p.t;
+    }
+    if (k > 0) result.swept += std::atan2(x0 * y - y0 * x, x0 * x + y0 * y);
+    x0 = x;
+    y0 = y;
+  }
+  return result;
+}
+
+}  // namespace
+
+WaySignature signature(const Way& way, const std::vector<Obstacle>& obstacles) {
+  WaySignature result;
+  if (way.empty()) return result;
+  result.reserve(obstacles.size());
+  for (const auto& o : obstacles) result.push_back(passing(way, o));
+  return result;
+}
+
+bool differ(const WaySignature& one, const WaySignature& other, double reach) {
+  const auto near = [&](std::size_t i) {
+    return std::min(one[i].nearest, other[i].nearest) <= reach;
+  };
+  const auto count = std::min(one.size(), other.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!near(i)) continue;
+    if (std::fabs(one[i].swept - other[i].swept) > kTurn) return true;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double first = one[i].when - one[j].when, second = other[i].when - other[j].when;
+      if (near(j) && std::min(std::fabs(first), std::fabs(second)) > kOrder && first * second < 0)
+        return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace slalom::world

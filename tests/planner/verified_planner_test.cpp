@@ -1,0 +1,177 @@
+// The ladder of a planner that verifies: new plan, rest of the last, least bad motion.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slalom/planner/planner.hpp"
+#include "slalom/vehicle/plant.hpp"
+
+namespace slalom::planner {
+namespace {
+
+using namespace vehicle;
+
+/// Northwards at 17 m/s, the goal 180 m ahead, an obstacle in the way.
+Task task() {
+  Task task;
+  task.planner.method = Method::verified;
+  task.goal = {0, 180, std::numbers::pi / 2, 15};
+  task.obstacles = {{"O1", 1, 80, 4, 4, 0, 0}};
+  return task;
+}
+
+Request first() {
+  Request request;
+  request.X0p = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};
+  return request;
+}
+
+/// The request of the next cycle: what the plant makes of the plan in .5 s.
+Request next(const Task& task, const Request& last, const Plan& plan) {
+  Request request = last;
+  request.t0 += 0.5;
+  request.t_start += 0.5;
+  request.X0p = Plant(task.vehicle, 1e-9, 0.02)
+                    .predict(last.X0p, control_signal(plan), last.t_start, request.t_start);
+  return request;
+}
+
+double clearance(const Task& task, const Request& request, const Plan& plan) {
+  const Plant plant(task.vehicle, 1e-9, 0.02);
+  const auto signal = control_signal(plan);
+  State x = request.X0p;
+  double least = INFINITY;
+  for (double t = plan.t_start; t < plan.t_start + plan.tf; t += 0.01) {
+    for (const auto& o : task.obstacles) least = std::min(least, distance(o, x[X], x[Y], t));
+    x = plant.predict(x, signal, t, t + 0.01);
+  }
+  return least;
+}
+
+TEST(VerifiedPlanner, ItsFirstPlanIsVerifiedAndWhatTheCertificateSays) {
+  const Task t = task();
+  Planner planner(t);
+  const Plan plan = planner.plan(first());
+  EXPECT_EQ(plan.rung, Rung::new_plan);
+  EXPECT_TRUE(plan.report.solved);
+  EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+  EXPECT_TRUE(plan.goal_in_range);
+  EXPECT_GE(plan.certificate.least_clearance, t.planner.verified_clearance);
+  EXPECT_NEAR(clearance(t, first(), plan), plan.certificate.least_clearance, 0.02);
+  EXPECT_EQ(plan.certificate.nearest, "O1");
+  EXPECT_FALSE(plan.candidates.empty());
+}
+
+TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {
+  const Task t = task();
+  Planner planner(t);
+  Request request = first();
+  const Plan plan = planner.plan(request);
+  request = next(t, request, plan);
+  request.time_limit = 0;  // there is no time for anything else
+  const Plan rest = planner.plan(request);
+  EXPECT_EQ(rest.rung, Rung::rest);
+  EXPECT_TRUE(rest.certificate.verified);
+  EXPECT_NEAR(rest.t_start + rest.tf, plan.t_start + plan.tf, 1e-9);
+  for (const double at : {1.2, 3.3})
+    for (std::size_t c = 0; c < kControls; ++c)
+      EXPECT_NEAR(control_signal(rest).at(at)[c], control_signal(plan).at(at)[c], 1e-12);
+}
+
+TEST(VerifiedPlanner, ARestFromAnotherStateIsDrivenAnewByThePlant) {
+  const Task t = task();
+  Planner planner(t);
+  Request request = first();
+  const Plan plan = planner.plan(request);
+  request = next(t, request, plan);
+  request.X0p[X] += 0.3;
+  request.time_limit = 0;
+  const Plan rest = planner.plan(request);
+  ASSERT_GT(rest.states.size(), 20U);
+  EXPECT_EQ(rest.states[0], request.X0p);
+  const State there =
+      Plant(t.vehicle, 1e-9, 0.02)
+          .predict(request.X0p, control_signal(rest), rest.t_start, rest.t_start + rest.t[20]);
+  for (std::size_t i = 0; i < kStates; ++i) EXPECT_NEAR(rest.states[20][i], there[i], 1e-6);
+}
+
+TEST(VerifiedPlanner, WhatComesIntoTheWayIsAvoided) {
+  const Task t = task();
+  Planner planner(t);
+  Request request = first();
+  const Plan plan = planner.plan(request);
+  request = next(t, request, plan);
+  // Where the plan would be in 4 s.
+  const State there = plan.states[std::min<std::size_t>(plan.states.size() - 1, 90)];
+  request.obstacles = t.obstacles;
+  request.obstacles.push_back({"new", there[X], there[Y], 3, 3, 0, 0});
+  const Plan other = planner.plan(request);
+  EXPECT_EQ(other.rung, Rung::new_plan);
+  EXPECT_TRUE(other.certificate.verified);
+  EXPECT_TRUE(std::any_of(other.candidates.begin(), other.candidates.end(), [](const auto& c) {
+    return c.name == "rest" && c.certificate.refused.find("new") != std::string::npos;
+  }));
+}
+
+TEST(VerifiedPlanner, ThereIsAPlanWhereNoneIsGoodAndItSaysSo) {
+  Task t = task();
+  t.obstacles = {{"wall", 0, 14, 60, 2, 0, 0}};  // 12 m ahead at 17 m/s
+  Planner planner(t);
+  const Plan plan = planner.plan(first());
+  EXPECT_EQ(plan.rung, Rung::least_bad);
+  EXPECT_FALSE(plan.report.solved);
+  EXPECT_TRUE(plan.report.best_iterate) << "it is driven all the same";
+  EXPECT_EQ(plan.report.status, PlanStatus::unverified);
+  EXPECT_NE(plan.report.status_text().find("wall"), std::string::npos);
+  EXPECT_TRUE(usable(plan));
+}
+
+TEST(VerifiedPlanner, WithoutAWayToTheGoalItStopsClear) {
+  Task t = task();
+  t.region.x_min = -40;
+  t.region.x_max = 40;
+  t.obstacles = {{"wall", 0, 110, 80, 2, 0, 0}};
+  t.planner.search_places = 2000;
+  Planner planner(t);
+  const Plan plan = planner.plan(first());
+  EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+  EXPECT_FALSE(plan.goal_in_range);
+  EXPECT_LT(plan.states.back()[UX], 0.5);
+  EXPECT_NEAR(plan.states.back()[AX], 0, 1e-3);
+  EXPECT_EQ(plan.controls.back(), (Control{0, 0}));
+}
+
+TEST(VerifiedPlanner, ByRangeItKnowsWhatIsNear) {
+  Task t = task();
+  t.planner.known = Known::range;
+  t.planner.L_range = 50;
+  Planner planner(t);
+  const Plan plan = planner.plan(first());
+  EXPECT_TRUE(std::isinf(plan.certificate.least_clearance)) << "nothing is within 50 m";
+  Request nearer = first();
+  nearer.X0p[Y] = 40;
+  planner.reset();
+  EXPECT_EQ(planner.plan(nearer).certificate.nearest, "O1");
+}
+
+TEST(VerifiedPlanner, TheSameRequestsGiveTheSameBits) {
+  const Task t = task();
+  std::vector<State> ends;
+  for (int run = 0; run < 2; ++run) {
+    Planner planner(t);
+    Request request = first();
+    Plan plan = planner.plan(request);
+    for (int cycle = 0; cycle < 3; ++cycle) {
+      request = next(t, request, plan);
+      plan = planner.plan(request);
+    }
+    ends.push_back(plan.states.back());
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+}
+
+}  // namespace
+}  // namespace slalom::planner

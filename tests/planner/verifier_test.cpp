@@ -1,0 +1,123 @@
+#include "../../src/planner/verifier.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace slalom::planner {
+namespace {
+
+using namespace vehicle;
+
+/// Northwards at 20 m/s from the origin, for 5 s; the goal's square begins 85 m ahead.
+struct Scene : ::testing::Test {
+  Task task;
+  Motion motion;
+
+  Scene() {
+    task.vehicle.tyre_asymmetry = false;
+    task.goal = {0, 100, std::numbers::pi / 2, 15};
+    task.planner.verified_clearance = 2.15;
+    drive(20);
+  }
+  /// Straight on with knots .05 s apart.
+  void drive(double speed, double jerk = 0) {
+    const Plant plant(task.vehicle, 1e-9, 0.02);
+    motion = {};
+    State x = {0, 0, 0, 0, std::numbers::pi / 2, 0, speed, 0};
+    for (int k = 0; k <= 100; ++k) {
+      const double t = 1 + 0.05 * k;
+      motion.add(t, x, {0, jerk});
+      x = plant.advance(x, {0, jerk}, {0, jerk}, t, t + 0.05);
+    }
+  }
+  Verdict judge(const std::vector<world::Obstacle>& obstacles = {}, double tex = 0.5) {
+    const Plant plant(task.vehicle, 1e-9, 0.02);
+    return Verifier(task, plant).judge(motion, obstacles, tex);
+  }
+};
+
+TEST_F(Scene, AMotionThatArrivesIsVerified) {
+  const Verdict verdict = judge();
+  EXPECT_TRUE(verdict.certificate.verified) << verdict.certificate.refused;
+  EXPECT_EQ(verdict.end, MotionEnd::arrives);
+  EXPECT_NEAR(verdict.arrival, 1 + 85 / 20., 0.06);
+  EXPECT_NEAR(verdict.certificate.least_wheel_load, 12696 / 2., 1);
+  EXPECT_DOUBLE_EQ(verdict.certificate.until, 6);
+}
+
+TEST_F(Scene, ACentimetreTooNearIsRefusedAndACentimetreFartherIsNot) {
+  for (const double spare : {-0.01, 0.01}) {
+    const double r = 3, x = r + 2.15 + spare;
+    const Verdict verdict = judge({{"O1", x, 50, r, r, 0, 0}});
+    EXPECT_EQ(verdict.certificate.verified, spare > 0) << spare;
+    EXPECT_NEAR(verdict.certificate.least_clearance, 2.15 + spare, 0.011);
+    EXPECT_EQ(verdict.certificate.nearest, "O1");
+    if (spare < 0) {
+      EXPECT_NE(verdict.certificate.refused.find("O1"), std::string::npos);
+      EXPECT_NEAR(verdict.certificate.refused_at, 3.5, 0.3);
+    }
+  }
+}
+
+// At 80 m/s of closing speed the two are 4 m apart from knot to knot.
+TEST_F(Scene, SeesWhatPassesBetweenTwoKnots) {
+  for (const double spare : {-0.01, 0.01}) {
+    const double r = 0.2, x = r + 2.15 + spare;
+    const double meet = 3.525;  // half-way between two knots
+    const double y = 20 * (meet - 1) + 60 * meet;
+    const Verdict verdict = judge({{"O2", x, y, r, r, 0, -60}});
+    EXPECT_EQ(verdict.certificate.verified, spare > 0) << spare;
+  }
+}
+
+TEST_F(Scene, AnEllipsesDistanceIsTheExactOne) {
+  for (const double spare : {-0.01, 0.01}) {
+    const Verdict verdict = judge({{"O3", 12 + 2.15 + spare, 50, 12, 1, 0, 0}});
+    EXPECT_EQ(verdict.certificate.verified, spare > 0) << spare;
+  }
+}
+
+TEST_F(Scene, RefusesWhatLeavesTheRegionOrTheLimits) {
+  task.region.y_max = 90;
+  EXPECT_NE(judge().certificate.refused.find("region"), std::string::npos);
+  task.region.y_max = 200;
+  task.vehicle.ux_max = 19;
+  EXPECT_NE(judge().certificate.refused.find("speed"), std::string::npos);
+  task.vehicle.ux_max = 29;
+  task.planner.verified_wheel_load = 6400;
+  EXPECT_NE(judge().certificate.refused.find("wheel load"), std::string::npos);
+  task.planner.verified_wheel_load = 400;
+  drive(20, 2);
+  EXPECT_NE(judge().certificate.refused.find("acceleration"), std::string::npos);
+}
+
+TEST_F(Scene, ArrivesOnlyWhereTheLoopLooks) {
+  // Within the square from 4.25 s after the start on; looks every 2.2 s find it outside at 5.4 s
+  // on.
+  EXPECT_EQ(judge({}, 2.2).end, MotionEnd::arrives);
+  task.goal.sigma = 3;  // 97 to 103 m: within it from 5.85 s on
+  EXPECT_EQ(judge({}, 0.5).end, MotionEnd::arrives);
+  EXPECT_EQ(judge({}, 1.2).end, MotionEnd::open);
+  EXPECT_FALSE(judge({}, 1.2).certificate.verified);
+}
+
+TEST_F(Scene, MayStandOnlyWhereNothingComesForGood) {
+  task.goal.y = 500;
+  drive(0.1);
+  EXPECT_EQ(judge().end, MotionEnd::stands);
+  EXPECT_TRUE(judge().certificate.verified);
+  // Here 40 s after the motion's end, within the horizon of 60 s.
+  world::Obstacle late{"late", 0, 46 * 3., 1, 1, 0, -3};
+  EXPECT_FALSE(judge({late}).certificate.verified);
+  EXPECT_NE(judge({late}).certificate.refused.find("late"), std::string::npos);
+  late.x = 3.3;  // passes at .15 m beyond what is needed
+  EXPECT_TRUE(judge({late}).certificate.verified);
+  task.planner.standing_horizon = 20;
+  late.x = 0;
+  EXPECT_TRUE(judge({late}).certificate.verified);
+}
+
+}  // namespace
+}  // namespace slalom::planner

@@ -1,0 +1,301 @@
+#include "slalom/world/way_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "slalom/world/way_signature.hpp"
+#include "support/allocation_count.hpp"
+
+namespace slalom::world {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Drives into a goal some way ahead, at 17 m/s. Where the region ends is not said.
+struct World {
+  Environment environment;
+  vehicle::State start{};
+  vehicle::Parameters vehicle;
+  double t_start = 0;
+
+  WayFinder finder() const { return {environment, vehicle}; }
+  std::optional<Way> find(const WaySearch& search = {}) const {
+    auto f = finder();
+    return f.find(start, t_start, environment.obstacles, search);
+  }
+};
+
+vehicle::State state(double x, double y, double psi, double ux) {
+  vehicle::State result{};
+  result[vehicle::X] = x;
+  result[vehicle::Y] = y;
+  result[vehicle::PSI] = psi;
+  result[vehicle::UX] = ux;
+  return result;
+}
+
+World northwards(double length = 150) {
+  World w;
+  w.start = state(0, 0, kPi / 2, 17);
+  w.environment.goal = {0, length, kPi / 2, 15};
+  return w;
+}
+
+/// E_C as the drive sees it: a row of cones with something standing on the left of it, and
+/// something oncoming on the right.
+World row_of_cones(double oncoming_speed) {
+  World w;
+  w.start = state(6, 0, kPi / 2, 17);
+  w.environment.goal = {18, 700, kPi / 2, 25};
+  w.environment.region.x_min = 0;
+  w.environment.region.x_max = 24;
+  auto& obstacles = w.environment.obstacles;
+  obstacles = {{"O1", 6, 281, 8, 8, 0, 0}, {"O2", 18, 650, 8, 8, 0, -oncoming_speed}};
+  for (int k = 0; k < 36; ++k) obstacles.push_back({"cone", 12, 5.0 * k, 2.38735, 2.38735, 0, 0});
+  return w;
+}
+
+/// A quarter turn of everything to the left; ellipses stay along the axes.
+World turned(const World& from) {
+  World w = from;
+  const auto turn = [](double& x, double& y) { x = std::exchange(y, x) * -1; };
+  turn(w.start[vehicle::X], w.start[vehicle::Y]);
+  w.start[vehicle::PSI] += kPi / 2;
+  turn(w.environment.goal.x, w.environment.goal.y);
+  w.environment.goal.psi += kPi / 2;
+  const auto& r = from.environment.region;
+  w.environment.region = {-r.y_max, -r.y_min, r.x_min, r.x_max};
+  for (auto& o : w.environment.obstacles) {
+    turn(o.x, o.y);
+    turn(o.vx, o.vy);
+    std::swap(o.a, o.b);
+  }
+  return w;
+}
+
+double clearance(const Way& way, const std::vector<Obstacle>& obstacles) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < way.size(); ++k)
+    for (int part = 0; part < 5; ++part) {
+      const auto &p = way[k - 1], &q = way[k];
+      const double s = part / 5.0;
+      for (const auto& o : obstacles)
+        least = std::min(least, distance(o, p.x + s * (q.x - p.x), p.y + s * (q.y - p.y),
+                                         p.t + s * (q.t - p.t)));
+    }
+  return least;
+}
+
+/// The way is one that the search's vehicle drives, from the start into the goal, and keeps clear.
+void expect_drivable(const World& w, const Way& way, const WaySearch& search = {}) {
+  ASSERT_FALSE(way.empty());
+  EXPECT_EQ(way.front().t, w.t_start);
+  EXPECT_NEAR(way.front().x, w.start[vehicle::X], 1e-4);
+  EXPECT_NEAR(way.front().y, w.start[vehicle::Y], 1e-4);
+  EXPECT_NEAR(way.front().v, w.start[vehicle::UX], 1e-5);
+  const auto& goal = w.environment.goal;
+  EXPECT_LT(goal.outside(way.back().x, way.back().y), 0);
+  const double dx = way.back().x - goal.x, dy = way.back().y - goal.y;
+  EXPECT_LE(std::fabs(dx * std::cos(goal.psi) + dy * std::sin(goal.psi)), 0.5 * goal.sigma + 1e-4);
+  EXPECT_LE(std::fabs(dy * std::cos(goal.psi) - dx * std::sin(goal.psi)), 0.6 * goal.sigma + 1e-4);
+  EXPECT_GT(clearance(way, w.environment.obstacles), 0.8 * search.clearance);
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    const auto& q = way[k];
+    ASSERT_TRUE(w.environment.region.contains(q.x, q.y)) << q.t;
+    ASSERT_GE(q.v, search.v_min);
+    ASSERT_LE(q.v, std::max(search.v_max, w.start[vehicle::UX]) + 1e-6);
+    const double most = std::min(search.curvature, search.lateral_acceleration / (q.v * q.v));
+    ASSERT_LE(std::fabs(q.kappa), 1.05 * most) << q.t;
+    if (k == 0) continue;
+    const auto& p = way[k - 1];
+    const double h = q.t - p.t, v = (p.v + q.v) / 2;
+    ASSERT_NEAR(h, 0.05, 1e-9);
+    ASSERT_LE(std::fabs(q.kappa - p.kappa) / h, search.curvature_rate + 1e-4);
+    ASSERT_GE(q.v - p.v, -search.braking * h - 1e-5);
+    ASSERT_LE(q.v - p.v, w.vehicle.ax_max_at(p.v) * h);
+    ASSERT_NEAR(q.heading - p.heading, v * (p.kappa + q.kappa) / 2 * h, 1e-4);
+    ASSERT_NEAR(std::hypot(q.x - p.x, q.y - p.y), v * h, 2e-3);
+    const double mean = (p.heading + q.heading) / 2;
+    ASSERT_NEAR((q.x - p.x) * std::sin(mean) - (q.y - p.y) * std::cos(mean), 0, 2e-3);
+  }
+}
+
+TEST(WayFinder, DrivesStraightOnWhereNothingIs) {
+  auto w = northwards();
+  w.t_start = 12.3;
+  const auto way = w.find();
+  ASSERT_TRUE(way);
+  expect_drivable(w, *way);
+  for (const auto& p : *way) EXPECT_NEAR(p.x, 0, 1e-3);
+  EXPECT_LT(way->back().t, 12.3 + 150 / 17.0);
+}
+
+TEST(WayFinder, LooksNoLongerAheadThanItIsToldTo) {
+  const auto w = northwards();
+  EXPECT_FALSE(w.find({.t_max = 3})) << "140 m from 17 m/s on";
+  EXPECT_TRUE(w.find({.t_max = 9}));
+  auto f = w.finder();
+  EXPECT_FALSE(f.find(w.start, 0, {}, {.t_max = 4}));
+  EXPECT_EQ(f.looked_at(), 0) << "135 m take longer at 28 m/s";
+}
+
+TEST(WayFinder, TurnsAround) {
+  auto w = northwards(80);
+  w.start = state(0, 0, -kPi / 2, 4);
+  const auto way = w.find();
+  ASSERT_TRUE(way);
+  expect_drivable(w, *way);
+}
+
+TEST(WayFinder, FindsTheGapInAWall) {
+  auto w = northwards();
+  w.environment.region = {-40, 40, -10, 200};
+  w.environment.obstacles = {{"left", -14, 80, 28, 2, 0, 0}, {"right", 32, 80, 12, 2, 0, 0}};
+  const auto way = w.find();
+  ASSERT_TRUE(way);
+  expect_drivable(w, *way);
+  w.environment.obstacles[1] = {"right", 26.2, 80, 12, 2, 0, 0};
+  EXPECT_FALSE(w.find()) << "0.2 m between edges, 1.6 m of clearance";
+}
+
+TEST(WayFinder, FindsItsWayOutOfADeadEnd) {
+  auto w = northwards(120);
+  w.start[vehicle::Y] = -20;
+  w.environment.obstacles = {
+      {"end", 0, 60, 16, 3, 0, 0}, {"left", -16, 45, 3, 16, 0, 0}, {"right", 16, 45, 3, 16, 0, 0}};
+  const auto way = w.find();
+  ASSERT_TRUE(way);
+  expect_drivable(w, *way);
+}
+
+TEST(WayFinder, PassesWhatIsOncoming) {
+  for (const double speed : {10.0, 20.0, 30.0}) {
+    const auto w = row_of_cones(speed);
+    const auto way = w.find();
+    ASSERT_TRUE(way) << speed;
+    expect_drivable(w, *way);
+  }
+}
+
+TEST(WayFinder, WaitsForWhatIsOncoming) {
+  // The narrows from y = 70 to 180 are free after eight seconds; driving on, the way were there
+  // after four.
+  auto w = northwards(200);
+  w.environment.region = {-12, 12, -10, 230};
+  w.environment.obstacles = {{"oncoming", 7, 230, 4.5, 30, 0, -20}};
+  for (double y = 78; y < 180; y += 8)
+    w.environment.obstacles.push_back({"left", -12, y, 13, 8, 0, 0});
+  const WaySearch search{.v_max = 13};
+  const auto way = w.find(search);
+  ASSERT_TRUE(way);
+  expect_drivable(w, *way, search);
+  const auto inside =
+      std::find_if(way->begin(), way->end(), [](const auto& p) { return p.y > 80; });
+  ASSERT_NE(inside, way->end());
+  EXPECT_GT(inside->t, 8);
+}
+
+TEST(WayFinder, IsTheSameInAllDirections) {
+  auto gap = northwards();
+  gap.environment.region = {-40, 40, -10, 200};
+  gap.environment.obstacles = {{"left", -14, 80, 28, 2, 0, 0}, {"right", 32, 80, 12, 2, 0, 0}};
+  for (World w : {gap, row_of_cones(10)}) {
+    const auto first = w.find();
+    ASSERT_TRUE(first);
+    for (int quarter = 1; quarter < 4; ++quarter) {
+      w = turned(w);
+      const auto way = w.find();
+      ASSERT_TRUE(way) << quarter;
+      expect_drivable(w, *way);
+      EXPECT_NEAR(way->back().t, first->back().t, 0.04 * first->back().t) << quarter;
+    }
+  }
+}
+
+TEST(WayFinder, FindsTheSameAgainToTheBit) {
+  const auto w = row_of_cones(20);
+  auto f = w.finder();
+  const auto first = f.find(w.start, 0, w.environment.obstacles);
+  const int looked_at = f.looked_at();
+  ASSERT_TRUE(first);
+  auto other = northwards();
+  f.find(other.start, 3, other.environment.obstacles);
+  const auto again = f.find(w.start, 0, w.environment.obstacles);
+  EXPECT_EQ(f.looked_at(), looked_at);
+  ASSERT_TRUE(again);
+  ASSERT_EQ(again->size(), first->size());
+  EXPECT_EQ(std::memcmp(again->data(), first->data(), first->size() * sizeof(WayPoint)), 0);
+}
+
+TEST(WayFinder, GivesUpWithinItsBudget) {
+  const auto w = row_of_cones(20);
+  auto f = w.finder();
+  int asked = 0;
+  const auto over = [&asked] { return ++asked > 3; };
+  EXPECT_FALSE(f.find(w.start, 0, w.environment.obstacles, {}, over));
+  EXPECT_EQ(f.looked_at(), 3 * 256);
+  EXPECT_TRUE(f.find_ways(w.start, 0, w.environment.obstacles, {}, 3, over).empty());
+  WaySearch search;
+  search.max_places = 100;
+  EXPECT_FALSE(f.find(w.start, 0, w.environment.obstacles, search));
+  EXPECT_EQ(f.looked_at(), 100);
+}
+
+TEST(WayFinder, AllocatesNothingButItsAnswer) {
+  if (!AllocationCount::available()) GTEST_SKIP() << "sanitizers have their own malloc";
+  const auto w = row_of_cones(20);
+  auto f = w.finder();
+  ASSERT_TRUE(f.find(w.start, 0, w.environment.obstacles));
+  AllocationCount allocations;
+  const auto way = f.find(w.start, 0, w.environment.obstacles);
+  const auto count = allocations.allocations();
+  EXPECT_EQ(count, 1u) << allocations.first();
+}
+
+TEST(WayFinder, LeavesWhereItMayNotBe) {
+  auto w = northwards();
+  w.environment.obstacles = {{"beside", 4, 0, 3.5, 3.5, 0, 0}};
+  EXPECT_TRUE(w.find()) << "within the clearance";
+  w.environment.obstacles[0].x = 3;
+  EXPECT_TRUE(w.find()) << "inside";
+  w.environment.obstacles[0].x = 0;
+  EXPECT_TRUE(w.find()) << "at its centre";
+  w.environment.obstacles = {};
+  for (const double side : {-0.2, 0.2}) {
+    w.environment.region.x_min = side;
+    w.environment.goal.x = 5;
+    EXPECT_TRUE(w.find()) << "near a side, or past it";
+  }
+  w = northwards();
+  w.start[vehicle::R] = 0.5;
+  EXPECT_TRUE(w.find()) << "turning faster than it may";
+  w.start = state(0, 0, kPi / 2, 0);
+  EXPECT_TRUE(w.find()) << "at rest";
+}
+
+TEST(WayFinder, FindsWaysThatPassDifferently) {
+  auto w = northwards();
+  w.environment.region = {-20, 20, -20, 180};
+  w.environment.obstacles = {{"rock", 0, 80, 5, 5, 0, 0}};
+  auto f = w.finder();
+  const auto ways = f.find_ways(w.start, 0, w.environment.obstacles, {}, 2);
+  ASSERT_EQ(ways.size(), 2u);
+  for (const auto& way : ways) expect_drivable(w, way, {.clearance = 0.3});
+  EXPECT_TRUE(differ(signature(ways[0], w.environment.obstacles),
+                     signature(ways[1], w.environment.obstacles)));
+  EXPECT_EQ(f.find_ways(w.start, 0, w.environment.obstacles, {}, 1).size(), 1u);
+  EXPECT_TRUE(f.find_ways(w.start, 0, w.environment.obstacles, {}, 0).empty());
+  w.environment.region = {-20, 4, -20, 180};
+  WayFinder narrow(w.environment, w.vehicle);
+  EXPECT_EQ(narrow.find_ways(w.start, 0, w.environment.obstacles, {}, 2).size(), 1u)
+      << "one side alone is open";
+}
+
+}  // namespace
+}  // namespace slalom::world
