@@ -9,6 +9,8 @@ if _config.is_dir():
     _os.environ.setdefault("SLALOM_CONFIG_DIR", str(_config))
 
 from ._core import (  # noqa: E402
+    Candidate,
+    Certificate,
     ConstraintId,
     Cycle,
     Drive,
@@ -71,7 +73,7 @@ from ._core import (  # noqa: E402
 from ._trials import read_trials, write_parquet  # noqa: E402
 
 __all__ = [
-    "ConstraintId", "Cycle", "Drive", "Error", "ErrorEstimate", "Expr", "Goal", "InvalidValue",
+    "Candidate", "Certificate", "ConstraintId", "Cycle", "Drive", "Error", "ErrorEstimate", "Expr", "Goal", "InvalidValue",
     "MeshRecord", "Mpc", "MpcCycle", "MpcResult", "Obstacle", "PhasedProblem", "PhasedRefined", "PhasedSolution", "Plan", "Planner", "Plant",
     "Problem", "Refined", "Region", "Scenario", "Simulation", "Solution", "UnknownName", "Violation",
     "__version__", "absolute", "arccos", "arcsin", "arctan", "arctan2", "backends", "control_names",

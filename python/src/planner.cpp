@@ -2,6 +2,8 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "binding.hpp"
 #include "scenario.hpp"
@@ -88,11 +90,47 @@ void bind_report(nb::class_<Plan>& type) {
           doc::planner_SolveReport_planning_cpu_s);
 }
 
+/// What a planner that verifies says of a plan, and of the others that it looked at.
+void bind_verification(nb::module_& module) {
+  using planner::Candidate;
+  using planner::Certificate;
+  nb::class_<Certificate>(module, "Certificate", doc::planner_Certificate)
+      .def_ro("verified", &Certificate::verified)
+      .def_ro("least_clearance", &Certificate::least_clearance,
+              doc::planner_Certificate_least_clearance)
+      .def_ro("nearest", &Certificate::nearest, doc::planner_Certificate_nearest)
+      .def_ro("least_wheel_load", &Certificate::least_wheel_load,
+              doc::planner_Certificate_least_wheel_load)
+      .def_ro("until", &Certificate::until, doc::planner_Certificate_until)
+      .def_ro("refused", &Certificate::refused, doc::planner_Certificate_refused)
+      .def_ro("refused_at", &Certificate::refused_at, doc::planner_Certificate_refused_at)
+      .def("__repr__", [](const Certificate& c) {
+        return "<Certificate: " + (c.verified ? "verified" : "refused: " + c.refused) + ">";
+      });
+  nb::class_<Candidate>(module, "Candidate", doc::planner_Candidate)
+      .def_ro("name", &Candidate::name, doc::planner_Candidate_name)
+      .def_ro("cost", &Candidate::cost, doc::planner_Candidate_cost)
+      .def_ro("certificate", &Candidate::certificate)
+      .def("__repr__", [](const Candidate& c) { return "<Candidate: " + c.name + ">"; });
+}
+
 void bind_plan(nb::module_& module) {
   nb::class_<Plan> type(module, "Plan", doc::planner_Plan);
   type.def_ro("t_start", &Plan::t_start, doc::planner_Plan_t_start)
       .def_ro("tf", &Plan::tf, doc::planner_Plan_tf)
       .def_ro("goal_in_range", &Plan::goal_in_range)
+      .def_prop_ro(
+          "rung", [](const Plan& p) { return planner::to_string(p.rung); },
+          (std::string(doc::planner_Rung) +
+           "\nIn a word: new, rest or least_bad; empty for planners that do not verify.")
+              .c_str())
+      .def_prop_ro(
+          "certificate",
+          [](const Plan& p) {
+            return p.rung == planner::Rung::none ? std::nullopt : std::optional(p.certificate);
+          },
+          "What is known of it; None for planners that do not verify.")
+      .def_ro("candidates", &Plan::candidates, "The motions that were looked at, in that order.")
       .def_prop_ro(
           "t", [](const Plan& p) { return to_numpy(p.t); }, nb::rv_policy::move,
           doc::planner_Plan_t)
@@ -152,6 +190,7 @@ void bind_plant(nb::module_& module) {
 }  // namespace
 
 void bind_planner(nb::module_& module) {
+  bind_verification(module);
   bind_plan(module);
   bind_plant(module);
   nb::class_<ScenarioPlanner>(module, "Planner", doc::planner_Planner)

@@ -111,6 +111,29 @@ def test_plans():
         plant.advance(scenario.start, "plan", 0, 1)
 
 
+def test_verified_plans():
+    scenario = slalom.load_scenario("E_B", planner="P_E")
+    plan = slalom.Planner(scenario).plan(scenario.start)
+    assert (plan.rung, plan.solved) == ("new", True)
+    certificate = plan.certificate
+    assert certificate.verified and certificate.refused == "" and certificate.until > plan.t_start
+    assert certificate.nearest in {o.name for o in scenario.obstacles}
+    assert certificate.least_clearance > 0 and certificate.least_wheel_load > 0
+    taken = min((c for c in plan.candidates if c.certificate.verified), key=lambda c: c.cost)
+    assert taken.cost == plan.cost and taken.name
+    assert taken.certificate.least_clearance == certificate.least_clearance
+
+    blocked = scenario.replace(set={"obstacles.O1.x": 200, "obstacles.O1.y": 20, "obstacles.O1.vx": 0})
+    plan = slalom.Planner(blocked).plan(scenario.start)
+    assert (plan.rung, plan.solved) == ("least_bad", False)
+    assert not plan.certificate.verified and "O1" in plan.certificate.refused
+    assert plan.status == f"unverified: {plan.certificate.refused}"
+    assert "refused" in repr(plan.certificate)
+
+    other = slalom.Planner(slalom.load_scenario("E_B", planner="P_D")).plan(scenario.start)
+    assert (other.rung, other.certificate, other.candidates) == ("", None, [])
+
+
 def test_the_plant_may_differ_from_the_vehicle():
     scenario = slalom.load_scenario("E_B")
     heavy = scenario.replace(set={"plant.mass_factor": 1.4, "sensing.delay": 0.1})

@@ -183,7 +183,7 @@ std::string sweep_page(const SweepTable& sweep, const PublishedSweep& paper,
        {"figures", figures},
        {"counts", count_table(sweep, paper, beside) + comparison_table(sweep, paper, beside) +
                       notes("counts") + scenario_table(sweep)},
-       {"outcomes", outcome_table(sweep)},
+       {"outcomes", outcome_table(sweep) + failed_cycle_table(sweep)},
        {"horizons", horizons_html(sweep, paper, beside) + notes("real_time")},
        {"times", solve_time_table(sweep) + longest_horizon_table(sweep)},
        {"data", script_json(sweep_data(sweep, kept))},

@@ -90,6 +90,28 @@ std::string solve_time_table(const SweepTable& sweep) {
                rows);
 }
 
+std::string failed_cycle_table(const SweepTable& sweep) {
+  std::string rows;
+  for (const auto& planner : sweep.planners) {
+    std::int64_t cycles = 0, failed = 0, trials = 0, trials_failed = 0;
+    for (const auto& r : sweep.trials) {
+      if (r.planner != planner) continue;
+      cycles += r.cycles;
+      failed += r.failed_cycles;
+      ++trials;
+      trials_failed += r.failed_cycles > 0;
+    }
+    if (trials == 0) continue;
+    rows += row_head(planner) + cell(fmt::format("{} of {}", failed, cycles)) +
+            cell(fmt::format("{} of {}", trials_failed, trials)) + "</tr>\n";
+  }
+  if (rows.empty()) return "";
+  return "<h3>Cycles that failed</h3>\n<p class=\"remark\">Those without a solved plan; of a "
+         "planner "
+         "that verifies its plans, those without a verified one.</p>\n" +
+         table(head_cells({"planner", "cycles that failed", "trials with one"}), rows);
+}
+
 std::string longest_horizon_table(const SweepTable& sweep) {
   const auto rows_of = longest_horizons(sweep);
   if (rows_of.empty()) return "";

@@ -13,6 +13,9 @@ std::string horizons_html(const SweepTable& sweep, const PublishedSweep& paper, 
 /// Percentiles of the solve times, a row a planner.
 std::string solve_time_table(const SweepTable& sweep);
 
+/// How many cycles had no solved or, of a planner that verifies, no verified plan; a row a planner.
+std::string failed_cycle_table(const SweepTable& sweep);
+
 /// For each value of the axis beside tex, the longest execution horizon below which a shorter one
 /// does not help.
 std::string longest_horizon_table(const SweepTable& sweep);

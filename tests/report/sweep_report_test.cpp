@@ -179,6 +179,18 @@ TEST(SweepPage, ShowsCountsTestsAndThePapersBesideThem) {
   EXPECT_EQ(sweep_page(sweep, paper).find("22 of 400"), std::string::npos);
 }
 
+TEST(SweepPage, CountsTheCyclesThatFailedByPlanner) {
+  auto sweep = small_sweep();
+  for (auto& record : sweep.trials) record.cycles = 40;
+  sweep.trials[1].failed_cycles = 2;
+  sweep.trials[4].failed_cycles = 5;
+  const auto page = sweep_page(sweep, {});
+  EXPECT_EQ(testing::count(page, "<td class=\"num\">7 of 200</td><td class=\"num\">2 of 5</td>"),
+            1);
+  EXPECT_EQ(testing::count(page, "<td class=\"num\">0 of 240</td><td class=\"num\">0 of 6</td>"),
+            1);
+}
+
 TEST(SweepPage, SeveralScenariosStandSideBySide) {
   const auto page = sweep_page(two_scenarios(), {});
   for (const char* part : {"Scenarios E_C, a&lt;b,", "At the goal, by scenario", "0 of 6"})
