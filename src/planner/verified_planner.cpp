@@ -173,6 +173,7 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   Plan plan;
   plan.t_start = cycle.t_start();
   plan.report.backend = "verified";
+  plan.candidates = std::move(cycle.looked_at);
   const double hysteresis = task_.planner.w_t * task_.planner.hysteresis;
   const Option* chosen = nullptr;
   if (best && (!rest || best->cost < cycle.rest->cost - hysteresis)) {
@@ -206,7 +207,6 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   last_ = *chosen;
   last_begin_ = cycle.t_start();
   last_obstacles_ = cycle.obstacles;
-  plan.candidates = std::move(cycle.looked_at);
   plan.report.cpu_s = plan.report.planning_cpu_s = cycle.timer.cpu();
   plan.report.wall_s = cycle.timer.wall();
   return plan;

@@ -18,6 +18,8 @@ using namespace vehicle;
 Task task() {
   Task task;
   task.planner.method = Method::verified;
+  task.planner.arrival_N = 20;
+  task.planner.search_places = 5000;
   task.goal = {0, 180, std::numbers::pi / 2, 15};
   task.obstacles = {{"O1", 1, 80, 4, 4, 0, 0}};
   return task;
@@ -134,7 +136,6 @@ TEST(VerifiedPlanner, WithoutAWayToTheGoalItStopsClear) {
   t.region.x_min = -40;
   t.region.x_max = 40;
   t.obstacles = {{"wall", 0, 110, 80, 2, 0, 0}};
-  t.planner.search_places = 2000;
   Planner planner(t);
   const Plan plan = planner.plan(first());
   EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
