@@ -128,7 +128,10 @@ def main():
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
     trials = {p: paper_sweep(options, p) for p in PLANNERS}
-    text = HEAD.format(stamp=stamp("make verified-planner", options.program))
+    whole = options.count == parser.get_default("count") and options.points == parser.get_default("points")
+    command = "make verified-planner" if whole else (
+        f"tools/verified_planner.py --count {options.count} --points {options.points}")
+    text = HEAD.format(stamp=stamp(command, options.program))
     text += ("## The paper's sweep\n\nE_C, execution horizons of .01 to 1 s, O2 coming at up to 40 m/s.\n\n"
              + totals(trials) + "\n" + compared(trials) + "\n" + others(trials) + "\n" + real_time(trials["P_E"]))
     for seed, difficulty in SETS:
