@@ -247,7 +247,7 @@ Plan Planner::plan(const Request& request) {
 void Planner::reset() {
   method_->reset();
 }
-void Planner::record(Recorder recorder) {
+void Planner::record(const Recorder& recorder) {
   method_->record(recorder);
 }
 

@@ -49,7 +49,7 @@ class Planner {
   void reset();
   /// From now on hands solves that are wanted to the recorder; replay() comes to the same bits, for
   /// a solve depends on nothing that solves before it left behind but its start.
-  void record(Recorder recorder);
+  void record(const Recorder& recorder);
 
  private:
   std::unique_ptr<PlanningMethod> method_;
