@@ -98,7 +98,7 @@ def real_time(trials):
     for tex, group in itertools.groupby(trials.items(), key=lambda item: item[0][0]):
         own = [t for _, t in group]
         longest = max(float(t["max_cpu_time_s"]) for t in own)
-        text += row([tex, len(own), sum(map(arrives, own)),
+        text += row([f"{float(tex):.4g}", len(own), sum(map(arrives, own)),
                      number(1e3 * statistics.median(float(t["median_cpu_time_s"]) for t in own), 2),
                      number(1e3 * longest, 1), number(longest / float(tex), 2)])
     return text
