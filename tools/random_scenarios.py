@@ -33,12 +33,19 @@ of its LiDAR as far as its plan reaches them.
 
 """
 
+def make_scenarios(program, folder, count, seed, difficulty):
+    """`count` scenarios of each family."""
+    for family in FAMILIES:
+        subprocess.run([program, "make-scenarios", family, "--quiet", "--force", "--out", folder, "--count",
+                        str(count), "--seed", str(seed), "--difficulty", str(difficulty)], check=True)
+
+
 def sweep(program, work, name, scenarios, planners, settings):
     """Runs or completes a sweep; its trials by scenario and planner."""
     study = work / f"{name}.yaml"
     study.write_text(f"title: random scenarios, {name}\nscenarios: [{scenarios.resolve()}/*.yaml]\n"
                      f"planners: [{', '.join(planners)}]\nset: {setting(settings)}\n")
-    return {(t["scenario"], t["planner"]): t["outcome"] for t in swept(program, study, work / name)}
+    return {(t["scenario"], t["planner"]): t for t in swept(program, study, work / name)}
 
 
 def of_family(family, scenarios):
@@ -105,18 +112,15 @@ def main():
     parser.add_argument("--difficulty", type=float, default=0.5)
     options = parser.parse_args()
     folder = options.work / "scenarios"
-    for family in FAMILIES:
-        subprocess.run([options.program, "make-scenarios", family, "--quiet", "--force", "--out", folder,
-                        "--count", str(options.count), "--seed", str(options.seed),
-                        "--difficulty", str(options.difficulty)], check=True)
+    make_scenarios(options.program, folder, options.count, options.seed, options.difficulty)
     scenarios = sorted(path.stem for path in folder.glob("*.yaml"))
     trials = sweep(options.program, options.work, "planners", folder, PLANNERS, {})
-    planners = {p: {s: trials[s, p] for s in scenarios} for p in PLANNERS}
+    planners = {p: {s: trials[s, p]["outcome"] for s in scenarios} for p in PLANNERS}
     variants = {"P_D": planners["P_D"]}
     for number, (name, settings) in enumerate(VARIANTS.items()):
         if settings:
             trials = sweep(options.program, options.work, f"variant-{number}", folder, ["P_D"], settings)
-            variants[name] = {s: trials[s, "P_D"] for s in scenarios}
+            variants[name] = {s: trials[s, "P_D"]["outcome"] for s in scenarios}
     stamped = stamp("make random-scenarios", options.program)
     write(options.out, page(planners, variants, scenarios, options, stamped))
 

@@ -7,10 +7,9 @@ to the goal and processor times to docs/measured/verified-planner.md. Standard l
 
 import itertools
 import statistics
-import subprocess
 
 from measured import page_parser, stamp, write
-from random_scenarios import FAMILIES, of_family
+from random_scenarios import FAMILIES, make_scenarios, of_family, sweep
 from sweeps import head, interval, mcnemar, row, setting, swept
 
 PLANNERS = ("P_D", "P_E")
@@ -43,21 +42,14 @@ def number(value, digits):
 
 
 def settings_of(planner):
-    return setting(REAL_TIME if planner == "P_E" else {})
+    return REAL_TIME if planner == "P_E" else {}
 
 
 def paper_sweep(options, planner):
     study = options.work / f"sweep-{planner}.yaml"
-    study.write_text(SWEEP.format(planner=planner, points=options.points, settings=settings_of(planner)))
+    study.write_text(SWEEP.format(planner=planner, points=options.points, settings=setting(settings_of(planner))))
     return {(t["loop.tex"], t["obstacles.O2.vy"]): t
             for t in swept(options.program, study, options.work / f"sweep-{planner}")}
-
-
-def random_set(options, planner, name, folder):
-    study = options.work / f"{name}-{planner}.yaml"
-    study.write_text(f"title: random scenarios\nscenarios: [{folder.resolve()}/*.yaml]\n"
-                     f"planners: [{planner}]\nset: {settings_of(planner)}\n")
-    return {t["scenario"]: t for t in swept(options.program, study, options.work / f"{name}-{planner}")}
 
 
 def arrives(trial):
@@ -136,11 +128,12 @@ def main():
              + totals(trials) + "\n" + compared(trials) + "\n" + others(trials) + "\n" + real_time(trials["P_E"]))
     for seed, difficulty in SETS:
         folder = options.work / f"scenarios-{seed}"
-        for family in FAMILIES:
-            subprocess.run([options.program, "make-scenarios", family, "--quiet", "--force", "--out", folder,
-                            "--count", str(options.count), "--seed", str(seed),
-                            "--difficulty", str(difficulty)], check=True)
-        trials = {p: random_set(options, p, f"random-{seed}", folder) for p in PLANNERS}
+        make_scenarios(options.program, folder, options.count, seed, difficulty)
+        trials = {}
+        for planner in PLANNERS:
+            swept_set = sweep(options.program, options.work, f"random-{seed}-{planner}", folder, [planner],
+                              settings_of(planner))
+            trials[planner] = {scenario: trial for (scenario, _), trial in swept_set.items()}
         text += (f"\n## Random scenarios, seed {seed}, difficulty {difficulty:g}\n\n" + totals(trials) + "\n"
                  + compared(trials) + "\n" + by_family(trials, sorted(trials["P_E"])) + "\n" + others(trials))
     write(options.out, text)

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "slalom/vehicle/model.hpp"
-
 namespace slalom::planner {
 namespace {
 
@@ -101,17 +99,10 @@ void discretise(double h, Square& A, std::array<Control, kStates>& B, State& f) 
   }
 }
 
-expr::Function derivative_of(const Parameters& parameters) {
-  const Model model = make_model(parameters);
-  std::vector<expr::Expr> inputs(model.state.begin(), model.state.end());
-  inputs.insert(inputs.end(), model.control.begin(), model.control.end());
-  return {inputs, {}, {model.derivative.begin(), model.derivative.end()}};
-}
-
 }  // namespace
 
 Tracker::Tracker(const Parameters& vehicle, const Plant& plant)
-    : vehicle_(vehicle), plant_(plant), derivative_(derivative_of(vehicle)) {}
+    : vehicle_(vehicle), plant_(plant), derivative_(plant.dynamics().derivative_function()) {}
 
 void Tracker::linearise(std::size_t steps, double h) {
   const std::size_t inputs = kInputs;

@@ -39,7 +39,7 @@ class Tracker {
 
   vehicle::Parameters vehicle_;
   const vehicle::Plant& plant_;
-  expr::Function derivative_;
+  const expr::Function& derivative_;  ///< the plant's
   // One for each knot: the reference, its linearisation over a step, and the gains.
   std::vector<vehicle::State> state_;
   std::vector<vehicle::Control> control_;

@@ -14,7 +14,6 @@ namespace {
 
 using namespace vehicle;
 
-constexpr double kSameTime = 1e-6;  ///< [s]
 /// Obstacles farther from a guess than this [m] are left out of its OCP.
 constexpr double kFar = 18;
 /// Standing ones nearer than this to the edge of their margin have rows between the points [m].
@@ -68,13 +67,16 @@ void VerifiedPlanner::guide(Cycle& cycle) {
     const std::string name = "way " + std::to_string(k + 1);
     const Motion reference =
         braked_on(reference_of(*way, task_.vehicle), task_.vehicle, cycle.beyond());
-    Motion tracked =
-        tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end());
-    Motion guess = tracked;
-    consider(cycle, name, std::move(tracked));
+    Motion guess = tracked(cycle, reference);
+    consider(cycle, name, guess);
     while (guess.size() > 2 && guess.end() > way->back().t + kSameTime) guess.drop_last();
     solve(cycle, guess, name + ", solved");
   }
+}
+
+/// What the plant makes of a reference, from the state predicted to the reference's end.
+Motion VerifiedPlanner::tracked(const Cycle& cycle, const Motion& reference) {
+  return tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end());
 }
 
 /// The obstacles that the OCP keeps off: those that come near the guess, grown by their margins.
@@ -145,9 +147,7 @@ void VerifiedPlanner::solve(Cycle& cycle, const Motion& guess, const std::string
     cycle.iterations += problem->iterations();
     if (!answer) return;
     const Motion reference = braked_on(*answer, task_.vehicle, cycle.beyond());
-    const bool verified =
-        consider(cycle, name,
-                 tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end()));
+    const bool verified = consider(cycle, name, tracked(cycle, reference));
     longest_besides_s_ = std::max(longest_besides_s_, timer.cpu() - problem->solver_cpu_s());
     if (verified) return;
     const Verdict verdict = verifier_.last();
@@ -197,8 +197,7 @@ void VerifiedPlanner::stop(Cycle& cycle) {
       if (!cycle.verified.empty() && cycle.over()) return;
       const Motion reference = braking_reference(path, X0p, t0, deceleration, task_.vehicle);
       try {
-        if (consider(cycle, name, settled(tracker_.follow(reference, X0p, t0, reference.end()))))
-          break;
+        if (consider(cycle, name, settled(tracked(cycle, reference)))) break;
       } catch (const PlantError&) {
       }
     }

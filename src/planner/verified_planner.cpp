@@ -15,8 +15,6 @@ using namespace vehicle;
 
 /// The plant's integrator as the loop has it by default.
 constexpr double kPlantTolerance = 1e-9, kSampleStep = 0.02;
-/// Times nearer than this are one [s].
-constexpr double kSameTime = 1e-6;
 /// The state predicted is that of the last plan up to this [its unit].
 constexpr double kSameState = 1e-7;
 /// This near to its arrival a plan is not improved on [s].

@@ -33,6 +33,9 @@ class VerifiedPlanner final : public PlanningMethod {
   void reset() override { last_.reset(); }
 
  private:
+  /// Times nearer than this are one [s].
+  static constexpr double kSameTime = 1e-6;
+
   struct Option {
     std::string name;
     Motion motion;
@@ -80,6 +83,7 @@ class VerifiedPlanner final : public PlanningMethod {
   void guide(Cycle& cycle);
   void stop(Cycle& cycle);
   void solve(Cycle& cycle, const Motion& guess, const std::string& name);
+  Motion tracked(const Cycle& cycle, const Motion& reference);
   Motion settled(Motion motion) const;
   bool consider(Cycle& cycle, const std::string& name, Motion motion);
   ArrivalProblem::Obstacles near(const Cycle& cycle, const Motion& guess,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../base/between_knots.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::vehicle {
@@ -29,16 +30,7 @@ ControlSignal ControlSignal::delayed(double delay) const {
 }
 
 Control ControlSignal::at(double t) const {
-  if (t_.empty()) return {};
-  const auto next = std::upper_bound(t_.begin(), t_.end(), t);
-  if (next == t_.begin()) return control_.front();
-  if (next == t_.end()) return control_.back();
-  const auto k = static_cast<std::size_t>(next - t_.begin());
-  const double share = (t - t_[k - 1]) / (t_[k] - t_[k - 1]);
-  Control result;
-  for (std::size_t i = 0; i < kControls; ++i)
-    result[i] = control_[k - 1][i] + share * (control_[k][i] - control_[k - 1][i]);
-  return result;
+  return t_.empty() ? Control{} : between_knots(t_, control_, t);
 }
 
 }  // namespace slalom::vehicle

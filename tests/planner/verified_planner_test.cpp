@@ -70,9 +70,8 @@ TEST(VerifiedPlanner, ItsFirstPlanIsVerifiedAndWhatTheCertificateSays) {
 TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {
   const Task t = task();
   Planner planner(t);
-  Request request = first();
-  const Plan plan = planner.plan(request);
-  request = next(t, request, plan);
+  const Plan plan = planner.plan(first());
+  Request request = next(t, first(), plan);
   request.time_limit = 0;  // there is no time for anything else
   const Plan rest = planner.plan(request);
   EXPECT_EQ(rest.rung, Rung::rest);
@@ -86,9 +85,8 @@ TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {
 TEST(VerifiedPlanner, ARestFromAnotherStateIsDrivenAnewByThePlant) {
   const Task t = task();
   Planner planner(t);
-  Request request = first();
-  const Plan plan = planner.plan(request);
-  request = next(t, request, plan);
+  const Plan plan = planner.plan(first());
+  Request request = next(t, first(), plan);
   request.X0p[X] += 0.3;
   request.time_limit = 0;
   const Plan rest = planner.plan(request);
@@ -103,9 +101,8 @@ TEST(VerifiedPlanner, ARestFromAnotherStateIsDrivenAnewByThePlant) {
 TEST(VerifiedPlanner, WhatComesIntoTheWayIsAvoided) {
   const Task t = task();
   Planner planner(t);
-  Request request = first();
-  const Plan plan = planner.plan(request);
-  request = next(t, request, plan);
+  const Plan plan = planner.plan(first());
+  Request request = next(t, first(), plan);
   // Where the plan would be in 4 s.
   const State there = plan.states[std::min<std::size_t>(plan.states.size() - 1, 90)];
   request.obstacles = t.obstacles;

@@ -55,6 +55,9 @@ class Dynamics {
   explicit Dynamics(const Parameters& parameters);
   /// Time derivative of the state [state's units per s]; section 1 of docs/formulation.md.
   State derivative(const State& state, const Control& control) const;
+  /// The same as a function of the states and then the controls, with its derivatives, for many
+  /// points at once.
+  const expr::Function& derivative_function() const { return derivative_; }
   /// Vertical wheel loads [N], rl, rr, fl, fr; section 2.
   WheelLoads wheel_loads(const State& state) const;
   /// Lateral axle forces [N], front then rear, left positive; section 2.
