@@ -10,17 +10,14 @@
 #include "../../src/expr/tape.hpp"
 #include "expr/reference.hpp"
 #include "slalom/base/kernels.hpp"
+#include "support/sanitized.hpp"
 
 namespace slalom::expr {
 namespace {
 
 /// Expressions a test draws. The sanitizers, which look at our code and not at values, see each
 /// operation many times in the first few.
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t draws = 600;
-#else
-constexpr std::uint64_t draws = 3000;
-#endif
+constexpr std::uint64_t draws = kSanitized ? 600 : 3000;
 
 /// Smooth where differences are taken and inside every operation's domain by construction.
 class Generator {
