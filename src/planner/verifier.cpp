@@ -18,7 +18,7 @@ constexpr double kShortest = 1e-4;
 /// Speed grows by less than this within an interval between knots [m/s].
 constexpr double kSpeedSlack = 0.5;
 /// Wheel loads are looked at this often [s] at least. Between, they change by less than what
-/// verified_wheel_load stands above the load at which a wheel lifts.
+/// the load needed stands above that at which a wheel lifts.
 constexpr double kLoadStep = 0.026;
 /// What the integrator and the loop's other choice of instants may add to ax [m/s^2], ux [m/s] and
 /// sa [rad] at their limits.
@@ -63,7 +63,7 @@ void Verifier::note_limits(double t, const State& x) {
   const WheelLoads loads = plant_.dynamics().wheel_loads(x);
   for (std::size_t w = 0; w < kWheels; ++w) {
     certificate.least_wheel_load = std::min(certificate.least_wheel_load, loads[w]);
-    if (!(loads[w] >= task_.planner.verified_wheel_load))
+    if (!(loads[w] >= need_.wheel_load))
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
   if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
@@ -79,7 +79,7 @@ void Verifier::note_limits(double t, const State& x) {
 /// obstacle can go towards each other at the most.
 void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   const auto& o = (*obstacles_)[obstacle];
-  const double need = task_.planner.verified_clearance;
+  const double need = need_.clearance;
   const double rate = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
                       kSpeedSlack + std::hypot(o.vx, o.vy);
   const double reach = rate * (i.t1 - i.t0);
@@ -108,7 +108,7 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
 void Verifier::stand_for_good(const Motion& motion) {
   const State& x = motion.states.back();
   const double forward_x = std::cos(x[PSI]) * x[UX], forward_y = std::sin(x[PSI]) * x[UX];
-  const double need = task_.planner.verified_clearance;
+  const double need = need_.clearance;
   for (std::size_t k = 0; k < obstacles_->size(); ++k) {
     const auto& o = (*obstacles_)[k];
     const double rate = std::hypot(o.vx - forward_x, o.vy - forward_y);
@@ -147,9 +147,10 @@ void Verifier::find_end(const Motion& motion, double tex) {
 }
 
 Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
-                        double tex) {
+                        const Need& need, double tex) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   obstacles_ = &obstacles;
+  need_ = need;
   verdict_ = {};
   verdict_.nearest.assign(obstacles.size(), inf);
   auto& certificate = verdict_.certificate;
@@ -176,8 +177,8 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
       refuse(i.t0, error.what());
     }
   }
+  find_end(motion, tex);
   if (certificate.refused.empty()) {
-    find_end(motion, tex);
     if (verdict_.end == MotionEnd::open) refuse(motion.end(), "it neither arrives nor stands");
     if (verdict_.end == MotionEnd::stands) stand_for_good(motion);
   }

@@ -34,12 +34,18 @@ struct Verdict {
 /// thread-safe.
 class Verifier {
  public:
+  /// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N].
+  struct Need {
+    double clearance, wheel_load;
+  };
+
   /// Both outlive it.
   Verifier(const Task& task, const vehicle::Plant& plant) : task_(task), plant_(plant) {}
 
   /// `motion` among `obstacles`, of a cycle whose plan begins at motion.begin() and whose next
   /// checks of arrival are `tex` [s] apart from there.
-  Verdict judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles, double tex);
+  Verdict judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
+                const Need& need, double tex);
 
   /// The last verdict.
   const Verdict& last() const { return verdict_; }
@@ -55,6 +61,7 @@ class Verifier {
   const Task& task_;
   const vehicle::Plant& plant_;
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
+  Need need_{};
   Verdict verdict_;
 };
 

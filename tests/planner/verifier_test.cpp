@@ -34,7 +34,7 @@ struct Scene : ::testing::Test {
   }
   Verdict judge(const std::vector<world::Obstacle>& obstacles = {}, double tex = 0.5) {
     const Plant plant(task.vehicle, 1e-9, 0.02);
-    return Verifier(task, plant).judge(motion, obstacles, tex);
+    return Verifier(task, plant).judge(motion, obstacles, {2.15, 400}, tex);
   }
 };
 
