@@ -156,6 +156,13 @@ def page_parser(name, doc, keeps=True):
     return parser
 
 
+def command_of(parser, options, target, *names):
+    """What makes a page of these options, of which `names` shrink it: its target, or the tool where one differs."""
+    if all(getattr(options, name) == parser.get_default(name) for name in names):
+        return f"make {target}"
+    return f"tools/{parser.prog} " + " ".join(f"--{name} {getattr(options, name)}" for name in names)
+
+
 def write(file, text):
     """Whole or not at all."""
     file.parent.mkdir(parents=True, exist_ok=True)
