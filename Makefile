@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner solver-profile docs-measured wheel docs sweep-scale format clean build
+.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation solver-profile docs-measured wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -144,6 +144,11 @@ verified-planner: ## P_E beside P_D in the paper's sweep and random scenarios, i
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/verified_planner.py --program build/slalom
+
+ablation: ## P_E with one part of it left out at a time, into docs/measured/ablation.md (takes half an hour)
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/planner_ablation.py --program build/slalom
 
 format: ## format the C++ sources
 	tools/format.sh

@@ -48,6 +48,7 @@ PAGES = (
     Page("verdicts", "verdicts", DRIVE + PAPER + ("config/studies",)),
     Page("sensitivity", "sensitivity", DRIVE),
     Page("verified-planner", "verified-planner", DRIVE + modules("sweep")),
+    Page("ablation", "ablation", DRIVE + modules("sweep")),
     Page("random-scenarios", "random-scenarios", DRIVE + modules("sweep")),
     Page("paper-sweep", "paper-sweep", DRIVE + PAPER + ("config/studies",)),
     Page("long-solves", "long-solves", PLANNER),
