@@ -112,7 +112,7 @@ model-choice: ## how P_D drives with each model it may have in mind, into docs/m
 	$(MAKE) --no-print-directory build
 	python3 tools/model_choice.py --program build/slalom
 
-sensitivity: ## how far plant and sensors may be from what is believed, into docs/measured/sensitivity.md (takes minutes)
+sensitivity: ## how far plant and sensors may be from what P_D and P_E believe, into docs/measured/sensitivity.md (takes an hour)
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/sensitivity.py --program build/slalom
