@@ -76,7 +76,14 @@ void VerifiedPlanner::reset() {
   proposals_.turns().cancel();
 }
 
-Plan VerifiedPlanner::plan(const Request& request) {
+/// A state that the vehicle may be in: noise may say that a vehicle at rest goes backwards.
+Request VerifiedPlanner::possible(Request request) const {
+  request.X0p[UX] = std::max(request.X0p[UX], task_.vehicle.ux_min);
+  return request;
+}
+
+Plan VerifiedPlanner::plan(const Request& as_told) {
+  const Request request = possible(as_told);
   Cycle cycle{request, known(request), task_.planner.verification, {}, {}, false, {}, {}, {}, 0, 0};
   if (task_.planner.fallback) continue_last(cycle);
   look_further(cycle);
@@ -187,7 +194,9 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
     rest.states[0] = X0p;
     return rest;
   }
-  return tracker_.follow(rest, X0p, t0, rest.end());
+  // The plan as it was made, for what tracks a tracked motion strays.
+  const Motion reference = part_from(made_, std::max(t0, made_.begin()), plant_);
+  return tracker_.follow(reference, X0p, t0, reference.end());
 }
 
 /// Notes how far the vehicle and the obstacles are from where they were believed to be.
@@ -337,6 +346,7 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   plan.report.detail = plan.certificate.refused;
   plan.report.iterations = cycle.iterations;
   plan.report.cost = option->cost;
+  if (plan.rung != Rung::rest) made_ = motion;
   last_ = *option;
   last_begin_ = cycle.t_start();
   last_obstacles_ = cycle.obstacles;

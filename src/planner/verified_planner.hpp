@@ -38,6 +38,12 @@ class VerifiedPlanner final : public PlanningMethod {
     const Motion& motion() const { return proposal.motion; }
     const Certificate& certificate() const { return proposal.verdict.certificate; }
   };
+  /// A way to stop: what is driven first, and the path along which the vehicle then brakes.
+  struct Stop {
+    std::string name;
+    Motion lead;
+    Motion path;
+  };
   /// One call of plan().
   struct Cycle {
     const Request& request;
@@ -81,6 +87,7 @@ class VerifiedPlanner final : public PlanningMethod {
     static constexpr double kShare = 0.8;
   };
 
+  Request possible(Request request) const;
   std::vector<world::Obstacle> known(const Request& request) const;
   Verifier::Need need() const;
   void note_error(const Cycle& cycle, double state_error);
@@ -91,7 +98,8 @@ class VerifiedPlanner final : public PlanningMethod {
   void ask(Cycle& cycle);
   void adopt(Cycle& cycle, Proposal proposal);
   void stop(Cycle& cycle);
-  Motion settled(Motion motion) const;
+  std::vector<Stop> stops(const Cycle& cycle) const;
+  Motion settled(Motion motion, double until) const;
   bool consider(Cycle& cycle, Proposal proposal);
   bool consider_anew(Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
   double cost_of(const Motion& motion, const Verdict& verdict) const;
@@ -104,6 +112,7 @@ class VerifiedPlanner final : public PlanningMethod {
   Verifier verifier_;
   Proposals proposals_;
   std::optional<Option> last_;                    ///< what is driven
+  Motion made_;                                   ///< the same as it was when it was new
   std::vector<world::Obstacle> last_obstacles_;   ///< among which it was verified
   std::deque<std::pair<double, double>> errors_;  ///< of belief: when [s], and how great [m]
   double last_begin_ = 0;              ///< the moment from which it looked for arrival [s]
