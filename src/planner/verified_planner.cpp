@@ -85,9 +85,11 @@ Request VerifiedPlanner::possible(Request request) const {
 Plan VerifiedPlanner::plan(const Request& as_told) {
   const Request request = possible(as_told);
   Cycle cycle{request, known(request), task_.planner.verification, {}, {}, false, {}, {}, {}, 0, 0};
-  if (task_.planner.fallback) continue_last(cycle);
+  if (task_.planner.fallback) {
+    continue_last(cycle);
+    if (!cycle.rest || !cycle.trusts(*cycle.rest)) stop(cycle);
+  }
   look_further(cycle);
-  if (task_.planner.fallback && !cycle.arrives()) stop(cycle);
   return choose(cycle);
 }
 

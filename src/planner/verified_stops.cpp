@@ -76,12 +76,12 @@ std::vector<VerifiedPlanner::Stop> VerifiedPlanner::stops(const Cycle& cycle) co
   return result;
 }
 
+/// Looks for a stop that is good.
 void VerifiedPlanner::stop(Cycle& cycle) {
   const State& X0p = cycle.request.X0p;
   const double t0 = cycle.t_start();
   for (const Stop& stop : stops(cycle))
     for (const double deceleration : kStops) {
-      if (!cycle.good.empty() && cycle.over()) return;
       const bool at_once = stop.lead.size() < 2;
       const State& from = at_once ? X0p : stop.lead.states.back();
       const double t = at_once ? t0 : stop.lead.end();
@@ -92,7 +92,8 @@ void VerifiedPlanner::stop(Cycle& cycle) {
         reference.add(braking.t[k], braking.states[k], braking.controls[k]);
       try {
         Motion motion = tracker_.follow(reference, X0p, t0, reference.end());
-        if (consider_anew(cycle, stop.name, settled(std::move(motion), t0 + cycle.beyond()))) break;
+        if (consider_anew(cycle, stop.name, settled(std::move(motion), t0 + cycle.beyond())))
+          return;
       } catch (const PlantError&) {
       }
     }

@@ -27,6 +27,8 @@ constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
 /// Standing, distances are looked at this far apart at the least [m].
 constexpr double kLook = 0.01;
+/// A motion that begins beyond a limit is within it after this [s].
+constexpr double kToComeBack = 1;
 /// Within the goal's square by this much counts as there [m].
 constexpr double kInside = 0.1;
 
@@ -39,6 +41,11 @@ double distance_within(const world::Obstacle& o, const State& x, double t, doubl
   const double dx = x[X] - o.x_at(t), dy = x[Y] - o.y_at(t);
   const double bound = std::hypot(dx, dy) - std::max(o.a, o.b);
   return bound > far || o.a == o.b ? bound : world::distance(o, x[X], x[Y], t);
+}
+
+/// By how much a value is beyond its range.
+double beyond(double value, double least, double most) {
+  return std::max({least - value, value - most, 0.});
 }
 
 }  // namespace
@@ -57,22 +64,35 @@ void Verifier::refuse(double t, std::string why) {
   certificate.refused_at = t;
 }
 
-void Verifier::note_limits(double t, const State& x) {
+Verifier::Excess Verifier::excess_of(const State& x) const {
   const Parameters& p = task_.vehicle;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Excess excess;
+  const WheelLoads loads = plant_.dynamics().wheel_loads(x);
+  for (std::size_t w = 0; w < kWheels; ++w)
+    excess.load[w] = beyond(loads[w], need_.wheel_load, inf);
+  excess.ux = beyond(x[UX], p.ux_min, p.ux_max + kUxSlack);
+  excess.sa = beyond(x[SA], -p.sa_max() - kSteeringSlack, p.sa_max() + kSteeringSlack);
+  excess.ax = beyond(x[AX], p.ax_min_at(x[UX]) - kAccelerationSlack,
+                     p.ax_max_at(x[UX]) + kAccelerationSlack);
+  return excess;
+}
+
+/// Where the motion begins beyond a limit, it has a while to come back, and goes no further.
+void Verifier::note_limits(double t, const State& x) {
   auto& certificate = verdict_.certificate;
   const WheelLoads loads = plant_.dynamics().wheel_loads(x);
+  const Excess excess = excess_of(x);
+  const Excess allowed = t - begin_ < kToComeBack ? first_ : Excess{};
   for (std::size_t w = 0; w < kWheels; ++w) {
     certificate.least_wheel_load = std::min(certificate.least_wheel_load, loads[w]);
-    if (!(loads[w] >= need_.wheel_load))
+    if (!(excess.load[w] <= allowed.load[w]))
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
   if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
-  if (!(x[UX] <= p.ux_max + kUxSlack && x[UX] >= p.ux_min))
-    refuse(t, fmt::format("speed of {:.4g} m/s", x[UX]));
-  if (!(std::fabs(x[SA]) <= p.sa_max() + kSteeringSlack)) refuse(t, "steering angle");
-  if (!(x[AX] >= p.ax_min_at(x[UX]) - kAccelerationSlack &&
-        x[AX] <= p.ax_max_at(x[UX]) + kAccelerationSlack))
-    refuse(t, fmt::format("acceleration of {:.3g} m/s^2", x[AX]));
+  if (!(excess.ux <= allowed.ux)) refuse(t, fmt::format("speed of {:.4g} m/s", x[UX]));
+  if (!(excess.sa <= allowed.sa)) refuse(t, "steering angle");
+  if (!(excess.ax <= allowed.ax)) refuse(t, fmt::format("acceleration of {:.3g} m/s^2", x[AX]));
 }
 
 /// Along an interval, distance falls below the mean of its ends by half the way that vehicle and
@@ -160,6 +180,8 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
     return verdict_;
   }
   certificate.until = motion.end();
+  begin_ = motion.begin();
+  first_ = excess_of(motion.states[0]);
   note_limits(motion.t[0], motion.states[0]);
   for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {
     const Interval i{motion.t[k],          motion.t[k + 1],    motion.states[k],

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,12 @@ class Verifier {
 
  private:
   struct Interval;
+  /// By how much a state is beyond the vehicle's limits and the wheel loads needed.
+  struct Excess {
+    std::array<double, vehicle::kWheels> load{};
+    double ux = 0, sa = 0, ax = 0;
+  };
+  Excess excess_of(const vehicle::State& state) const;
   void note_limits(double t, const vehicle::State& state);
   void keep_off(const Interval& interval, std::size_t obstacle);
   void find_end(const Motion& motion, double tex);
@@ -62,6 +69,8 @@ class Verifier {
   const vehicle::Plant& plant_;
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
   Need need_{};
+  double begin_ = 0;
+  Excess first_;  ///< at the motion's beginning
   Verdict verdict_;
 };
 
