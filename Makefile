@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner solver-profile docs-measured wheel docs sweep-scale format clean build
+.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors solver-profile docs-measured wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -112,7 +112,7 @@ model-choice: ## how P_D drives with each model it may have in mind, into docs/m
 	$(MAKE) --no-print-directory build
 	python3 tools/model_choice.py --program build/slalom
 
-sensitivity: ## how far plant and sensors may be from what is believed, into docs/measured/sensitivity.md (takes minutes)
+sensitivity: ## how far plant and sensors may be from what P_D and P_E believe, into docs/measured/sensitivity.md (takes an hour)
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/sensitivity.py --program build/slalom
@@ -144,6 +144,16 @@ verified-planner: ## P_E beside P_D in the paper's sweep and random scenarios, i
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/verified_planner.py --program build/slalom
+
+ablation: ## P_E with one part of it left out at a time, into docs/measured/ablation.md (takes half an hour)
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/planner_ablation.py --program build/slalom
+
+belief-errors: ## P_E with plant and sensors not as believed, 10,000 drives, into docs/measured/belief-errors.md (takes hours)
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/belief_errors.py --program build/slalom
 
 format: ## format the C++ sources
 	tools/format.sh

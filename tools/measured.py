@@ -46,15 +46,17 @@ PAGES = (
     Page("latency", "latency", DRIVE + ("config/studies/latency.yaml",)),
     Page("robustness", "robustness", DRIVE),
     Page("verdicts", "verdicts", DRIVE + PAPER + ("config/studies",)),
-    Page("sensitivity", "sensitivity", DRIVE),
     Page("verified-planner", "verified-planner", DRIVE + modules("sweep")),
+    Page("ablation", "ablation", DRIVE + modules("sweep")),
     Page("random-scenarios", "random-scenarios", DRIVE + modules("sweep")),
     Page("paper-sweep", "paper-sweep", DRIVE + PAPER + ("config/studies",)),
+    Page("sensitivity", "sensitivity", DRIVE),
     Page("long-solves", "long-solves", PLANNER),
     Page("solver-profile", "solver-profile", PLANNER),
     Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),
     Page("perturbed", "perturbed", PLANNER),
     Page("peers", "peers", SOLVER + ("python/src", "benchmarks/ocp")),
+    Page("belief-errors", "belief-errors", DRIVE + modules("sweep")),
     Page("benchmarks", "bench", PLANNER),
 )
 
@@ -154,6 +156,13 @@ def page_parser(name, doc, keeps=True):
         parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run/measured" / commit() / name,
                             help="goes on with what was measured there")
     return parser
+
+
+def command_of(parser, options, target, *names):
+    """What makes a page of these options, of which `names` shrink it: its target, or the tool where one differs."""
+    if all(getattr(options, name) == parser.get_default(name) for name in names):
+        return f"make {target}"
+    return f"tools/{parser.prog} " + " ".join(f"--{name} {getattr(options, name)}" for name in names)
 
 
 def write(file, text):

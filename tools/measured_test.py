@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The stamp of measured pages, and which of them are stale, on a repository made up for it."""
 
+import argparse
 import pathlib
 import subprocess
 import sys
@@ -92,6 +93,13 @@ class Stamp(unittest.TestCase):
         self.assertRegex(text, r"^\*Written by `make realtime`; .* on \d{4}-\d\d-\d\d: .*, \d+ cores, kernels "
                                r"(avx2|baseline), .*\.\*\n$")  # fmt: skip
         self.assertIn(measured.commit(), text)
+
+    def test_a_page_of_fewer_drives_names_the_tool_that_made_it(self):
+        parser = argparse.ArgumentParser(prog="some_tool.py")
+        parser.add_argument("--most", type=int, default=5)
+        self.assertEqual(measured.command_of(parser, parser.parse_args([]), "some-target", "most"), "make some-target")
+        self.assertEqual(measured.command_of(parser, parser.parse_args(["--most", "2"]), "some-target", "most"),
+                         "tools/some_tool.py --most 2")
 
     def test_the_compiler_is_the_programs_own(self):
         with tempfile.NamedTemporaryFile(suffix=".o") as file:

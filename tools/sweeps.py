@@ -44,14 +44,16 @@ def setting(values):
 
 
 def interval(k, n):
-    """Exact 95 % interval of a share (Clopper and Pearson), by bisection on the binomial sum."""
+    """Exact 95 % interval of a share (Clopper and Pearson), by bisection on the binomial sum, whose terms are too
+    large for numbers before they are multiplied."""
     def tail(p, at_least):
-        return sum(math.comb(n, i) * p**i * (1 - p)**(n - i)
+        return sum(math.exp(math.lgamma(n + 1) - math.lgamma(i + 1) - math.lgamma(n - i + 1)
+                            + i * math.log(p) + (n - i) * math.log1p(-p))
                    for i in (range(k, n + 1) if at_least else range(k + 1)))
 
     def solve(at_least):
         lo, hi = 0.0, 1.0
-        for _ in range(60):
+        for _ in range(50):  # before p rounds to 1
             p = (lo + hi) / 2
             if (tail(p, at_least) < 0.025) == at_least:
                 lo = p

@@ -22,7 +22,10 @@ namespace {
 constexpr double kGrowth = 1.03;
 /// Where rows of close obstacles hold about each point, in lengths of the interval: points are
 /// half an interval apart.
-constexpr std::array kShares = {-0.2, -0.1, 0., 0.1, 0.2};
+const std::vector<double>& shares(bool between) {
+  static const std::vector<double> all = {-0.2, -0.1, 0, 0.1, 0.2}, none = {0};
+  return between ? all : none;
+}
 /// Where the end may lie, in half-widths of the goal's square from its centre.
 constexpr double kEnd = 0.6;
 /// Points of the guess for each interval.
@@ -57,7 +60,10 @@ ArrivalProblem::Room ArrivalProblem::room_for(const Obstacles& obstacles) {
 }
 
 ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
-    : room_(room), intervals_(task.planner.arrival_N), problem_("arrival") {
+    : room_(room),
+      intervals_(task.planner.arrival_N),
+      shares_(shares(task.planner.rows_between)),
+      problem_("arrival") {
   add_dynamics(task);
   add_obstacles();
   add_cost_and_end(task);
@@ -131,9 +137,9 @@ void ArrivalProblem::set_obstacles(const Obstacles& obstacles) {
   std::vector<std::vector<double>> far, close;
   for (const auto& o : obstacles.far) far.push_back({o.x, o.y, o.a, o.b});
   for (const auto& o : obstacles.close)
-    for (const double share : kShares) close.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy, share});
+    for (const double share : shares_) close.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy, share});
   far.resize(room_.far, {away, away, size, size});
-  close.resize(room_.close * kShares.size(), {away, away, size, size, 0, 0, 0});
+  close.resize(room_.close * shares_.size(), {away, away, size, size, 0, 0, 0});
   const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers) {
     if (numbers.empty()) return;
     std::vector<std::string> names;

@@ -58,6 +58,7 @@ class ArrivalProblem {
 
   Room room_;
   int intervals_;
+  const std::vector<double>& shares_;
   ocp::Problem problem_;
   ocp::ConstraintId far_rows_{}, close_rows_{};
   std::array<Expr, vehicle::kStates> X_, X0p_, rate_;

@@ -7,6 +7,9 @@
 
 namespace slalom::planner {
 
+/// Times nearer than this are one [s].
+constexpr double kSameTime = 1e-6;
+
 /// A motion through time: states and controls at knots of absolute time [s], the controls linear
 /// between them.
 struct Motion {

@@ -176,6 +176,11 @@ void add_verification(Table& table) {
           "verified_wheel_load", &S::verified_wheel_load, Range::any(), "N",
           "Least wheel load of a verified plan. A wheel lifts at 100 N; the OCP's rows keep 1000 N "
           "at the points of its mesh.")
+      .real("kept_clearance", &S::kept_clearance, Range::non_negative(), "m",
+            "Least distance of the rest of a plan where state or obstacles are not those it was "
+            "verified for; a new plan keeps this and the greatest error of the last 5 s.")
+      .real("kept_wheel_load", &S::kept_wheel_load, Range::any(), "N",
+            "Least wheel load of such a rest.")
       .real("standing_horizon", &S::standing_horizon, Range::positive(), "s",
             "How long a plan that ends standing must stay clear of all obstacles as predicted.")
       .real("arrival_margin", &S::arrival_margin, Range::non_negative(), "m",
@@ -194,13 +199,29 @@ void add_verification(Table& table) {
           "improvement_period", &S::improvement_period, Range::non_negative(), "s",
           "While the last plan still leads to the goal, a better one is looked for this long after "
           "a new one, and then in intervals that double, up to eightfold, while none is found.")
+      .real("improvement_time", &S::improvement_time, Range::positive(), "s",
+            "While the last plan still leads to the goal, a cycle looks so long for a better one, "
+            "and "
+            "the next cycle goes on. It is counted in work, not by a clock, so that drives repeat.")
       .real("hysteresis", &S::hysteresis, Range::non_negative(), "s",
             "A new plan is driven when it is sooner at the goal by this, so that plans do not "
             "alternate.")
       .integer("search_places", &S::search_places, Range::closed(1, 100000000), "1",
                "Places a search for a way looks at before it gives up, while none is known.")
       .integer("improvement_places", &S::improvement_places, Range::closed(1, 100000000), "1",
-               "Places a search for a better way looks at.");
+               "Places a search for a better way looks at.")
+      .integer("ways", &S::ways, Range::closed(0, 1000), "1",
+               "Ways of the search that are followed while none is known, which pass obstacles "
+               "differently from those that were good.")
+      .boolean("guidance", &S::guidance,
+               "Off: the OCP of the whole way starts straight on. For studies, as the next three.")
+      .boolean("rows_between", &S::rows_between,
+               "Off: rows of the OCP's obstacles hold at the points of its mesh alone.")
+      .boolean("verification", &S::verification,
+               "Off: the cheapest candidate is driven, verified or not.")
+      .boolean("fallback", &S::fallback,
+               "Off: neither the rest of the last plan nor a stop is driven; a cycle without a new "
+               "plan has none.");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "references.hpp"
-#include "slalom/base/timer.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -21,6 +20,10 @@ constexpr double kSameState = 1e-7;
 constexpr double kNearlyThere = 1;
 /// The longest wait until a better plan is looked for again, in improvement periods.
 constexpr double kLongestWaits = 8;
+/// Work of one turn between two looks at the clock, in places.
+constexpr double kTurn = 10'000;
+/// Errors of belief are remembered for so long [s].
+constexpr double kRemembered = 5;
 /// Standing costs so much more than arriving, and each metre to the goal this.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
 
@@ -36,6 +39,26 @@ double gap(const State& a, const State& b) {
   return most;
 }
 
+double distance(const State& a, const State& b) {
+  return std::hypot(a[X] - b[X], a[Y] - b[Y]);
+}
+
+/// What there is of a motion from t0 on, which is not before it begins. The state between two knots
+/// is the plant's.
+Motion part_from(const Motion& motion, double t0, const Plant& plant) {
+  const auto next = static_cast<std::size_t>(
+      std::upper_bound(motion.t.begin(), motion.t.end(), t0 + kSameTime) - motion.t.begin());
+  Motion part;
+  const Control now = motion.control_at(t0);
+  part.add(t0,
+           plant.advance(motion.states[next - 1], motion.controls[next - 1], now,
+                         motion.t[next - 1], t0),
+           now);
+  for (std::size_t k = next; k < motion.size(); ++k)
+    part.add(motion.t[k], motion.states[k], motion.controls[k]);
+  return part;
+}
+
 }  // namespace
 
 VerifiedPlanner::VerifiedPlanner(const Task& task)
@@ -43,15 +66,30 @@ VerifiedPlanner::VerifiedPlanner(const Task& task)
       plant_(task_.vehicle, kPlantTolerance, kSampleStep),
       tracker_(task_.vehicle, plant_),
       verifier_(task_, plant_),
-      ways_(task_, task_.vehicle),
-      solver_(nlp::make_solver(to_string(task_.planner.solver))) {
+      proposals_(task_, tracker_, verifier_) {
   check(task_.planner, "planner " + task_.planner.name);
 }
 
-Plan VerifiedPlanner::plan(const Request& request) {
-  Cycle cycle{request, known(request), {}, {}, {}, {}, {}, 0};
-  continue_last(cycle);
-  improve(cycle);
+void VerifiedPlanner::reset() {
+  last_.reset();
+  errors_.clear();
+  proposals_.turns().cancel();
+}
+
+/// A state that the vehicle may be in: noise may say that a vehicle at rest goes backwards.
+Request VerifiedPlanner::possible(Request request) const {
+  request.X0p[UX] = std::max(request.X0p[UX], task_.vehicle.ux_min);
+  return request;
+}
+
+Plan VerifiedPlanner::plan(const Request& as_told) {
+  const Request request = possible(as_told);
+  Cycle cycle{request, known(request), task_.planner.verification, {}, {}, false, {}, {}, {}, 0, 0};
+  if (task_.planner.fallback) {
+    continue_last(cycle);
+    if (!cycle.rest || !cycle.trusts(*cycle.rest)) stop(cycle);
+  }
+  look_further(cycle);
   return choose(cycle);
 }
 
@@ -65,10 +103,18 @@ std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) cons
   return obstacles;
 }
 
+/// What a new plan keeps: what it loses by errors as they were lately leaves enough for its rest.
+Verifier::Need VerifiedPlanner::need() const {
+  const Settings& s = task_.planner;
+  double error = 0;
+  for (const auto& [when, size] : errors_) error = std::max(error, size);
+  return {std::max(s.verified_clearance, s.kept_clearance + error), s.verified_wheel_load};
+}
+
 double VerifiedPlanner::cost_of(const Motion& motion, const Verdict& verdict) const {
   const Settings& s = task_.planner;
-  const bool stands = verdict.end == MotionEnd::stands;
-  const double end = stands ? motion.end() : verdict.arrival;
+  const bool arrives = verdict.end == MotionEnd::arrives;
+  const double end = arrives ? verdict.arrival : motion.end();
   double cost = s.w_t * end;
   for (std::size_t k = 0; k + 1 < motion.size() && motion.t[k] < end; ++k)
     cost +=
@@ -76,27 +122,31 @@ double VerifiedPlanner::cost_of(const Motion& motion, const Verdict& verdict) co
         (s.w_sa * std::pow(motion.states[k][SA], 2) + s.w_sr * std::pow(motion.controls[k][SR], 2) +
          s.w_jx * std::pow(motion.controls[k][JX], 2));
   const State& last = motion.states.back();
-  if (stands)
+  if (!arrives)
     cost += kStandingCost + kMetreCost * std::hypot(last[X] - task_.goal.x, last[Y] - task_.goal.y);
   return cost;
 }
 
-/// Judges a motion and keeps it among the cycle's options if it is verified.
-bool VerifiedPlanner::consider(Cycle& cycle, const std::string& name, Motion motion) {
-  Option option{name, std::move(motion), {}, 0};
-  option.verdict = verifier_.judge(option.motion, cycle.obstacles, cycle.tex());
-  const Certificate& certificate = option.verdict.certificate;
-  if (certificate.verified) option.cost = cost_of(option.motion, option.verdict);
-  cycle.looked_at.push_back({name, option.cost, certificate});
-  if (certificate.verified) {
-    cycle.verified.push_back(std::move(option));
-    return true;
-  }
-  if (option.motion.size() > 1 &&
-      (!cycle.least_bad ||
-       certificate.refused_at > cycle.least_bad->verdict.certificate.refused_at))
+/// Keeps a motion that was judged among the cycle's options. Whether it is good.
+bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal) {
+  Option option{std::move(proposal), 0};
+  const Certificate& certificate = option.certificate();
+  const bool good = cycle.trusts(option) && option.motion().size() > 1;
+  if (good) option.cost = cost_of(option.motion(), option.proposal.verdict);
+  cycle.looked_at.push_back({option.proposal.name, option.cost, certificate});
+  if (good)
+    cycle.good.push_back(std::move(option));
+  else if (option.motion().size() > 1 &&
+           (!cycle.least_bad || certificate.refused_at > cycle.least_bad->certificate().refused_at))
     cycle.least_bad = std::move(option);
-  return false;
+  return good;
+}
+
+bool VerifiedPlanner::consider_anew(Cycle& cycle, const std::string& name, Motion motion,
+                                    bool solved) {
+  Proposal proposal{name, std::move(motion), {}, solved};
+  proposal.verdict = verifier_.judge(proposal.motion, cycle.obstacles, need(), cycle.tex());
+  return consider(cycle, std::move(proposal));
 }
 
 /// The rest of the last plan from the state predicted. Where state and obstacles are those that it
@@ -105,107 +155,204 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
   if (!last_) return;
   const double t0 = cycle.t_start();
   Motion motion;
-  bool unchanged = false;
   try {
-    unchanged = rest_of_last(cycle, motion);
-  } catch (const PlantError&) {  // what there is of it is judged
+    motion = rest_of_last(cycle);
+  } catch (const PlantError&) {  // it cannot be driven from here
+    cycle.rest_unchanged = false;
   }
   // The loop looks for arrival at other moments when a plan was late.
-  unchanged = unchanged && std::fabs(std::remainder(t0 - last_begin_, cycle.tex())) < kSameTime;
-  cycle.rest = Option{"rest", std::move(motion), last_->verdict, last_->cost};
-  if (!(unchanged && same(cycle.obstacles, last_obstacles_))) {
-    cycle.rest->verdict = verifier_.judge(cycle.rest->motion, cycle.obstacles, cycle.tex());
-    cycle.rest->cost = cost_of(cycle.rest->motion, cycle.rest->verdict);
+  cycle.rest_unchanged = cycle.rest_unchanged && same(cycle.obstacles, last_obstacles_) &&
+                         std::fabs(std::remainder(t0 - last_begin_, cycle.tex())) < kSameTime;
+  cycle.rest = Option{{"rest", std::move(motion), last_->proposal.verdict,
+                       last_->proposal.solved && cycle.rest_unchanged},
+                      last_->cost};
+  Proposal& rest = cycle.rest->proposal;
+  if (!cycle.rest_unchanged) {
+    const Settings& s = task_.planner;
+    rest.verdict = verifier_.judge(rest.motion, cycle.obstacles,
+                                   {s.kept_clearance, s.kept_wheel_load}, cycle.tex());
+    if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
-  const Certificate& certificate = cycle.rest->verdict.certificate;
-  cycle.looked_at.push_back({"rest", cycle.rest->cost, certificate});
-  if (!certificate.verified) cycle.least_bad = cycle.rest;
+  cycle.looked_at.push_back({"rest", cycle.rest->cost, rest.verdict.certificate});
+  if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) cycle.least_bad = cycle.rest;
 }
 
-/// Puts the rest of the last plan into `motion`; whether it is that plan's own motion.
-bool VerifiedPlanner::rest_of_last(const Cycle& cycle, Motion& motion) const {
+/// The last plan from where it is to go on; it is tracked where the state is another.
+Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   const double t0 = cycle.t_start();
-  const Motion& old = last_->motion;
+  const State& X0p = cycle.request.X0p;
+  const Motion& old = last_->motion();
   if (t0 >= old.end() - kSameTime) {  // beyond its end, straight on
-    motion.add(t0, cycle.request.X0p, {});
+    Motion on;
+    on.add(t0, X0p, {});
     const double t1 = t0 + cycle.beyond();
-    motion.add(t1, plant_.advance(cycle.request.X0p, {}, {}, t0, t1), {});
-    return false;
+    on.add(t1, plant_.advance(X0p, {}, {}, t0, t1), {});
+    return on;
   }
-  const auto next = static_cast<std::size_t>(
-      std::upper_bound(old.t.begin(), old.t.end(), t0 + kSameTime) - old.t.begin());
-  motion.add(t0, cycle.request.X0p, old.control_at(t0));
-  const State expected = next > 0 ? plant_.advance(old.states[next - 1], old.controls[next - 1],
-                                                   motion.controls[0], old.t[next - 1], t0)
-                                  : old.states[0];
-  const bool unchanged = next > 0 && gap(expected, cycle.request.X0p) < kSameState;
-  for (std::size_t k = next; k < old.size(); ++k)
-    motion.add(old.t[k],
-               unchanged ? old.states[k]
-                         : plant_.advance(motion.states.back(), motion.controls.back(),
-                                          old.controls[k], motion.end(), old.t[k]),
-               old.controls[k]);
-  return unchanged;
+  Motion rest = part_from(old, std::max(t0, old.begin()), plant_);
+  cycle.rest_unchanged = gap(rest.states[0], X0p) < kSameState;
+  note_error(cycle, distance(rest.states[0], X0p));
+  if (cycle.rest_unchanged) {
+    rest.states[0] = X0p;
+    return rest;
+  }
+  // The plan as it was made, for what tracks a tracked motion strays.
+  const Motion reference = part_from(made_, std::max(t0, made_.begin()), plant_);
+  return tracker_.follow(reference, X0p, t0, reference.end());
 }
 
-void VerifiedPlanner::improve(Cycle& cycle) {
+/// Notes how far the vehicle and the obstacles are from where they were believed to be.
+void VerifiedPlanner::note_error(const Cycle& cycle, double state_error) {
+  const double t0 = cycle.t_start();
+  double moved = 0;
+  if (cycle.obstacles.size() == last_obstacles_.size())
+    for (std::size_t k = 0; k < cycle.obstacles.size(); ++k) {
+      const auto &now = cycle.obstacles[k], &then = last_obstacles_[k];
+      moved =
+          std::max(moved, std::hypot(now.x_at(t0) - then.x_at(t0), now.y_at(t0) - then.y_at(t0)));
+    }
+  while (!errors_.empty() && errors_.front().first < t0 - kRemembered) errors_.pop_front();
+  if (state_error + moved > kSameState) errors_.emplace_back(t0, state_error + moved);
+}
+
+/// Whether something better than the rest is to be looked for.
+bool VerifiedPlanner::due(const Cycle& cycle) const {
+  return !cycle.rest_is(MotionEnd::arrives) ||
+         (cycle.t_start() - last_improved_ >= wait_ - kSameTime &&
+          cycle.rest->proposal.verdict.arrival - cycle.t_start() >= kNearlyThere);
+}
+
+/// Asks for proposals that begin when they are expected to be there, where the rest leads by then.
+void VerifiedPlanner::ask(Cycle& cycle) {
+  const Settings& s = task_.planner;
   const bool arrives = cycle.rest_is(MotionEnd::arrives);
-  if (arrives && (cycle.t_start() - last_improved_ < wait_ - kSameTime ||
-                  cycle.rest->verdict.arrival - cycle.t_start() < kNearlyThere))
-    return;
   last_improved_ = cycle.t_start();
   // Until a plan is better, each search is waited for longer than the one before.
-  wait_ = arrives ? std::min(2 * wait_, kLongestWaits * task_.planner.improvement_period)
-                  : task_.planner.improvement_period;
-  if (cycle.rest && cycle.rest->verdict.end == MotionEnd::arrives && !cycle.over())
-    solve(cycle, cycle.rest->motion, "rest, solved");
-  guide(cycle);
-  if (!cycle.arrives()) stop(cycle);
+  wait_ =
+      arrives ? std::min(2 * wait_, kLongestWaits * s.improvement_period) : s.improvement_period;
+  Proposals::Question question;
+  question.from = cycle.request.X0p;
+  question.t_from = cycle.t_start();
+  question.tex = cycle.tex();
+  question.beyond = cycle.beyond();
+  question.obstacles = cycle.obstacles;
+  question.need = need();
+  question.places = arrives ? s.improvement_places : s.search_places;
+  question.ways = arrives ? 1 : s.ways;
+  if (arrives) question.arrival = cycle.rest->proposal.verdict.arrival;
+  if (cycle.rest && cycle.trusts(*cycle.rest)) {
+    const Motion& rest = cycle.rest->motion();
+    const double a_cycle = arrives ? s.improvement_time : std::max(cycle.left(), 1e-3);
+    const double ahead = std::ceil(expected_s_ / a_cycle) - 1;
+    const double t = cycle.t_start() + std::max(ahead, 0.0) * cycle.tex();
+    Motion lead = rest;
+    if (t > cycle.t_start() && t < rest.end() - kSameTime) {
+      lead = part_from(rest, t, plant_);
+      question.from = lead.states[0];
+      question.t_from = t;
+    }
+    if (cycle.rest->proposal.verdict.end == MotionEnd::arrives && !cycle.rest->proposal.solved)
+      question.rest = std::move(lead);
+  }
+  asked_work_s_ = proposals_.turns().cpu_s();
+  asked_while_arriving_ = arrives;
+  proposals_.ask(std::move(question));
+}
+
+/// Looks for what is better than the rest. As long as that leads to the goal, so much is done in a
+/// cycle; else all there is time for.
+void VerifiedPlanner::look_further(Cycle& cycle) {
+  Turns& turns = proposals_.turns();
+  const bool arrives = cycle.rest_is(MotionEnd::arrives);
+  if (!arrives && asked_while_arriving_) turns.cancel();
+  if (!turns.under_way() && due(cycle)) ask(cycle);
+  const double before = turns.cpu_s();
+  double work = arrives && !cycle.request.warm_up
+                    ? Proposals::kPlacesPerSecond * task_.planner.improvement_time
+                    : std::numeric_limits<double>::infinity();
+  while (turns.under_way() && work > 0 && !cycle.over()) {
+    const double turn = std::min(work, kTurn);
+    turns.go_on({turn, cycle.left()});
+    work -= turn;
+    cycle.beside_s = turns.cpu_s() - before;
+    cycle.iterations += proposals_.take_iterations();
+    for (Proposal& proposal : proposals_.take()) adopt(cycle, std::move(proposal));
+    if (turns.wants_more()) break;
+  }
+  if (!turns.under_way()) expected_s_ = turns.cpu_s() - asked_work_s_;
+}
+
+/// A proposal from where the cycle is. One that begins elsewhere is tracked from here, at first
+/// along the rest.
+void VerifiedPlanner::adopt(Cycle& cycle, Proposal proposal) {
+  const auto& question = proposals_.question();
+  const double t0 = cycle.t_start();
+  if (question.t_from == t0 && question.from == cycle.request.X0p &&
+      same(question.obstacles, cycle.obstacles)) {
+    consider(cycle, std::move(proposal));
+    return;
+  }
+  const Motion& found = proposal.motion;
+  if (found.size() < 2 || found.end() <= t0 + kSameTime) return;
+  Motion reference;
+  if (cycle.rest && t0 < found.begin())
+    for (std::size_t k = 0; k < cycle.rest->motion().size(); ++k)
+      if (cycle.rest->motion().t[k] < found.begin() - kSameTime)
+        reference.add(cycle.rest->motion().t[k], cycle.rest->motion().states[k],
+                      cycle.rest->motion().controls[k]);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    reference.add(found.t[k], found.states[k], found.controls[k]);
+  consider_anew(cycle, proposal.name,
+                tracker_.follow(reference, cycle.request.X0p, t0, reference.end()),
+                proposal.solved);
+}
+
+/// What is driven, by the ladder.
+const VerifiedPlanner::Option* VerifiedPlanner::chosen(const Cycle& cycle, Rung& rung) {
+  const Option* best = nullptr;
+  for (const auto& option : cycle.good)
+    if (!best || option.cost < best->cost) best = &option;
+  const Option* rest = cycle.rest && cycle.trusts(*cycle.rest) ? &*cycle.rest : nullptr;
+  const double hysteresis = task_.planner.w_t * task_.planner.hysteresis;
+  if (best && (!rest || best->cost < rest->cost - hysteresis)) {
+    wait_ = task_.planner.improvement_period;
+    rung = Rung::new_plan;
+    return best;
+  }
+  rung = rest ? Rung::rest : Rung::least_bad;
+  if (rest) return rest;
+  return task_.planner.fallback && cycle.least_bad ? &*cycle.least_bad : nullptr;
 }
 
 Plan VerifiedPlanner::choose(Cycle& cycle) {
-  const Option* best = nullptr;
-  for (const auto& option : cycle.verified)
-    if (!best || option.cost < best->cost) best = &option;
-  const bool rest = cycle.rest && cycle.rest->verdict.certificate.verified;
   Plan plan;
   plan.t_start = cycle.t_start();
   plan.report.backend = "verified";
   plan.candidates = std::move(cycle.looked_at);
-  const double hysteresis = task_.planner.w_t * task_.planner.hysteresis;
-  const Option* chosen = nullptr;
-  if (best && (!rest || best->cost < cycle.rest->cost - hysteresis)) {
-    chosen = best;
-    plan.rung = Rung::new_plan;
-    wait_ = task_.planner.improvement_period;
-  } else if (rest) {
-    chosen = &*cycle.rest;
-    plan.rung = Rung::rest;
-  } else if (cycle.least_bad) {
-    chosen = &*cycle.least_bad;
-    plan.rung = Rung::least_bad;
-  }
-  if (!chosen) {
+  const Option* option = chosen(cycle, plan.rung);
+  if (!option) {
+    plan.rung = Rung::none;
     plan.report.status = PlanStatus::infeasible;
     return plan;
   }
-  const Motion& motion = chosen->motion;
+  const Motion& motion = option->motion();
   for (std::size_t k = 0; k < motion.size(); ++k) plan.t.push_back(motion.t[k] - plan.t_start);
   plan.states = motion.states;
   plan.controls = motion.controls;
   plan.tf = plan.t.back();
-  plan.goal_in_range = chosen->verdict.end == MotionEnd::arrives;
-  plan.certificate = chosen->verdict.certificate;
+  plan.goal_in_range = option->proposal.verdict.end == MotionEnd::arrives;
+  plan.certificate = option->certificate();
   plan.report.solved = plan.certificate.verified;
   plan.report.best_iterate = !plan.report.solved;
   plan.report.status = plan.report.solved ? PlanStatus::solved : PlanStatus::unverified;
   plan.report.detail = plan.certificate.refused;
   plan.report.iterations = cycle.iterations;
-  plan.report.cost = chosen->cost;
-  last_ = *chosen;
+  plan.report.cost = option->cost;
+  if (plan.rung != Rung::rest) made_ = motion;
+  last_ = *option;
   last_begin_ = cycle.t_start();
   last_obstacles_ = cycle.obstacles;
-  plan.report.cpu_s = plan.report.planning_cpu_s = cycle.timer.cpu();
+  plan.report.cpu_s = plan.report.planning_cpu_s = cycle.cpu_s();
   plan.report.wall_s = cycle.timer.wall();
   return plan;
 }

@@ -1,20 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <limits>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "arrival_problem.hpp"
 #include "motion.hpp"
 #include "planning_method.hpp"
+#include "proposals.hpp"
 #include "slalom/base/timer.hpp"
-#include "slalom/nlp/solver.hpp"
 #include "slalom/vehicle/plant.hpp"
-#include "slalom/world/way_finder.hpp"
 #include "tracker.hpp"
 #include "verifier.hpp"
 
@@ -22,52 +20,65 @@ namespace slalom::planner {
 
 /// Plans whole ways to the goal and drives none that is not verified (docs/verified-planner.md). In
 /// each cycle the rest of the last plan comes first, driven anew by the plant from the state
-/// predicted; then, as long as time is left, new motions: the last one's OCP solved again, ways of
-/// a search, tracked as they are and solved from there, and stops. What is driven is the cheapest
-/// that is verified, else the rest, else the motion whose first violation is the latest.
+/// predicted; then, as long as time is left, what Proposals finds, which may take several cycles;
+/// and where nothing leads to the goal, stops. What is driven is the cheapest that is verified,
+/// else the rest, else the motion whose first violation is the latest.
 class VerifiedPlanner final : public PlanningMethod {
  public:
   explicit VerifiedPlanner(const Task& task);
 
   Plan plan(const Request& request) override;
-  void reset() override { last_.reset(); }
+  void reset() override;
 
  private:
-  /// Times nearer than this are one [s].
-  static constexpr double kSameTime = 1e-6;
-
   struct Option {
-    std::string name;
-    Motion motion;
-    Verdict verdict;
+    Proposal proposal;
     double cost = 0;
+
+    const Motion& motion() const { return proposal.motion; }
+    const Certificate& certificate() const { return proposal.verdict.certificate; }
+  };
+  /// A way to stop: what is driven first, and the path along which the vehicle then brakes.
+  struct Stop {
+    std::string name;
+    Motion lead;
+    Motion path;
   };
   /// One call of plan().
   struct Cycle {
     const Request& request;
     std::vector<world::Obstacle> obstacles;
+    const bool verification;
     Timer timer;
-    std::optional<Option> rest;       ///< of the last plan, verified or not
-    std::vector<Option> verified;     ///< new ones
+    std::optional<Option> rest;       ///< of the last plan, good or not
+    bool rest_unchanged = false;      ///< it is that plan's own motion among the same obstacles
+    std::vector<Option> good;         ///< new ones
     std::optional<Option> least_bad;  ///< of those refused, the one that goes on longest
     std::vector<Candidate> looked_at;
     int iterations = 0;
+    double beside_s = 0;  ///< thread time of the turns of Proposals
 
     double t_start() const { return request.t_start; }
     double tex() const { return std::max(request.t_start - request.t0, 1e-3); }
     double beyond() const { return std::max(kBeyond, kBeyondHorizons * tex()); }
+    double cpu_s() const { return timer.cpu() + beside_s; }
     double left() const {
       return request.warm_up ? std::numeric_limits<double>::infinity()
-                             : kShare * request.time_limit - timer.cpu();
+                             : kShare * request.time_limit - cpu_s();
     }
     bool over() const { return left() <= 0 || (request.interrupted && request.interrupted()); }
+    /// Verified; or, where verification is left out, as good as that.
+    bool trusts(const Option& option) const {
+      return option.certificate().verified || !verification;
+    }
     bool rest_is(MotionEnd end) const {
-      return rest && rest->verdict.certificate.verified && rest->verdict.end == end;
+      return rest && trusts(*rest) && rest->proposal.verdict.end == end;
     }
     bool arrives() const {
       return rest_is(MotionEnd::arrives) ||
-             std::any_of(verified.begin(), verified.end(),
-                         [](const auto& o) { return o.verdict.end == MotionEnd::arrives; });
+             std::any_of(good.begin(), good.end(), [](const auto& o) {
+               return o.proposal.verdict.end == MotionEnd::arrives;
+             });
     }
     /// A plan goes on for so many execution horizons after it arrives, and for so long at the least
     /// [s]: the loop looks at the end of each.
@@ -76,37 +87,40 @@ class VerifiedPlanner final : public PlanningMethod {
     static constexpr double kShare = 0.8;
   };
 
+  Request possible(Request request) const;
   std::vector<world::Obstacle> known(const Request& request) const;
+  Verifier::Need need() const;
+  void note_error(const Cycle& cycle, double state_error);
   void continue_last(Cycle& cycle);
-  bool rest_of_last(const Cycle& cycle, Motion& motion) const;
-  void improve(Cycle& cycle);
-  void guide(Cycle& cycle);
+  Motion rest_of_last(Cycle& cycle);
+  void look_further(Cycle& cycle);
+  bool due(const Cycle& cycle) const;
+  void ask(Cycle& cycle);
+  void adopt(Cycle& cycle, Proposal proposal);
   void stop(Cycle& cycle);
-  void solve(Cycle& cycle, const Motion& guess, const std::string& name);
-  Motion tracked(const Cycle& cycle, const Motion& reference);
-  Motion settled(Motion motion) const;
-  bool consider(Cycle& cycle, const std::string& name, Motion motion);
-  ArrivalProblem::Obstacles near(const Cycle& cycle, const Motion& guess,
-                                 const std::vector<double>& extra) const;
-  ArrivalProblem* problem_for(const Cycle& cycle, const ArrivalProblem::Obstacles& obstacles);
-  Motion to_the_goal(Motion motion) const;
+  std::vector<Stop> stops(const Cycle& cycle) const;
+  Motion settled(Motion motion, double until) const;
+  bool consider(Cycle& cycle, Proposal proposal);
+  bool consider_anew(Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
   double cost_of(const Motion& motion, const Verdict& verdict) const;
+  const Option* chosen(const Cycle& cycle, Rung& rung);
   Plan choose(Cycle& cycle);
 
   const Task task_;
   const vehicle::Plant plant_;
   Tracker tracker_;
   Verifier verifier_;
-  world::WayFinder ways_;
-  std::unique_ptr<nlp::Solver> solver_;
-  std::map<ArrivalProblem::Room, ArrivalProblem> problems_;
-  std::optional<Option> last_;                   ///< what is driven
-  std::vector<world::Obstacle> last_obstacles_;  ///< among which it was verified
-  double last_begin_ = 0;         ///< the moment from which it looked for arrival [s]
-  double last_improved_ = 0;      ///< when a better plan was looked for [s]
-  double wait_ = 0;               ///< until the next time [s]
-  double longest_besides_s_ = 0;  ///< thread time of a solve outside the solver
-  double longest_making_s_ = 0;   ///< and of making its problem
+  Proposals proposals_;
+  std::optional<Option> last_;                    ///< what is driven
+  Motion made_;                                   ///< the same as it was when it was new
+  std::vector<world::Obstacle> last_obstacles_;   ///< among which it was verified
+  std::deque<std::pair<double, double>> errors_;  ///< of belief: when [s], and how great [m]
+  double last_begin_ = 0;              ///< the moment from which it looked for arrival [s]
+  double last_improved_ = 0;           ///< when a better plan was looked for [s]
+  double wait_ = 0;                    ///< until the next time [s]
+  double asked_work_s_ = 0;            ///< thread time of the turns before what is under way [s]
+  double expected_s_ = 0;              ///< thread time that was looked for the last time [s]
+  bool asked_while_arriving_ = false;  ///< what is under way is to improve on a rest that arrives
 };
 
 }  // namespace slalom::planner

@@ -18,7 +18,7 @@ constexpr double kShortest = 1e-4;
 /// Speed grows by less than this within an interval between knots [m/s].
 constexpr double kSpeedSlack = 0.5;
 /// Wheel loads are looked at this often [s] at least. Between, they change by less than what
-/// verified_wheel_load stands above the load at which a wheel lifts.
+/// the load needed stands above that at which a wheel lifts.
 constexpr double kLoadStep = 0.026;
 /// What the integrator and the loop's other choice of instants may add to ax [m/s^2], ux [m/s] and
 /// sa [rad] at their limits.
@@ -27,6 +27,8 @@ constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
 /// Standing, distances are looked at this far apart at the least [m].
 constexpr double kLook = 0.01;
+/// A motion that begins beyond a limit is within it after this [s].
+constexpr double kToComeBack = 1;
 /// Within the goal's square by this much counts as there [m].
 constexpr double kInside = 0.1;
 
@@ -39,6 +41,11 @@ double distance_within(const world::Obstacle& o, const State& x, double t, doubl
   const double dx = x[X] - o.x_at(t), dy = x[Y] - o.y_at(t);
   const double bound = std::hypot(dx, dy) - std::max(o.a, o.b);
   return bound > far || o.a == o.b ? bound : world::distance(o, x[X], x[Y], t);
+}
+
+/// By how much a value is beyond its range.
+double beyond(double value, double least, double most) {
+  return std::max({least - value, value - most, 0.});
 }
 
 }  // namespace
@@ -57,29 +64,42 @@ void Verifier::refuse(double t, std::string why) {
   certificate.refused_at = t;
 }
 
-void Verifier::note_limits(double t, const State& x) {
+Verifier::Excess Verifier::excess_of(const State& x) const {
   const Parameters& p = task_.vehicle;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Excess excess;
+  const WheelLoads loads = plant_.dynamics().wheel_loads(x);
+  for (std::size_t w = 0; w < kWheels; ++w)
+    excess.load[w] = beyond(loads[w], need_.wheel_load, inf);
+  excess.ux = beyond(x[UX], p.ux_min, p.ux_max + kUxSlack);
+  excess.sa = beyond(x[SA], -p.sa_max() - kSteeringSlack, p.sa_max() + kSteeringSlack);
+  excess.ax = beyond(x[AX], p.ax_min_at(x[UX]) - kAccelerationSlack,
+                     p.ax_max_at(x[UX]) + kAccelerationSlack);
+  return excess;
+}
+
+/// Where the motion begins beyond a limit, it has a while to come back, and goes no further.
+void Verifier::note_limits(double t, const State& x) {
   auto& certificate = verdict_.certificate;
   const WheelLoads loads = plant_.dynamics().wheel_loads(x);
+  const Excess excess = excess_of(x);
+  const Excess allowed = t - begin_ < kToComeBack ? first_ : Excess{};
   for (std::size_t w = 0; w < kWheels; ++w) {
     certificate.least_wheel_load = std::min(certificate.least_wheel_load, loads[w]);
-    if (!(loads[w] >= task_.planner.verified_wheel_load))
+    if (!(excess.load[w] <= allowed.load[w]))
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
   if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
-  if (!(x[UX] <= p.ux_max + kUxSlack && x[UX] >= p.ux_min))
-    refuse(t, fmt::format("speed of {:.4g} m/s", x[UX]));
-  if (!(std::fabs(x[SA]) <= p.sa_max() + kSteeringSlack)) refuse(t, "steering angle");
-  if (!(x[AX] >= p.ax_min_at(x[UX]) - kAccelerationSlack &&
-        x[AX] <= p.ax_max_at(x[UX]) + kAccelerationSlack))
-    refuse(t, fmt::format("acceleration of {:.3g} m/s^2", x[AX]));
+  if (!(excess.ux <= allowed.ux)) refuse(t, fmt::format("speed of {:.4g} m/s", x[UX]));
+  if (!(excess.sa <= allowed.sa)) refuse(t, "steering angle");
+  if (!(excess.ax <= allowed.ax)) refuse(t, fmt::format("acceleration of {:.3g} m/s^2", x[AX]));
 }
 
 /// Along an interval, distance falls below the mean of its ends by half the way that vehicle and
 /// obstacle can go towards each other at the most.
 void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   const auto& o = (*obstacles_)[obstacle];
-  const double need = task_.planner.verified_clearance;
+  const double need = need_.clearance;
   const double rate = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
                       kSpeedSlack + std::hypot(o.vx, o.vy);
   const double reach = rate * (i.t1 - i.t0);
@@ -108,7 +128,7 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
 void Verifier::stand_for_good(const Motion& motion) {
   const State& x = motion.states.back();
   const double forward_x = std::cos(x[PSI]) * x[UX], forward_y = std::sin(x[PSI]) * x[UX];
-  const double need = task_.planner.verified_clearance;
+  const double need = need_.clearance;
   for (std::size_t k = 0; k < obstacles_->size(); ++k) {
     const auto& o = (*obstacles_)[k];
     const double rate = std::hypot(o.vx - forward_x, o.vy - forward_y);
@@ -147,9 +167,10 @@ void Verifier::find_end(const Motion& motion, double tex) {
 }
 
 Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
-                        double tex) {
+                        const Need& need, double tex) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   obstacles_ = &obstacles;
+  need_ = need;
   verdict_ = {};
   verdict_.nearest.assign(obstacles.size(), inf);
   auto& certificate = verdict_.certificate;
@@ -159,6 +180,8 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
     return verdict_;
   }
   certificate.until = motion.end();
+  begin_ = motion.begin();
+  first_ = excess_of(motion.states[0]);
   note_limits(motion.t[0], motion.states[0]);
   for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {
     const Interval i{motion.t[k],          motion.t[k + 1],    motion.states[k],
@@ -176,8 +199,8 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
       refuse(i.t0, error.what());
     }
   }
+  find_end(motion, tex);
   if (certificate.refused.empty()) {
-    find_end(motion, tex);
     if (verdict_.end == MotionEnd::open) refuse(motion.end(), "it neither arrives nor stands");
     if (verdict_.end == MotionEnd::stands) stand_for_good(motion);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -34,18 +35,30 @@ struct Verdict {
 /// thread-safe.
 class Verifier {
  public:
+  /// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N].
+  struct Need {
+    double clearance, wheel_load;
+  };
+
   /// Both outlive it.
   Verifier(const Task& task, const vehicle::Plant& plant) : task_(task), plant_(plant) {}
 
   /// `motion` among `obstacles`, of a cycle whose plan begins at motion.begin() and whose next
   /// checks of arrival are `tex` [s] apart from there.
-  Verdict judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles, double tex);
+  Verdict judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
+                const Need& need, double tex);
 
   /// The last verdict.
   const Verdict& last() const { return verdict_; }
 
  private:
   struct Interval;
+  /// By how much a state is beyond the vehicle's limits and the wheel loads needed.
+  struct Excess {
+    std::array<double, vehicle::kWheels> load{};
+    double ux = 0, sa = 0, ax = 0;
+  };
+  Excess excess_of(const vehicle::State& state) const;
   void note_limits(double t, const vehicle::State& state);
   void keep_off(const Interval& interval, std::size_t obstacle);
   void find_end(const Motion& motion, double tex);
@@ -55,6 +68,9 @@ class Verifier {
   const Task& task_;
   const vehicle::Plant& plant_;
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
+  Need need_{};
+  double begin_ = 0;
+  Excess first_;  ///< at the motion's beginning
   Verdict verdict_;
 };
 

@@ -36,18 +36,24 @@ PlaceSearch::Place first_place(const State& start, const Goal& goal,
 }
 
 /// What find_ways() makes of the search it is given, in their order: as it is, slower and closer,
-/// and at last closest and sharpest.
+/// and sharpest. A lower speed finds other orders in time.
 struct Variant {
-  double speed, clearance, lateral_acceleration;  ///< shares
+  double speed, clearance, lateral_acceleration, slowest;  ///< shares
+  int places;                                              ///< multiples
 };
-constexpr std::array<Variant, 5> kVariants = {
-    {{1, 1, 1}, {0.72, 0.75, 1}, {0.46, 0.5, 1}, {0.29, 0.5, 1}, {0.9, 0.375, 1.25}}};
+constexpr std::array kVariants = {Variant{1, 1, 1, 1, 1}, Variant{0.71, 0.7, 1, 1, 1},
+                                  Variant{0.46, 0.4, 1, 1, 1}, Variant{0.29, 0.4, 1, 1, 1},
+                                  Variant{0.9, 0.25, 1.25, 2, 1}};
+/// Comes after those, if none led to a good way.
+constexpr Variant kLastResort = {0.29, 0.15, 1.25, 1, 3};
 
 WaySearch varied(const WaySearch& search, const Variant& by) {
   WaySearch result = search;
-  result.v_max = std::max(search.v_max * by.speed, search.v_min);
+  result.v_min *= by.slowest;
+  result.v_max = std::max(search.v_max * by.speed, result.v_min);
   result.clearance *= by.clearance;
   result.lateral_acceleration *= by.lateral_acceleration;
+  result.max_places *= by.places;
   return result;
 }
 
@@ -77,28 +83,28 @@ class WayFinder::Impl {
     return search_once({start, t_start, obstacles, out_of_budget}, search);
   }
 
-  std::vector<Way> find_ways(const State& start, double t_start,
-                             const std::vector<Obstacle>& obstacles, const WaySearch& search,
-                             int most, const std::function<bool()>& out_of_budget) {
+  void find_ways(const State& start, double t_start, const std::vector<Obstacle>& obstacles,
+                 const WaySearch& search, int most, const std::function<bool(const Way&)>& take,
+                 const std::function<bool()>& out_of_budget) {
     looked_at_ = 0;
     wall_.clear();
     const Question question = {start, t_start, obstacles, out_of_budget};
-    Answer answer;
+    Answers answers{take, most, {}};
     for (const auto& variant : kVariants) {
-      if (static_cast<int>(answer.ways.size()) >= most || question.over()) return answer.ways;
-      add_way(question, varied(search, variant), answer);
+      if (answers.enough() || question.over()) return;
+      add_way(question, varied(search, variant), answers);
     }
+    if (!answers.any_good() && !answers.enough() && !question.over())
+      add_way(question, varied(search, kLastResort), answers);
     WaySearch walled = search;
     walled.max_places = search.max_places / kWallPlaces;
     int left = kWallsPerWay * most;
-    for (std::size_t k = 0; k < answer.ways.size(); ++k)
-      for (const auto i : to_wall(question, answer.signatures[k])) {
-        if (static_cast<int>(answer.ways.size()) >= most || question.over() || left-- <= 0)
-          return answer.ways;
-        build_wall(answer.ways[k], answer.signatures[k][i], obstacles[i]);
-        add_way(question, walled, answer);
+    for (std::size_t k = 0; k < answers.found.size(); ++k)
+      for (const auto i : to_wall(question, answers.found[k].passings)) {
+        if (answers.enough() || question.over() || left-- <= 0) return;
+        build_wall(answers.found[k].way, answers.found[k].passings[i], obstacles[i]);
+        add_way(question, walled, answers);
       }
-    return answer.ways;
   }
 
   int looked_at() const { return looked_at_; }
@@ -112,9 +118,21 @@ class WayFinder::Impl {
 
     bool over() const { return out_of_budget && out_of_budget(); }
   };
-  struct Answer {
-    std::vector<Way> ways;
-    std::vector<WaySignature> signatures;
+  struct Found {
+    Way way;
+    WaySignature passings;
+    bool good;
+  };
+  /// The ways handed over.
+  struct Answers {
+    const std::function<bool(const Way&)>& take;
+    int most;
+    std::vector<Found> found;
+
+    bool enough() const { return static_cast<int>(found.size()) >= most; }
+    bool any_good() const {
+      return std::any_of(found.begin(), found.end(), [](const Found& f) { return f.good; });
+    }
   };
 
   std::optional<Way> search_once(const Question& q, const WaySearch& search) {
@@ -131,15 +149,15 @@ class WayFinder::Impl {
     return way;
   }
 
-  /// Searches, and keeps the way if it passes differently from those before.
-  void add_way(const Question& q, const WaySearch& search, Answer& answer) {
+  /// Searches, and hands the way over if it passes differently from the good ones before.
+  void add_way(const Question& q, const WaySearch& search, Answers& answers) {
     auto way = search_once(q, search);
     if (!way) return;
     auto passings = signature(*way, q.obstacles);
-    for (const auto& before : answer.signatures)
-      if (!differ(before, passings)) return;
-    answer.ways.push_back(std::move(*way));
-    answer.signatures.push_back(std::move(passings));
+    for (const auto& before : answers.found)
+      if (before.good && !differ(before.passings, passings)) return;
+    const bool good = answers.take(*way);
+    answers.found.push_back({std::move(*way), std::move(passings), good});
   }
 
   /// The obstacles worth a wall: those that move first, else in the order of passing.
@@ -217,11 +235,11 @@ std::optional<Way> WayFinder::find(const State& start, double t_start,
   return impl_->find(start, t_start, obstacles, search, out_of_budget);
 }
 
-std::vector<Way> WayFinder::find_ways(const State& start, double t_start,
-                                      const std::vector<Obstacle>& obstacles,
-                                      const WaySearch& search, int most,
-                                      const std::function<bool()>& out_of_budget) {
-  return impl_->find_ways(start, t_start, obstacles, search, most, out_of_budget);
+void WayFinder::find_ways(const State& start, double t_start,
+                          const std::vector<Obstacle>& obstacles, const WaySearch& search, int most,
+                          const std::function<bool(const Way&)>& take,
+                          const std::function<bool()>& out_of_budget) {
+  impl_->find_ways(start, t_start, obstacles, search, most, take, out_of_budget);
 }
 
 int WayFinder::looked_at() const {

@@ -77,7 +77,7 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "search_places",
                            "improvement_places"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 53u);
+  EXPECT_EQ(names.size(), 61u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

@@ -14,11 +14,11 @@ using namespace vehicle;
 struct Scene : ::testing::Test {
   Task task;
   Motion motion;
+  Verifier::Need need{2.15, 400};
 
   Scene() {
     task.vehicle.tyre_asymmetry = false;
     task.goal = {0, 100, std::numbers::pi / 2, 15};
-    task.planner.verified_clearance = 2.15;
     drive(20);
   }
   /// Straight on with knots .05 s apart.
@@ -34,7 +34,7 @@ struct Scene : ::testing::Test {
   }
   Verdict judge(const std::vector<world::Obstacle>& obstacles = {}, double tex = 0.5) {
     const Plant plant(task.vehicle, 1e-9, 0.02);
-    return Verifier(task, plant).judge(motion, obstacles, tex);
+    return Verifier(task, plant).judge(motion, obstacles, need, tex);
   }
 };
 
@@ -86,11 +86,24 @@ TEST_F(Scene, RefusesWhatLeavesTheRegionOrTheLimits) {
   task.vehicle.ux_max = 19;
   EXPECT_NE(judge().certificate.refused.find("speed"), std::string::npos);
   task.vehicle.ux_max = 29;
-  task.planner.verified_wheel_load = 6400;
-  EXPECT_NE(judge().certificate.refused.find("wheel load"), std::string::npos);
-  task.planner.verified_wheel_load = 400;
+  drive(20, -0.2);  // its rear wheels lose load
+  need.wheel_load = judge().certificate.least_wheel_load + 10;
+  EXPECT_NE(judge().certificate.refused.find("wheel load"), std::string::npos)
+      << judge().certificate.refused;
+  need.wheel_load = 400;
   drive(20, 2);
   EXPECT_NE(judge().certificate.refused.find("acceleration"), std::string::npos);
+}
+
+TEST_F(Scene, AMotionThatBeginsBeyondALimitHasAWhileToComeBack) {
+  task.vehicle.ux_max = 19.8;
+  task.goal.y = 60;
+  drive(20, -0.5);  // below it after .9 s
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+  drive(20);
+  EXPECT_NEAR(judge().certificate.refused_at, 2, 0.06) << "it does not come back";
+  drive(20, 0.5);
+  EXPECT_NEAR(judge().certificate.refused_at, 1, 0.06) << "it goes further";
 }
 
 TEST_F(Scene, ArrivesOnlyWhereTheLoopLooks) {

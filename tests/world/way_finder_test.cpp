@@ -240,7 +240,10 @@ TEST(WayFinder, GivesUpWithinItsBudget) {
   const auto over = [&asked] { return ++asked > 3; };
   EXPECT_FALSE(f.find(w.start, 0, w.environment.obstacles, {}, over));
   EXPECT_EQ(f.looked_at(), 3 * 256);
-  EXPECT_TRUE(f.find_ways(w.start, 0, w.environment.obstacles, {}, 3, over).empty());
+  asked = 0;
+  f.find_ways(
+      w.start, 0, w.environment.obstacles, {}, 3, [](const Way&) { return true; }, over);
+  EXPECT_EQ(f.looked_at(), 2 * 256) << "it is asked before each search too";
   WaySearch search;
   search.max_places = 100;
   EXPECT_FALSE(f.find(w.start, 0, w.environment.obstacles, search));
@@ -279,22 +282,34 @@ TEST(WayFinder, LeavesWhereItMayNotBe) {
   EXPECT_TRUE(w.find()) << "at rest";
 }
 
+/// The ways that find_ways() hands over, all of them taken for good or for bad.
+std::vector<Way> ways_of(WayFinder& finder, const World& w, int most, bool good = true) {
+  std::vector<Way> ways;
+  finder.find_ways(w.start, 0, w.environment.obstacles, {}, most, [&](const Way& way) {
+    ways.push_back(way);
+    return good;
+  });
+  return ways;
+}
+
 TEST(WayFinder, FindsWaysThatPassDifferently) {
   auto w = northwards();
   w.environment.region = {-20, 20, -20, 180};
   w.environment.obstacles = {{"rock", 0, 80, 5, 5, 0, 0}};
   auto f = w.finder();
-  const auto ways = f.find_ways(w.start, 0, w.environment.obstacles, {}, 2);
+  const auto ways = ways_of(f, w, 2);
   ASSERT_EQ(ways.size(), 2u);
   for (const auto& way : ways) expect_drivable(w, way, {.clearance = 0.3});
   EXPECT_TRUE(differ(signature(ways[0], w.environment.obstacles),
                      signature(ways[1], w.environment.obstacles)));
-  EXPECT_EQ(f.find_ways(w.start, 0, w.environment.obstacles, {}, 1).size(), 1u);
-  EXPECT_TRUE(f.find_ways(w.start, 0, w.environment.obstacles, {}, 0).empty());
+  EXPECT_EQ(ways_of(f, w, 1).size(), 1u);
+  EXPECT_TRUE(ways_of(f, w, 0).empty());
   w.environment.region = {-20, 4, -20, 180};
   WayFinder narrow(w.environment, w.vehicle);
-  EXPECT_EQ(narrow.find_ways(w.start, 0, w.environment.obstacles, {}, 2).size(), 1u)
-      << "one side alone is open";
+  EXPECT_EQ(ways_of(narrow, w, 2).size(), 1u) << "one side alone is open";
+  const auto slower = ways_of(narrow, w, 2, false);
+  ASSERT_EQ(slower.size(), 2u) << "a way that is no good does not stand for those like it";
+  EXPECT_GT(slower[1].back().t, slower[0].back().t);
 }
 
 }  // namespace

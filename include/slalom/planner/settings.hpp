@@ -84,16 +84,22 @@ struct Settings {
   Known known = Known::all;
   double verified_clearance = 2.15;  ///< from obstacles' edges, at all times [m]
   double verified_wheel_load = 400;  ///< [N]
+  double kept_clearance = 2.05;      ///< by its rest, where belief was wrong [m]
+  double kept_wheel_load = 200;      ///< [N]
   double standing_horizon = 60;      ///< for which standing must be clear of obstacles [s]
   double arrival_margin = 0.3;       ///< of the OCP's obstacles beyond verified_clearance [m]
   double arrival_floor = 0.1;        ///< barrier floor of that OCP [cost units]
   int arrival_N = 40;                ///< mesh intervals of a whole way
   double arrival_tf_max = 70;        ///< longest way [s]
-  int arrival_max_iterations = 200;  ///< of one solve
+  int arrival_max_iterations = 500;  ///< of one solve
   double improvement_period = 0.5;   ///< between searches for a better way than the last [s]
+  double improvement_time = 0.01;    ///< of a cycle, for a better way than the last [s]
   double hysteresis = 0.02;          ///< by which a new way must be sooner to be driven [s]
   int search_places = 150'000;       ///< a search looks at when no way is known
   int improvement_places = 20'000;   ///< a search looks at for a better way
+  int ways = 6;                      ///< of the search that are followed at the most
+  // Parts that a study may leave out.
+  bool guidance = true, rows_between = true, verification = true, fallback = true;
 };
 
 /// The registered options of Settings with unit, range, meaning and source.

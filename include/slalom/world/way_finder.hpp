@@ -71,12 +71,14 @@ class WayFinder {
                           const std::vector<Obstacle>& obstacles, const WaySearch& search = {},
                           const std::function<bool()>& out_of_budget = {});
 
-  /// Up to `most` ways of which any two pass some obstacle differently (see differ()), in the order
-  /// in which they were found: by `search`, then slower, closer or sharper, then with the side on
-  /// which a way found passes an obstacle shut.
-  std::vector<Way> find_ways(const vehicle::State& start, double t_start,
-                             const std::vector<Obstacle>& obstacles, const WaySearch& search,
-                             int most, const std::function<bool()>& out_of_budget = {});
+  /// Hands up to `most` ways to `take`, each as it is found, which says whether the way is good: by
+  /// `search`; then slower, closer or sharper; while none is good, closest and with three times the
+  /// places; and then with the side on which a way found passes an obstacle shut. A way that passes
+  /// every obstacle as a good one does (see differ()) is not handed over.
+  void find_ways(const vehicle::State& start, double t_start,
+                 const std::vector<Obstacle>& obstacles, const WaySearch& search, int most,
+                 const std::function<bool(const Way&)>& take,
+                 const std::function<bool()>& out_of_budget = {});
 
   /// Places that the last find() or find_ways() looked at.
   int looked_at() const;

@@ -1,0 +1,221 @@
+#include "proposals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "references.hpp"
+
+namespace slalom::planner {
+namespace {
+
+using namespace vehicle;
+
+/// Obstacles farther from a guess than this [m] are left out of its OCP.
+constexpr double kFar = 18;
+/// Standing ones nearer than this to the edge of their margin have rows between the points [m].
+constexpr double kClose = 1.5;
+/// An obstacle that a tracked motion came too near to grows by the shortfall and this [m], so many
+/// times.
+constexpr double kRegrow = 0.08;
+constexpr int kRounds = 5;
+/// A way found while another leads to the goal is looked at if it is sooner by this [s].
+constexpr double kSooner = 0.3;
+/// What ways keep off beyond the clearance needed at first [m].
+constexpr double kWayClearance = 0.65;
+/// Shorter motions are not solved [s].
+constexpr double kShortest = 0.4;
+/// A tracked motion that ends farther from its reference than this [m] has lost it, and its OCP
+/// starts from the reference.
+constexpr double kAstray = 5;
+/// Without guidance the OCP starts straight on, at this speed at least [m/s].
+constexpr double kStraightSpeed = 5;
+/// How often a search looks whether it is to stop [places], and what the other steps count beside a
+/// place, by their times on one machine.
+constexpr double kPlaces = 256, kIteration = 300, kMotion = 1000, kMaking = 4000;
+
+bool cancelled(void* turns) {
+  return static_cast<Turns*>(turns)->spend(kIteration);
+}
+
+/// Least distance to an obstacle's edge, knots of the motion being seconds apart [m].
+double least_distance(const world::Obstacle& o, const Motion& motion) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    const double t0 = motion.t[k], t1 = motion.t[std::min(k + 1, motion.size() - 1)];
+    const int parts = std::max(1, static_cast<int>(std::ceil((t1 - t0) / Tracker::kStep)));
+    for (int part = 0; part < parts; ++part) {
+      const double share = static_cast<double>(part) / parts;
+      const State &a = motion.states[k], &b = motion.states[std::min(k + 1, motion.size() - 1)];
+      least =
+          std::min(least, world::distance(o, a[X] + share * (b[X] - a[X]),
+                                          a[Y] + share * (b[Y] - a[Y]), t0 + share * (t1 - t0)));
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+Proposals::Proposals(const Task& task, Tracker& tracker, Verifier& verifier)
+    : task_(task),
+      tracker_(tracker),
+      verifier_(verifier),
+      ways_(task, task.vehicle),
+      solver_(nlp::make_solver(to_string(task.planner.solver))) {}
+
+void Proposals::ask(Question question) {
+  turns_.cancel();
+  found_.clear();
+  question_ = std::move(question);
+  turns_.begin([this] { look(); });
+}
+
+void Proposals::look() {
+  if (question_.rest) solve(*question_.rest, "rest, solved");
+  if (task_.planner.guidance) return follow_ways();
+  const auto& x = question_.from;
+  const double distance = std::hypot(task_.goal.x - x[X], task_.goal.y - x[Y]);
+  solve(straight_reference(x, question_.t_from, distance / std::max(x[UX], kStraightSpeed)),
+        "straight on, solved");
+}
+
+void Proposals::follow_ways() {
+  auto obstacles = question_.obstacles;
+  for (auto& o : obstacles) o = o.grown(question_.need.clearance);
+  world::WaySearch search;
+  search.clearance = kWayClearance;
+  search.max_places = question_.places;
+  int number = 0;
+  ways_.find_ways(
+      question_.from, question_.t_from, obstacles, search, question_.ways,
+      [&](const world::Way& way) { return follow(way, "way " + std::to_string(++number)); },
+      [&] { return turns_.spend(kPlaces); });
+}
+
+/// Whether the way leads to a verified arrival.
+bool Proposals::follow(const world::Way& way, const std::string& name) {
+  if (way.back().t > question_.arrival - kSooner) return false;
+  turns_.wait_for(longest_besides_s_);
+  const Motion reference =
+      braked_on(reference_of(way, task_.vehicle), task_.vehicle, question_.beyond);
+  Motion guess = tracked(reference);
+  const bool arrives = propose(name, guess, false);
+  const State &end = guess.states.back(), &wanted = reference.states.back();
+  if (std::hypot(end[X] - wanted[X], end[Y] - wanted[Y]) > kAstray) guess = reference;
+  while (guess.size() > 2 && guess.end() > way.back().t + kSameTime) guess.drop_last();
+  return solve(guess, name + ", solved") || arrives;
+}
+
+/// What the plant makes of a reference, from the question's state to the reference's end.
+Motion Proposals::tracked(const Motion& reference) {
+  return tracker_.follow(reference, question_.from, question_.t_from, reference.end());
+}
+
+/// Judges a motion. Whether it is a verified arrival.
+bool Proposals::propose(const std::string& name, Motion motion, bool solved) {
+  turns_.spend(kMotion);
+  Proposal proposal{name, std::move(motion), {}, solved};
+  proposal.verdict =
+      verifier_.judge(proposal.motion, question_.obstacles, question_.need, question_.tex);
+  const bool arrives =
+      proposal.verdict.certificate.verified && proposal.verdict.end == MotionEnd::arrives;
+  found_.push_back(std::move(proposal));
+  return arrives;
+}
+
+/// The obstacles that the OCP keeps off: those that come near the guess, grown by their margins.
+ArrivalProblem::Obstacles Proposals::near(const Motion& guess,
+                                          const std::vector<double>& extra) const {
+  ArrivalProblem::Obstacles result;
+  const double margin = question_.need.clearance + task_.planner.arrival_margin;
+  for (std::size_t k = 0; k < question_.obstacles.size(); ++k) {
+    const auto& o = question_.obstacles[k];
+    const double least = least_distance(o, guess);
+    if (extra[k] > 0 || least < (o.moves() ? kFar : kClose) + margin)
+      result.close.push_back(o.grown(margin + extra[k]));
+    else if (least < kFar + margin)
+      result.far.push_back(o.grown(margin + extra[k]));
+  }
+  return result;
+}
+
+/// The problem with room for these obstacles, made when it is first wanted and there is time to.
+/// While there is none, one with more room will do.
+ArrivalProblem* Proposals::problem_for(const ArrivalProblem::Obstacles& obstacles) {
+  const auto room = ArrivalProblem::room_for(obstacles);
+  const auto found = problems_.find(room);
+  if (found != problems_.end()) return &found->second;
+  if (turns_.wait_for(longest_making_s_)) {
+    const Timer timer;
+    ArrivalProblem& made = problems_.try_emplace(room, task_, room).first->second;
+    longest_making_s_ = std::max(longest_making_s_, timer.cpu());
+    turns_.spend(kMaking);
+    return &made;
+  }
+  for (auto& [other, problem] : problems_)
+    if (other.far >= room.far && other.close >= room.close) return &problem;
+  return nullptr;
+}
+
+/// A motion, but for what lies deep within the goal's square at its end.
+Motion Proposals::to_the_goal(Motion motion) const {
+  const auto deep = [&](const State& x) {
+    return task_.goal.outside(x[X], x[Y]) < -task_.goal.sigma / 2;
+  };
+  while (motion.size() > 2 && deep(motion.states[motion.size() - 2])) motion.drop_last();
+  return motion;
+}
+
+/// The answer of the OCP among obstacles grown by their margins and `extra`.
+std::optional<Motion> Proposals::answer_from(const Motion& guess,
+                                             const std::vector<double>& extra) {
+  const auto obstacles = near(guess, extra);
+  ArrivalProblem* problem = problem_for(obstacles);
+  if (!problem) return std::nullopt;
+  nlp::Options options;
+  options.floor = task_.planner.arrival_floor;
+  options.tol = task_.planner.tol;
+  options.max_iterations = task_.planner.arrival_max_iterations;
+  options.stop = cancelled;
+  options.stop_data = &turns_;
+  auto answer = problem->solve(guess, question_.from, obstacles, *solver_, options);
+  iterations_ += problem->iterations();
+  return answer;
+}
+
+/// Solves from a guess, tracks the answer, and where that came too near to an obstacle, solves
+/// again with it grown. Whether it comes to a verified arrival.
+bool Proposals::solve(const Motion& guess, const std::string& name) {
+  std::vector<double> extra(question_.obstacles.size(), 0);
+  Motion from = to_the_goal(guess);
+  for (int round = 0; round < kRounds; ++round) {
+    if (from.end() - from.begin() < kShortest) return false;
+    auto answer = answer_from(from, extra);
+    turns_.wait_for(longest_besides_s_);
+    if (!answer || turns_.spend(0)) return false;
+    const Timer timer;
+    Motion motion = tracked(braked_on(*answer, task_.vehicle, question_.beyond));
+    const bool arrives = propose(name, std::move(motion), true);
+    longest_besides_s_ = std::max(longest_besides_s_, timer.cpu());
+    if (arrives) return true;
+    if (!regrow(extra)) return false;
+    from = std::move(*answer);
+  }
+  return false;
+}
+
+/// Whether an obstacle was too near to the last motion, and is grown.
+bool Proposals::regrow(std::vector<double>& extra) const {
+  const Verdict& verdict = verifier_.last();
+  bool regrown = false;
+  for (std::size_t k = 0; k < extra.size(); ++k) {
+    const double short_of = question_.need.clearance - verdict.nearest[k];
+    if (short_of <= 0) continue;
+    extra[k] += short_of + kRegrow;
+    regrown = true;
+  }
+  return regrown;
+}
+
+}  // namespace slalom::planner

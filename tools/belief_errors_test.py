@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""What the page on errors of belief draws, and how it counts, on drives made up for it."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import belief_errors  # noqa: E402
+from belief_errors import LEVELS, crashes, drawn, errors, page, thin, was_verified, with_errors  # noqa: E402
+from sensitivity import QUANTITIES  # noqa: E402
+
+FILE = ("plant:\n" + "".join(f"  {q.key.split('.')[1]}: {q.neutral}\n" for q in QUANTITIES if "plant" in q.key)
+        + "sensing:\n" + "".join(f"  {q.key.split('.')[1]}: {q.neutral}\n" for q in QUANTITIES if "sensing" in q.key)
+        + "  noise_seed: 0\nplanner:\n  delay: 7\n")  # fmt: skip
+
+
+def trial(outcome):
+    return {"outcome": outcome, "message": "ended 3.5", "least_clearance_m": "0.31"}
+
+
+def cycle(t_swap, verified, used="1"):
+    return {"t_swap": t_swap, "verified": verified, "used": used}
+
+
+class Draws(unittest.TestCase):
+    def test_errors_are_within_their_ranges_and_grow_with_the_level(self):
+        every = [errors(drawn(f"gates-{k:04}")[0], level) for k in range(500) for level in LEVELS]
+        large = every[2::3]
+        mass = [e["plant.mass_factor"] for e in large]
+        self.assertTrue(0.8 <= min(mass) < 0.81 and 1.19 < max(mass) <= 1.2)
+        delay = [e["sensing.delay"] for e in large]
+        self.assertTrue(0 <= min(delay) < 0.005 and 0.095 < max(delay) <= 0.1)
+        for small, whole in zip(every[0::3], large):
+            for q in QUANTITIES:
+                self.assertAlmostEqual(small[q.key] - q.neutral, 0.1 * (whole[q.key] - q.neutral))
+
+    def test_each_scenario_has_draws_of_its_own_that_stay(self):
+        self.assertEqual(drawn("gates-0001"), drawn("gates-0001"))
+        self.assertNotEqual(drawn("gates-0001"), drawn("gates-0002"))
+
+    def test_a_file_gets_them_in_their_sections(self):
+        text = with_errors(FILE, "gates-0001", "medium")
+        for key, value in errors(drawn("gates-0001")[0], "medium").items():
+            self.assertIn(f"  {key.split('.')[1]}: {value}\n", text)
+        self.assertTrue(text.endswith("planner:\n  delay: 7\n"))
+        self.assertIn(f"  noise_seed: {drawn('gates-0001')[1]}\n", text)
+        with self.assertRaisesRegex(ValueError, "gates-0001: found plant.cg_shift 0 times"):
+            with_errors(FILE.replace("  cg_shift: 0\n", ""), "gates-0001", "medium")
+
+
+class Crashes(unittest.TestCase):
+    def test_the_plan_driven_is_the_last_that_took_effect(self):
+        cycles = [cycle("1", "1"), cycle("2", "0"), cycle("3.4", "1", used="0"), cycle("3.6", "1")]
+        self.assertFalse(was_verified(cycles, 3.5))
+        self.assertTrue(was_verified(cycles, 1.5))
+        self.assertTrue(was_verified(cycles, 3.6))
+        self.assertFalse(was_verified(cycles, 0.5))
+
+    def test_of_a_drive_stays_what_is_needed(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch) / "000001"
+            (folder / "figures").mkdir(parents=True)
+            for name in ("cycles.csv", "report.html", "figures/map.svg"):
+                (folder / name).write_text("text\n")
+            thin(folder, crashed=True)
+            self.assertEqual([f.name for f in folder.iterdir()], ["cycles.csv"])
+            thin(folder, crashed=True)
+            thin(folder, crashed=False)
+            self.assertFalse(folder.exists())
+            thin(folder, crashed=True)  # of a trial whose process died
+
+
+class Page(unittest.TestCase):
+    def setUp(self):
+        few = {"gates-0001": trial("goal"), "gates-0002": trial("crash"), "crossing_at_rest-0001": trial("timeout")}
+        self.trials = {level: dict(few) for level in LEVELS}
+        self.verified = {"small": {"gates-0002": True}, "medium": {"gates-0002": False}, "large": {"gates-0002": False}}
+
+    def test_it_counts_by_level_and_family(self):
+        text = page(self.trials, self.verified, "A stamp.\n")
+        self.assertIn("| small | 3 | 1 | 0.0084–0.9057 | 1 | 1 | 1 | 0.310 |", text)
+        self.assertIn("| large | 3 | 1 | 0.0084–0.9057 | 1 | 0 | 1 | 0.310 |", text)
+        self.assertIn("| gates | 1/2 | 1/2 | 1/2 | 1 | 1 | 1 |", text)
+        self.assertIn("| crossing | 0/0 | 0/0 | 0/0 | 0 | 0 | 0 |", text)
+        self.assertIn("| gates-0002 | no | ended 3.5 | mass_factor ", text)
+
+    def test_no_more_than_some_are_listed_but_all_are_in_the_table(self):
+        many = {f"gates-{k:04}": trial("crash") for k in range(belief_errors.MOST_LISTED + 3)}
+        words = {s: s == "gates-0022" for s in many}
+        trials, verified = {"large": many}, {"large": words}
+        text = belief_errors.listed(trials, verified)
+        self.assertEqual(text.count("| gates-"), belief_errors.MOST_LISTED)
+        self.assertIn("| gates-0022 | yes |", text)
+        self.assertIn("And 3 more.", text)
+        self.assertEqual(len(crashes(trials, verified).splitlines()), 1 + len(many))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+"""Intervals and tests of shares, beside exact fractions."""
+
+import math
+import pathlib
+import sys
+import unittest
+from fractions import Fraction
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from sweeps import interval, mcnemar  # noqa: E402
+
+
+class Shares(unittest.TestCase):
+    def test_at_the_ends_of_an_interval_the_binomial_tails_are_a_fortieth(self):
+        def tail(p, terms, n):
+            return float(sum(math.comb(n, i) * p**i * (1 - p)**(n - i) for i in terms))
+        for k, n in ((1, 1), (3, 7), (111, 400)):
+            low, high = map(Fraction, interval(k, n))
+            self.assertAlmostEqual(tail(low, range(k, n + 1), n), 0.025, places=9)
+            if k < n:
+                self.assertAlmostEqual(tail(high, range(k + 1), n), 0.025, places=9)
+
+    def test_none_and_all_have_one_end(self):
+        self.assertEqual(interval(0, 20)[0], 0)
+        self.assertAlmostEqual(interval(0, 20)[1], 1 - 0.025**(1 / 20), places=9)
+        self.assertEqual(interval(20, 20)[1], 1)
+
+    def test_thousands_of_drives_are_no_more_than_many(self):
+        low, high = interval(1700, 3400)  # (p (1 - p) / n)^.5 = .00857
+        self.assertAlmostEqual(low, 0.5 - 1.96 * 0.008575, places=3)
+        self.assertAlmostEqual(high, 0.5 + 1.96 * 0.008575, places=3)
+
+    def test_pairs(self):
+        self.assertEqual(mcnemar(0, 0), 1)
+        self.assertEqual(mcnemar(0, 5), 2 / 32)
+
+
+if __name__ == "__main__":
+    unittest.main()
