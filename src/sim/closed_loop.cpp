@@ -32,7 +32,7 @@ class ClosedLoop {
       : scenario_(scenario),
         loop_(scenario.loop),
         on_cycle_(hooks.on_cycle),
-        timing_(loop_),
+        timing_(loop_, scenario.planner.method),
         planning_(scenario, timing_, plan, hooks.interrupted),
         plant_(plant_vehicle(scenario.vehicle, scenario.plant, scenario.name),
                loop_.plant_tolerance, loop_.sample_step),

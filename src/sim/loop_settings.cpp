@@ -18,9 +18,10 @@ const OptionTable<LoopSettings>& loop_options() {
         .real("solve_time_limit", &L::solve_time_limit, Range::positive(), "s",
               "Wall-clock time of one solve beyond which the drive fails as solve_time.",
               "paper, section II; formulation section 4")
-        .choice("deadline", &L::deadline, {"off", "tex"},
+        .choice("deadline", &L::deadline, {"by_planner", "off", "tex"},
                 "tex: planning ends within the execution horizon, in thread time, solved or not; "
-                "off: within solve_time_limit, as in the paper.")
+                "off: within solve_time_limit, as in the paper. by_planner: tex for a planner that "
+                "verifies its plans, for it always has one, and off for others.")
         .choice(
             "latency", &L::latency, {"instant", "paper", "measured", "recorded", "model"},
             "When a plan takes effect. instant: the plant waits for it and nothing is predicted; "

@@ -15,10 +15,15 @@ void cut_off(Cycle& cycle, double deadline) {
 
 }  // namespace
 
-Timing::Timing(const LoopSettings& settings) : settings_(settings), latency_(settings) {}
+Timing::Timing(const LoopSettings& settings, planner::Method method)
+    : settings_(settings),
+      latency_(settings),
+      deadline_(settings.deadline == Deadline::tex ||
+                (settings.deadline == Deadline::by_planner && !latency_.scripted() &&
+                 method == planner::Method::verified)) {}
 
 double Timing::time_limit() const {
-  return settings_.deadline == Deadline::tex && !latency_.scripted()
+  return deadline_ && !latency_.scripted()
              ? std::min(settings_.tex, settings_.solve_time_limit)
              : settings_.solve_time_limit;
 }
@@ -27,7 +32,7 @@ void Timing::settle(Cycle& cycle) {
   cycle.charged = latency_.charge(cycle.index, cycle.solve_time);
   if (latency_.scripted()) {
     cycle.solve_time = cycle.charged;
-    if (settings_.deadline == Deadline::tex && cycle.charged > settings_.tex)
+    if (deadline_ && cycle.charged > settings_.tex)
       cut_off(cycle, settings_.tex);
   }
   ++horizons_;

@@ -11,8 +11,9 @@ namespace slalom::sim {
 /// Cycles begin tex apart, and anew from the time at which a late plan is there.
 class Timing {
  public:
-  /// `settings` outlive it. Throws as Latency does.
-  explicit Timing(const LoopSettings& settings);
+  /// For a planner of this method. `settings` outlive it. Throws as Latency does.
+  explicit Timing(const LoopSettings& settings,
+                  planner::Method method = planner::Method::receding_horizon);
 
   /// Whether the plant stands still until the plan is there, which then takes effect at t0. If not,
   /// the old signal runs on while the cycle plans, and the plan takes effect at its end.
@@ -33,6 +34,7 @@ class Timing {
  private:
   const LoopSettings& settings_;
   Latency latency_;
+  bool deadline_;     ///< planning ends within tex
   double grid_ = 0;   ///< cycles begin at grid + k tex [s]
   int horizons_ = 0;  ///< k of the next one
 };

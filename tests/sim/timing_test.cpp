@@ -48,6 +48,10 @@ TEST(Timing, TheDeadlineLimitsPlanningUnlessTheChargeIsScripted) {
     auto settings = by(rule);
     settings.solve_time_limit = 7;
     EXPECT_EQ(Timing(settings).time_limit(), 7);
+    EXPECT_EQ(Timing(settings, planner::Method::verified).time_limit(), limit)
+        << "a planner that verifies has it by itself";
+    settings.deadline = Deadline::off;
+    EXPECT_EQ(Timing(settings, planner::Method::verified).time_limit(), 7);
     settings.deadline = Deadline::tex;
     EXPECT_EQ(Timing(settings).time_limit(), limit);
   }

@@ -10,7 +10,7 @@ namespace slalom::sim {
 enum class OnFailure { stop, last_plan, best_iterate };
 
 /// What planning may take of this thread's time: no limit of its own, or the execution horizon.
-enum class Deadline { off, tex };
+enum class Deadline { by_planner, off, tex };
 
 /// When a plan takes effect, and from which state it starts.
 enum class LatencyRule {
@@ -26,7 +26,7 @@ struct LoopSettings {
   double tex = 0.5;               ///< execution horizon [s]
   double timeout = 60;            ///< longest drive [s]
   double solve_time_limit = 300;  ///< of one solve, wall clock [s]
-  Deadline deadline = Deadline::off;
+  Deadline deadline = Deadline::by_planner;
   LatencyRule latency = LatencyRule::paper;
   std::vector<double>
       solve_times;              ///< `recorded`: one a cycle, again from the first after the last
