@@ -1,5 +1,7 @@
 #include "motion.hpp"
 
+#include <algorithm>
+
 #include "../base/between_knots.hpp"
 
 namespace slalom::planner {
@@ -10,6 +12,20 @@ vehicle::State Motion::state_at(double at) const {
 
 vehicle::Control Motion::control_at(double at) const {
   return between_knots(t, controls, at);
+}
+
+Motion part_from(const Motion& motion, double t0, const vehicle::Plant& plant) {
+  const auto next = static_cast<std::size_t>(
+      std::upper_bound(motion.t.begin(), motion.t.end(), t0 + kSameTime) - motion.t.begin());
+  Motion part;
+  const vehicle::Control now = motion.control_at(t0);
+  part.add(t0,
+           plant.advance(motion.states[next - 1], motion.controls[next - 1], now,
+                         motion.t[next - 1], t0),
+           now);
+  for (std::size_t k = next; k < motion.size(); ++k)
+    part.add(motion.t[k], motion.states[k], motion.controls[k]);
+  return part;
 }
 
 }  // namespace slalom::planner

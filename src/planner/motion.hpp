@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "slalom/vehicle/plant.hpp"
 #include "slalom/vehicle/state.hpp"
 
 namespace slalom::planner {
@@ -36,5 +37,9 @@ struct Motion {
   vehicle::State state_at(double at) const;
   vehicle::Control control_at(double at) const;
 };
+
+/// What there is of a motion from t0 on, which is not before it begins. The state between two knots
+/// is the plant's. Throws PlantError.
+Motion part_from(const Motion& motion, double t0, const vehicle::Plant& plant);
 
 }  // namespace slalom::planner

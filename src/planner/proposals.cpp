@@ -118,8 +118,8 @@ bool Proposals::propose(const std::string& name, Motion motion, bool solved) {
   Proposal proposal{name, std::move(motion), {}, solved};
   proposal.verdict =
       verifier_.judge(proposal.motion, question_.obstacles, question_.need, question_.tex);
-  const bool arrives =
-      proposal.verdict.certificate.verified && proposal.verdict.end == MotionEnd::arrives;
+  const bool arrives = (proposal.verdict.certificate.verified || proposal.verdict.unseen) &&
+                       proposal.verdict.end == MotionEnd::arrives;
   found_.push_back(std::move(proposal));
   return arrives;
 }

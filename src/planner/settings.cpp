@@ -167,8 +167,12 @@ void add_verification(Table& table) {
       .choice(
           "known", &S::known, {"all", "range"},
           "Of method verified: which obstacles it is told of. all: every one, as the paper's "
-          "planners; range: those whose edge lies within L_range of the vehicle at that moment. "
-          "Nothing is assumed of those it has not seen.")
+          "planners; range: those whose edge lies within L_range of the vehicle at that moment.")
+      .choice(
+          "unseen", &S::unseen, {"nothing", "standing"},
+          "Of known range: what may be beyond L_range. standing: anything that stands, so that a "
+          "plan ends within what is seen; nothing: the way there is free. Neither tells of what "
+          "moves there.")
       .real("verified_clearance", &S::verified_clearance, Range::non_negative(), "m",
             "Least distance of a verified plan from the edges of obstacles as they are predicted: "
             "the 2 m of a crash and .15 m for errors of belief.")

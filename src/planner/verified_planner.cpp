@@ -24,7 +24,8 @@ constexpr double kLongestWaits = 8;
 constexpr double kTurn = 10'000;
 /// Errors of belief are remembered for so long [s].
 constexpr double kRemembered = 5;
-/// Standing costs so much more than arriving, and each metre to the goal this.
+/// Standing costs so much more than arriving, and each metre to the goal this; not the time at
+/// which the vehicle stands, for the later it brakes the better.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
 
 bool same(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b) {
@@ -41,22 +42,6 @@ double gap(const State& a, const State& b) {
 
 double distance(const State& a, const State& b) {
   return std::hypot(a[X] - b[X], a[Y] - b[Y]);
-}
-
-/// What there is of a motion from t0 on, which is not before it begins. The state between two knots
-/// is the plant's.
-Motion part_from(const Motion& motion, double t0, const Plant& plant) {
-  const auto next = static_cast<std::size_t>(
-      std::upper_bound(motion.t.begin(), motion.t.end(), t0 + kSameTime) - motion.t.begin());
-  Motion part;
-  const Control now = motion.control_at(t0);
-  part.add(t0,
-           plant.advance(motion.states[next - 1], motion.controls[next - 1], now,
-                         motion.t[next - 1], t0),
-           now);
-  for (std::size_t k = next; k < motion.size(); ++k)
-    part.add(motion.t[k], motion.states[k], motion.controls[k]);
-  return part;
 }
 
 }  // namespace
@@ -84,10 +69,12 @@ Request VerifiedPlanner::possible(Request request) const {
 
 Plan VerifiedPlanner::plan(const Request& as_told) {
   const Request request = possible(as_told);
-  Cycle cycle{request, known(request), task_.planner.verification, {}, {}, false, {}, {}, {}, 0, 0};
+  Cycle cycle{
+      .request = request, .obstacles = known(request), .verification = task_.planner.verification};
   if (task_.planner.fallback) {
     continue_last(cycle);
-    if (!cycle.rest || !cycle.trusts(*cycle.rest)) stop(cycle);
+    follow_course(cycle);
+    if (cycle.good.empty() && !(cycle.rest && cycle.trusts(*cycle.rest))) stop(cycle);
   }
   look_further(cycle);
   return choose(cycle);
@@ -96,40 +83,53 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
 std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) const {
   std::vector<world::Obstacle> obstacles =
       request.obstacles.empty() ? task_.obstacles : request.obstacles;
-  if (task_.planner.known == Known::range)
+  if (task_.planner.known == Known::range) {
+    const Verifier::Seen seen = this->seen(request);
     std::erase_if(obstacles, [&](const auto& o) {
-      return world::distance(o, request.X0p[X], request.X0p[Y], request.t0) > task_.planner.L_range;
+      return world::distance(o, seen.x, seen.y, request.t0) > seen.radius;
     });
+  }
   return obstacles;
 }
 
+/// What the vehicle sees when it plans, at t0: there it is as far behind X0p as it drives by then.
+Verifier::Seen VerifiedPlanner::seen(const Request& request) const {
+  const State& x = request.X0p;
+  const double driven = x[UX] * (request.t_start - request.t0);
+  return {x[X] - driven * std::cos(x[PSI]), x[Y] - driven * std::sin(x[PSI]),
+          task_.planner.L_range};
+}
+
 /// What a new plan keeps: what it loses by errors as they were lately leaves enough for its rest.
-Verifier::Need VerifiedPlanner::need() const {
+Verifier::Need VerifiedPlanner::need(const Cycle& cycle) const {
   const Settings& s = task_.planner;
   double error = 0;
   for (const auto& [when, size] : errors_) error = std::max(error, size);
-  return {std::max(s.verified_clearance, s.kept_clearance + error), s.verified_wheel_load};
+  Verifier::Need need{std::max(s.verified_clearance, s.kept_clearance + error),
+                      s.verified_wheel_load};
+  if (s.known == Known::range && s.unseen == Unseen::standing) need.seen = seen(cycle.request);
+  return need;
 }
 
 double VerifiedPlanner::cost_of(const Motion& motion, const Verdict& verdict) const {
   const Settings& s = task_.planner;
   const bool arrives = verdict.end == MotionEnd::arrives;
-  const double end = arrives ? verdict.arrival : motion.end();
+  const State& last = motion.states.back();
+  if (!arrives)
+    return kStandingCost + kMetreCost * std::hypot(last[X] - task_.goal.x, last[Y] - task_.goal.y);
+  const double end = verdict.arrival;
   double cost = s.w_t * end;
   for (std::size_t k = 0; k + 1 < motion.size() && motion.t[k] < end; ++k)
     cost +=
         s.w_ce * (motion.t[k + 1] - motion.t[k]) *
         (s.w_sa * std::pow(motion.states[k][SA], 2) + s.w_sr * std::pow(motion.controls[k][SR], 2) +
          s.w_jx * std::pow(motion.controls[k][JX], 2));
-  const State& last = motion.states.back();
-  if (!arrives)
-    cost += kStandingCost + kMetreCost * std::hypot(last[X] - task_.goal.x, last[Y] - task_.goal.y);
   return cost;
 }
 
 /// Keeps a motion that was judged among the cycle's options. Whether it is good.
-bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal) {
-  Option option{std::move(proposal), 0};
+bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal, const Course& course) {
+  Option option{std::move(proposal), 0, course};
   const Certificate& certificate = option.certificate();
   const bool good = cycle.trusts(option) && option.motion().size() > 1;
   if (good) option.cost = cost_of(option.motion(), option.proposal.verdict);
@@ -142,11 +142,11 @@ bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal) {
   return good;
 }
 
-bool VerifiedPlanner::consider_anew(Cycle& cycle, const std::string& name, Motion motion,
-                                    bool solved) {
+Proposal VerifiedPlanner::judged(const Cycle& cycle, const std::string& name, Motion motion,
+                                 bool solved) {
   Proposal proposal{name, std::move(motion), {}, solved};
-  proposal.verdict = verifier_.judge(proposal.motion, cycle.obstacles, need(), cycle.tex());
-  return consider(cycle, std::move(proposal));
+  proposal.verdict = verifier_.judge(proposal.motion, cycle.obstacles, need(cycle), cycle.tex());
+  return proposal;
 }
 
 /// The rest of the last plan from the state predicted. Where state and obstacles are those that it
@@ -165,40 +165,52 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
                          std::fabs(std::remainder(t0 - last_begin_, cycle.tex())) < kSameTime;
   cycle.rest = Option{{"rest", std::move(motion), last_->proposal.verdict,
                        last_->proposal.solved && cycle.rest_unchanged},
-                      last_->cost};
+                      last_->cost,
+                      course_};
   Proposal& rest = cycle.rest->proposal;
   if (!cycle.rest_unchanged) {
     const Settings& s = task_.planner;
-    rest.verdict = verifier_.judge(rest.motion, cycle.obstacles,
-                                   {s.kept_clearance, s.kept_wheel_load}, cycle.tex());
+    rest.verdict =
+        verifier_.judge(rest.motion, cycle.obstacles,
+                        {s.kept_clearance, s.kept_wheel_load, need(cycle).seen}, cycle.tex());
     if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
   cycle.looked_at.push_back({"rest", cycle.rest->cost, rest.verdict.certificate});
   if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) cycle.least_bad = cycle.rest;
 }
 
-/// The last plan from where it is to go on; it is tracked where the state is another.
+/// The last plan from where it is to go on; it is tracked where the state is another, and lasts at
+/// least until the next cycle's plan.
 Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   const double t0 = cycle.t_start();
   const State& X0p = cycle.request.X0p;
   const Motion& old = last_->motion();
-  if (t0 >= old.end() - kSameTime) {  // beyond its end, straight on
-    Motion on;
-    on.add(t0, X0p, {});
-    const double t1 = t0 + cycle.beyond();
-    on.add(t1, plant_.advance(X0p, {}, {}, t0, t1), {});
-    return on;
+  Motion rest;
+  if (t0 > old.end() - Tracker::kStep) {
+    rest.add(t0, X0p, {});
+  } else {
+    rest = part_from(old, std::max(t0, old.begin()), plant_);
+    cycle.rest_unchanged = gap(rest.states[0], X0p) < kSameState;
+    note_error(cycle, distance(rest.states[0], X0p));
+    if (cycle.rest_unchanged) {
+      rest.states[0] = X0p;
+    } else {  // The plan as it was made, for what tracks a tracked motion strays.
+      rest = part_from(made_, std::max(t0, made_.begin()), plant_);
+      rest = tracker_.follow(rest, X0p, t0, rest.end());
+    }
   }
-  Motion rest = part_from(old, std::max(t0, old.begin()), plant_);
-  cycle.rest_unchanged = gap(rest.states[0], X0p) < kSameState;
-  note_error(cycle, distance(rest.states[0], X0p));
-  if (cycle.rest_unchanged) {
-    rest.states[0] = X0p;
-    return rest;
+  if (rest.end() >= t0 + cycle.tex()) return rest;
+  cycle.rest_unchanged = false;
+  return driven_on(std::move(rest), t0 + cycle.beyond());
+}
+
+/// A motion, and on from its end until then at no acceleration and no steering rate.
+Motion VerifiedPlanner::driven_on(Motion motion, double until) const {
+  while (motion.end() < until) {
+    const double next = motion.end() + Tracker::kStep;
+    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
   }
-  // The plan as it was made, for what tracks a tracked motion strays.
-  const Motion reference = part_from(made_, std::max(t0, made_.begin()), plant_);
-  return tracker_.follow(reference, X0p, t0, reference.end());
+  return motion;
 }
 
 /// Notes how far the vehicle and the obstacles are from where they were believed to be.
@@ -217,32 +229,30 @@ void VerifiedPlanner::note_error(const Cycle& cycle, double state_error) {
 
 /// Whether something better than the rest is to be looked for.
 bool VerifiedPlanner::due(const Cycle& cycle) const {
-  return !cycle.rest_is(MotionEnd::arrives) ||
-         (cycle.t_start() - last_improved_ >= wait_ - kSameTime &&
-          cycle.rest->proposal.verdict.arrival - cycle.t_start() >= kNearlyThere);
+  return !cycle.leads() || (cycle.t_start() - last_improved_ >= wait_ - kSameTime &&
+                            cycle.arrival() - cycle.t_start() >= kNearlyThere);
 }
 
 /// Asks for proposals that begin when they are expected to be there, where the rest leads by then.
 void VerifiedPlanner::ask(Cycle& cycle) {
   const Settings& s = task_.planner;
-  const bool arrives = cycle.rest_is(MotionEnd::arrives);
+  const bool leads = cycle.leads();
   last_improved_ = cycle.t_start();
   // Until a plan is better, each search is waited for longer than the one before.
-  wait_ =
-      arrives ? std::min(2 * wait_, kLongestWaits * s.improvement_period) : s.improvement_period;
+  wait_ = leads ? std::min(2 * wait_, kLongestWaits * s.improvement_period) : s.improvement_period;
   Proposals::Question question;
   question.from = cycle.request.X0p;
   question.t_from = cycle.t_start();
   question.tex = cycle.tex();
   question.beyond = cycle.beyond();
   question.obstacles = cycle.obstacles;
-  question.need = need();
-  question.places = arrives ? s.improvement_places : s.search_places;
-  question.ways = arrives ? 1 : s.ways;
-  if (arrives) question.arrival = cycle.rest->proposal.verdict.arrival;
+  question.need = need(cycle);
+  question.places = leads ? s.improvement_places : s.search_places;
+  question.ways = leads ? 1 : s.ways;
+  if (leads) question.arrival = cycle.arrival();
   if (cycle.rest && cycle.trusts(*cycle.rest)) {
     const Motion& rest = cycle.rest->motion();
-    const double a_cycle = arrives ? s.improvement_time : std::max(cycle.left(), 1e-3);
+    const double a_cycle = leads ? s.improvement_time : std::max(cycle.left(), 1e-3);
     const double ahead = std::ceil(expected_s_ / a_cycle) - 1;
     const double t = cycle.t_start() + std::max(ahead, 0.0) * cycle.tex();
     Motion lead = rest;
@@ -255,19 +265,19 @@ void VerifiedPlanner::ask(Cycle& cycle) {
       question.rest = std::move(lead);
   }
   asked_work_s_ = proposals_.turns().cpu_s();
-  asked_while_arriving_ = arrives;
+  asked_while_leading_ = leads;
   proposals_.ask(std::move(question));
 }
 
-/// Looks for what is better than the rest. As long as that leads to the goal, so much is done in a
-/// cycle; else all there is time for.
+/// Looks for what is better. As long as something leads to the goal, so much is done in a cycle;
+/// else all there is time for.
 void VerifiedPlanner::look_further(Cycle& cycle) {
   Turns& turns = proposals_.turns();
-  const bool arrives = cycle.rest_is(MotionEnd::arrives);
-  if (!arrives && asked_while_arriving_) turns.cancel();
+  const bool leads = cycle.leads();
+  if (!leads && asked_while_leading_) turns.cancel();
   if (!turns.under_way() && due(cycle)) ask(cycle);
   const double before = turns.cpu_s();
-  double work = arrives && !cycle.request.warm_up
+  double work = leads && !cycle.request.warm_up
                     ? Proposals::kPlacesPerSecond * task_.planner.improvement_time
                     : std::numeric_limits<double>::infinity();
   while (turns.under_way() && work > 0 && !cycle.over()) {
@@ -289,7 +299,7 @@ void VerifiedPlanner::adopt(Cycle& cycle, Proposal proposal) {
   const double t0 = cycle.t_start();
   if (question.t_from == t0 && question.from == cycle.request.X0p &&
       same(question.obstacles, cycle.obstacles)) {
-    consider(cycle, std::move(proposal));
+    follow(cycle, std::move(proposal));
     return;
   }
   const Motion& found = proposal.motion;
@@ -302,9 +312,9 @@ void VerifiedPlanner::adopt(Cycle& cycle, Proposal proposal) {
                       cycle.rest->motion().controls[k]);
   for (std::size_t k = 0; k < found.size(); ++k)
     reference.add(found.t[k], found.states[k], found.controls[k]);
-  consider_anew(cycle, proposal.name,
-                tracker_.follow(reference, cycle.request.X0p, t0, reference.end()),
-                proposal.solved);
+  follow(cycle, judged(cycle, proposal.name,
+                       tracker_.follow(reference, cycle.request.X0p, t0, reference.end()),
+                       proposal.solved));
 }
 
 /// What is driven, by the ladder.
@@ -348,7 +358,10 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   plan.report.detail = plan.certificate.refused;
   plan.report.iterations = cycle.iterations;
   plan.report.cost = option->cost;
-  if (plan.rung != Rung::rest) made_ = motion;
+  if (plan.rung != Rung::rest) {
+    made_ = motion;
+    course_ = option->course;
+  }
   last_ = *option;
   last_begin_ = cycle.t_start();
   last_obstacles_ = cycle.obstacles;

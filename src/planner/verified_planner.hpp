@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,9 +32,12 @@ class VerifiedPlanner final : public PlanningMethod {
   void reset() override;
 
  private:
+  /// A motion to the goal that cannot be driven to its end yet; none where it can.
+  using Course = std::shared_ptr<const Motion>;
   struct Option {
     Proposal proposal;
     double cost = 0;
+    Course course;  ///< whose beginning it drives
 
     const Motion& motion() const { return proposal.motion; }
     const Certificate& certificate() const { return proposal.verdict.certificate; }
@@ -49,12 +53,13 @@ class VerifiedPlanner final : public PlanningMethod {
     const Request& request;
     std::vector<world::Obstacle> obstacles;
     const bool verification;
-    Timer timer;
-    std::optional<Option> rest;       ///< of the last plan, good or not
-    bool rest_unchanged = false;      ///< it is that plan's own motion among the same obstacles
-    std::vector<Option> good;         ///< new ones
-    std::optional<Option> least_bad;  ///< of those refused, the one that goes on longest
-    std::vector<Candidate> looked_at;
+    Timer timer{};
+    std::optional<Option> rest{};       ///< of the last plan, good or not
+    bool rest_unchanged = false;        ///< it is that plan's own motion among the same obstacles
+    std::vector<Option> good{};         ///< new ones
+    std::optional<Option> least_bad{};  ///< of those refused, the one that goes on longest
+    std::vector<Candidate> looked_at{};
+    std::optional<double> course_arrival{};  ///< of a course that is good as far as is seen [s]
     int iterations = 0;
     double beside_s = 0;  ///< thread time of the turns of Proposals
 
@@ -70,6 +75,11 @@ class VerifiedPlanner final : public PlanningMethod {
     /// Verified; or, where verification is left out, as good as that.
     bool trusts(const Option& option) const {
       return option.certificate().verified || !verification;
+    }
+    /// Something at hand leads to the goal: the rest, or a course that is good as far as is seen.
+    bool leads() const { return rest_is(MotionEnd::arrives) || course_arrival; }
+    double arrival() const {
+      return rest_is(MotionEnd::arrives) ? rest->proposal.verdict.arrival : *course_arrival;
     }
     bool rest_is(MotionEnd end) const {
       return rest && trusts(*rest) && rest->proposal.verdict.end == end;
@@ -89,19 +99,24 @@ class VerifiedPlanner final : public PlanningMethod {
 
   Request possible(Request request) const;
   std::vector<world::Obstacle> known(const Request& request) const;
-  Verifier::Need need() const;
+  Verifier::Seen seen(const Request& request) const;
+  Verifier::Need need(const Cycle& cycle) const;
   void note_error(const Cycle& cycle, double state_error);
   void continue_last(Cycle& cycle);
   Motion rest_of_last(Cycle& cycle);
+  Motion driven_on(Motion motion, double until) const;
   void look_further(Cycle& cycle);
   bool due(const Cycle& cycle) const;
   void ask(Cycle& cycle);
   void adopt(Cycle& cycle, Proposal proposal);
   void stop(Cycle& cycle);
-  std::vector<Stop> stops(const Cycle& cycle) const;
   Motion settled(Motion motion, double until) const;
-  bool consider(Cycle& cycle, Proposal proposal);
-  bool consider_anew(Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
+  bool consider(Cycle& cycle, Proposal proposal, const Course& course = {});
+  Proposal judged(const Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
+  void follow_course(Cycle& cycle);
+  void follow(Cycle& cycle, Proposal proposal);
+  bool stop_late(Cycle& cycle, const Proposal& proposal);
+  bool stop_along(Cycle& cycle, const Stop& stop, double deceleration, const Course& course);
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   const Option* chosen(const Cycle& cycle, Rung& rung);
   Plan choose(Cycle& cycle);
@@ -113,14 +128,15 @@ class VerifiedPlanner final : public PlanningMethod {
   Proposals proposals_;
   std::optional<Option> last_;                    ///< what is driven
   Motion made_;                                   ///< the same as it was when it was new
+  Course course_;                                 ///< of which it drives the beginning
   std::vector<world::Obstacle> last_obstacles_;   ///< among which it was verified
   std::deque<std::pair<double, double>> errors_;  ///< of belief: when [s], and how great [m]
-  double last_begin_ = 0;              ///< the moment from which it looked for arrival [s]
-  double last_improved_ = 0;           ///< when a better plan was looked for [s]
-  double wait_ = 0;                    ///< until the next time [s]
-  double asked_work_s_ = 0;            ///< thread time of the turns before what is under way [s]
-  double expected_s_ = 0;              ///< thread time that was looked for the last time [s]
-  bool asked_while_arriving_ = false;  ///< what is under way is to improve on a rest that arrives
+  double last_begin_ = 0;             ///< the moment from which it looked for arrival [s]
+  double last_improved_ = 0;          ///< when a better plan was looked for [s]
+  double wait_ = 0;                   ///< until the next time [s]
+  double asked_work_s_ = 0;           ///< thread time of the turns before what is under way [s]
+  double expected_s_ = 0;             ///< thread time that was looked for the last time [s]
+  bool asked_while_leading_ = false;  ///< what is under way is to improve on what leads to the goal
 };
 
 }  // namespace slalom::planner

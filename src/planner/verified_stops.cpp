@@ -31,7 +31,10 @@ Motion before(const Motion& motion, double t) {
 
 /// Comes to a creep at no acceleration and no steering rate, and creeps on until then.
 Motion VerifiedPlanner::settled(Motion motion, double until) const {
-  if (motion.size() < 3) return motion;
+  if (motion.size() < 3) {  // it creeps already
+    while (motion.size() > 1) motion.drop_last();
+    return driven_on(std::move(motion), until);
+  }
   const std::size_t k = motion.size() - 1;
   motion.controls[k] = {};
   motion.states[k] = plant_.advance(motion.states[k - 1], motion.controls[k - 1], {},
@@ -43,60 +46,85 @@ Motion VerifiedPlanner::settled(Motion motion, double until) const {
   const State middle = plant_.advance(motion.states[k], {}, peak, t, t + length / 2);
   motion.add(t + length / 2, middle, peak);
   motion.add(t + length, plant_.advance(middle, peak, {}, t + length / 2, t + length), {});
-  while (motion.end() < until) {
-    const double next = motion.end() + Tracker::kStep;
-    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
-  }
-  return motion;
+  return driven_on(std::move(motion), until);
 }
 
-/// Stops along the rest, as late as what is wrong with it allows, or at once; straight on, and
-/// after swerves.
-std::vector<VerifiedPlanner::Stop> VerifiedPlanner::stops(const Cycle& cycle) const {
+/// Drives a stop's lead and brakes along its path. Whether that is good.
+bool VerifiedPlanner::stop_along(Cycle& cycle, const Stop& stop, double deceleration,
+                                 const Course& course) {
   const State& X0p = cycle.request.X0p;
   const double t0 = cycle.t_start();
-  std::vector<Stop> result;
-  if (cycle.rest && cycle.rest->motion().size() > 3) {
-    const Motion& rest = cycle.rest->motion();
-    const auto& certificate = cycle.rest->certificate();
-    const double wrong = certificate.verified ? rest.end() : certificate.refused_at;
-    for (const double share : kLate) {
-      const double speed = rest.state_at(wrong)[UX];
-      const double at = t0 + share * (wrong - t0 - speed / kStops[0] - kEarlier);
-      if (at > t0 + cycle.tex())
-        result.push_back({"late stop along the rest", before(rest, at), rest});
-    }
-    result.push_back({"stop along the rest", {}, rest});
+  const bool at_once = stop.lead.size() < 2;
+  const State& from = at_once ? X0p : stop.lead.states.back();
+  const double t = at_once ? t0 : stop.lead.end();
+  Motion reference = stop.lead;
+  if (!at_once) reference.drop_last();
+  const Motion braking = braking_reference(stop.path, from, t, deceleration, task_.vehicle);
+  for (std::size_t k = 0; k < braking.size(); ++k)
+    reference.add(braking.t[k], braking.states[k], braking.controls[k]);
+  try {
+    Motion motion =
+        settled(tracker_.follow(reference, X0p, t0, reference.end()), t0 + cycle.beyond());
+    return consider(cycle, judged(cycle, stop.name, std::move(motion)), course);
+  } catch (const PlantError&) {
+    return false;
   }
-  result.push_back({"stop straight on", {}, straight_reference(X0p, t0, 1)});
-  result.push_back(
-      {"stop after a swerve to the left", {}, swerve_reference(X0p, t0, 1, task_.vehicle)});
-  result.push_back(
-      {"stop after a swerve to the right", {}, swerve_reference(X0p, t0, -1, task_.vehicle)});
-  return result;
 }
 
-/// Looks for a stop that is good.
+/// A stop along a motion that is refused, as late as what is wrong with it allows.
+bool VerifiedPlanner::stop_late(Cycle& cycle, const Proposal& proposal) {
+  const Motion& motion = proposal.motion;
+  const double t0 = cycle.t_start(), wrong = proposal.verdict.certificate.refused_at;
+  if (motion.size() < 4 || wrong > motion.end()) return false;
+  const Course course = std::make_shared<const Motion>(motion);
+  for (const double share : kLate) {
+    const double braking = motion.state_at(wrong)[UX] / kStops[0] + kEarlier;
+    const double at = t0 + share * (wrong - t0 - braking);
+    if (at <= t0 + cycle.tex()) continue;
+    if (stop_along(cycle, {proposal.name + ", then a stop", before(motion, at), motion}, kStops[0],
+                   course))
+      return true;
+  }
+  return false;
+}
+
+/// Considers a motion to the goal, and where it is refused, a stop along it.
+void VerifiedPlanner::follow(Cycle& cycle, Proposal proposal) {
+  const Proposal copy = proposal;
+  if (!consider(cycle, std::move(proposal)) && !cycle.arrives() && task_.planner.fallback)
+    stop_late(cycle, copy);
+}
+
+/// The course from here, and a stop before what is wrong with it.
+void VerifiedPlanner::follow_course(Cycle& cycle) {
+  const double t0 = cycle.t_start();
+  if (!course_ || t0 < course_->begin() - kSameTime || t0 >= course_->end() - kSameTime) return;
+  const Course course = course_;
+  const Motion reference = part_from(*course, std::max(t0, course->begin()), plant_);
+  Proposal whole = judged(cycle, "course",
+                          tracker_.follow(reference, cycle.request.X0p, t0, reference.end()), true);
+  if (whole.verdict.unseen && whole.verdict.end == MotionEnd::arrives)
+    cycle.course_arrival = whole.verdict.arrival;
+  follow(cycle, std::move(whole));
+}
+
+/// Stops along the rest, late or at once; straight on, and after swerves: the first that is good.
 void VerifiedPlanner::stop(Cycle& cycle) {
   const State& X0p = cycle.request.X0p;
   const double t0 = cycle.t_start();
-  for (const Stop& stop : stops(cycle))
-    for (const double deceleration : kStops) {
-      const bool at_once = stop.lead.size() < 2;
-      const State& from = at_once ? X0p : stop.lead.states.back();
-      const double t = at_once ? t0 : stop.lead.end();
-      Motion reference = stop.lead;
-      if (!at_once) reference.drop_last();
-      const Motion braking = braking_reference(stop.path, from, t, deceleration, task_.vehicle);
-      for (std::size_t k = 0; k < braking.size(); ++k)
-        reference.add(braking.t[k], braking.states[k], braking.controls[k]);
-      try {
-        Motion motion = tracker_.follow(reference, X0p, t0, reference.end());
-        if (consider_anew(cycle, stop.name, settled(std::move(motion), t0 + cycle.beyond())))
-          return;
-      } catch (const PlantError&) {
-      }
-    }
+  std::vector<Stop> stops;
+  if (cycle.rest && cycle.rest->motion().size() > 3) {
+    if (stop_late(cycle, cycle.rest->proposal)) return;
+    stops.push_back({"stop along the rest", {}, cycle.rest->motion()});
+  }
+  stops.push_back({"stop straight on", {}, straight_reference(X0p, t0, 1)});
+  stops.push_back(
+      {"stop after a swerve to the left", {}, swerve_reference(X0p, t0, 1, task_.vehicle)});
+  stops.push_back(
+      {"stop after a swerve to the right", {}, swerve_reference(X0p, t0, -1, task_.vehicle)});
+  for (const Stop& stop : stops)
+    for (const double deceleration : kStops)
+      if (stop_along(cycle, stop, deceleration, {})) return;
 }
 
 }  // namespace slalom::planner

@@ -90,6 +90,11 @@ void Verifier::note_limits(double t, const State& x) {
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
   if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
+  if (std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y) > need_.seen.radius - need_.clearance &&
+      certificate.refused.empty()) {
+    refuse(t, "beyond what is seen");
+    verdict_.unseen = true;
+  }
   if (!(excess.ux <= allowed.ux)) refuse(t, fmt::format("speed of {:.4g} m/s", x[UX]));
   if (!(excess.sa <= allowed.sa)) refuse(t, "steering angle");
   if (!(excess.ax <= allowed.ax)) refuse(t, fmt::format("acceleration of {:.3g} m/s^2", x[AX]));

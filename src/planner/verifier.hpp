@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Verdict {
   MotionEnd end = MotionEnd::open;
   double arrival = 0;           ///< when it arrives [s]
   std::vector<double> nearest;  ///< least distance to each obstacle's edge [m]
+  bool unseen = false;          ///< it is refused for nothing but leaving what is seen
 };
 
 /// Judges motions of the plant: whether, driven as they stand, they keep off all obstacles as
@@ -35,9 +37,15 @@ struct Verdict {
 /// thread-safe.
 class Verifier {
  public:
-  /// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N].
+  /// A disk outside which anything may stand [m].
+  struct Seen {
+    double x = 0, y = 0, radius = std::numeric_limits<double>::infinity();
+  };
+  /// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N], and this
+  /// distance within what is seen.
   struct Need {
     double clearance, wheel_load;
+    Seen seen{};
   };
 
   /// Both outlive it.

@@ -23,17 +23,15 @@ Timing::Timing(const LoopSettings& settings, planner::Method method)
                  method == planner::Method::verified)) {}
 
 double Timing::time_limit() const {
-  return deadline_ && !latency_.scripted()
-             ? std::min(settings_.tex, settings_.solve_time_limit)
-             : settings_.solve_time_limit;
+  return deadline_ && !latency_.scripted() ? std::min(settings_.tex, settings_.solve_time_limit)
+                                           : settings_.solve_time_limit;
 }
 
 void Timing::settle(Cycle& cycle) {
   cycle.charged = latency_.charge(cycle.index, cycle.solve_time);
   if (latency_.scripted()) {
     cycle.solve_time = cycle.charged;
-    if (deadline_ && cycle.charged > settings_.tex)
-      cut_off(cycle, settings_.tex);
+    if (deadline_ && cycle.charged > settings_.tex) cut_off(cycle, settings_.tex);
   }
   ++horizons_;
   const double ready = cycle.t0 + cycle.charged;

@@ -44,8 +44,8 @@ struct Variant {
 constexpr std::array kVariants = {Variant{1, 1, 1, 1, 1}, Variant{0.71, 0.7, 1, 1, 1},
                                   Variant{0.46, 0.4, 1, 1, 1}, Variant{0.29, 0.4, 1, 1, 1},
                                   Variant{0.9, 0.25, 1.25, 2, 1}};
-/// Comes after those, if none led to a good way.
-constexpr Variant kLastResort = {0.29, 0.15, 1.25, 1, 3};
+/// Comes after those, if none led to a good way: it may all but stand, to let something pass.
+constexpr Variant kLastResort = {0.29, 0.15, 1.25, 0.1, 3};
 
 WaySearch varied(const WaySearch& search, const Variant& by) {
   WaySearch result = search;
@@ -54,6 +54,8 @@ WaySearch varied(const WaySearch& search, const Variant& by) {
   result.clearance *= by.clearance;
   result.lateral_acceleration *= by.lateral_acceleration;
   result.max_places *= by.places;
+  // A place that hardly moves is in the cell of the one before, but for its time.
+  if (by.slowest < 1) result.cell_time = std::min(search.cell_time, search.dt);
   return result;
 }
 

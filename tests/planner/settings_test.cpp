@@ -77,7 +77,7 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "search_places",
                            "improvement_places"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 61u);
+  EXPECT_EQ(names.size(), 62u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

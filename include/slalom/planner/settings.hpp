@@ -29,6 +29,10 @@ enum class Method { receding_horizon, verified };
 /// The obstacles that a verifying planner is told of: all, or those within L_range.
 enum class Known { all, range };
 
+/// What a verifying planner assumes beyond L_range, where it knows of obstacles within it alone:
+/// nothing, or that anything may stand there.
+enum class Unseen { nothing, standing };
+
 /// Settings of the trajectory-planning OCP; names as in section 3 of docs/formulation.md.
 struct Settings {
   std::string name = "P_D";
@@ -82,6 +86,7 @@ struct Settings {
 
   // Of `verified` alone.
   Known known = Known::all;
+  Unseen unseen = Unseen::standing;
   double verified_clearance = 2.15;  ///< from obstacles' edges, at all times [m]
   double verified_wheel_load = 400;  ///< [N]
   double kept_clearance = 2.05;      ///< by its rest, where belief was wrong [m]
