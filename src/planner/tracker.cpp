@@ -197,6 +197,11 @@ Control Tracker::steered(std::size_t knot, const State& off, const State& at, do
 }
 
 Motion Tracker::follow(const Motion& reference, const State& X0, double t0, double t_end) {
+  Motion motion;
+  if (t_end - t0 < kSameTime) {
+    motion.add(t0, X0, {});
+    return motion;
+  }
   const auto steps =
       static_cast<std::size_t>(std::max(1.0, std::ceil((t_end - t0) / kStep - 1e-9)));
   const double h = (t_end - t0) / static_cast<double>(steps);
@@ -210,7 +215,6 @@ Motion Tracker::follow(const Motion& reference, const State& X0, double t0, doub
   linearise(steps, h);
   find_gains(steps);
 
-  Motion motion;
   State x = X0, off;
   for (std::size_t i = 0; i < kStates; ++i) off[i] = x[i] - state_[0][i];
   Control u = steered(0, off, x, h);

@@ -21,7 +21,8 @@ class Tracker {
   Tracker(const vehicle::Parameters& vehicle, const vehicle::Plant& plant);
 
   /// The plant's motion from X0 at t0 to t_end [s], with knots kStep apart at most. It ends early
-  /// where the plant cannot be integrated further.
+  /// where the plant cannot be integrated further; where there is no time to go, it is X0 without
+  /// control.
   Motion follow(const Motion& reference, const vehicle::State& X0, double t0, double t_end);
 
   static constexpr double kStep = 0.05;  ///< [s]

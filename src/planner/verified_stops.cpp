@@ -16,7 +16,7 @@ using namespace vehicle;
 /// How stops brake [m/s^2].
 constexpr std::array kStops = {3.4, 2.0, 1.0};
 /// A late stop begins so long before it would have to by its braking alone [s], or half-way there.
-constexpr double kEarlier = 1.5;
+constexpr double kEarlier = 1;
 constexpr std::array kLate = {1., 0.5};
 
 /// A motion's knots before t.
@@ -78,7 +78,8 @@ bool VerifiedPlanner::stop_late(Cycle& cycle, const Proposal& proposal) {
   if (motion.size() < 4 || wrong > motion.end()) return false;
   const Course course = std::make_shared<const Motion>(motion);
   for (const double share : kLate) {
-    const double braking = motion.state_at(wrong)[UX] / kStops[0] + kEarlier;
+    // While it brakes it comes half as far as at its speed.
+    const double braking = motion.state_at(wrong)[UX] / (2 * kStops[0]) + kEarlier;
     const double at = t0 + share * (wrong - t0 - braking);
     if (at <= t0 + cycle.tex()) continue;
     if (stop_along(cycle, {proposal.name + ", then a stop", before(motion, at), motion}, kStops[0],

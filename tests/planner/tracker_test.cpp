@@ -88,6 +88,15 @@ TEST(Tracker, KeepsTheControlsLimitsWhateverTheReference) {
   EXPECT_GT(steering, 0.9 * d.vehicle.sr_max()) << "the reference asks for all there is";
 }
 
+TEST(Tracker, WithoutTimeToGoItStaysWithoutControl) {
+  Driven d;
+  const State& X0 = d.reference.states[3];
+  const Motion motion = d.tracker.follow(d.reference, X0, 1, 1);
+  ASSERT_EQ(motion.size(), 1U);
+  EXPECT_EQ(motion.states[0], X0);
+  EXPECT_EQ(motion.controls[0], (Control{0, 0}));
+}
+
 TEST(References, BrakeToACreepAlongThePath) {
   Driven d;
   const Motion stop = braking_reference(d.reference, d.reference.states[0], 0, 3, d.vehicle);

@@ -155,6 +155,46 @@ TEST(VerifiedPlanner, ByRangeItKnowsWhatIsNear) {
   EXPECT_EQ(planner.plan(nearer).certificate.nearest, "O1");
 }
 
+TEST(VerifiedPlanner, WhereAnythingMayStandUnseenItStopsWithinWhatIsSeen) {
+  Task t = task();
+  t.planner.known = Known::range;
+  t.planner.L_range = 90;
+  const double edge = t.planner.L_range - t.planner.verified_clearance;
+  Planner planner(t);
+  Request request = first();
+  Plan plan = planner.plan(request);
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+    const double from = request.X0p[Y] - request.X0p[UX] * (request.t_start - request.t0);
+    EXPECT_LE(plan.states.back()[Y] - from, edge);
+    EXPECT_LT(plan.states.back()[UX], 0.5);
+    request = next(t, request, plan);
+    const Plan later = planner.plan(request);
+    EXPECT_GT(later.states.back()[Y], plan.states.back()[Y]) << "it sees further by now";
+    plan = later;
+  }
+  t.planner.unseen = Unseen::nothing;
+  EXPECT_TRUE(Planner(t).plan(first()).goal_in_range);
+}
+
+TEST(VerifiedPlanner, AVehicleAtRestAlwaysHasAPlanThatLasts) {
+  Task t = task();
+  t.region.x_min = -40;
+  t.region.x_max = 40;
+  t.obstacles = {{"wall", 0, 20, 80, 2, 0, 0}};
+  Planner planner(t);
+  Request request = first();
+  request.X0p[UX] = 0.12;
+  for (int cycle = 0; cycle < 8; ++cycle) {
+    const Plan plan = planner.plan(request);
+    ASSERT_TRUE(usable(plan));
+    EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+    EXPECT_GE(plan.tf, 0.5 - 1e-6);
+    request = next(t, request, plan);
+    request.X0p[UX] -= 0.01;  // as a sensor may have it
+  }
+}
+
 TEST(VerifiedPlanner, TheSameRequestsGiveTheSameBits) {
   const Task t = task();
   std::vector<State> ends;
