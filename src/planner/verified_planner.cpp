@@ -57,6 +57,7 @@ VerifiedPlanner::VerifiedPlanner(const Task& task)
 
 void VerifiedPlanner::reset() {
   last_.reset();
+  course_.reset();
   errors_.clear();
   proposals_.turns().cancel();
 }

@@ -173,6 +173,11 @@ TEST(VerifiedPlanner, WhereAnythingMayStandUnseenItStopsWithinWhatIsSeen) {
     EXPECT_GT(later.states.back()[Y], plan.states.back()[Y]) << "it sees further by now";
     plan = later;
   }
+  planner.reset();
+  const auto candidates = planner.plan(first()).candidates;
+  EXPECT_TRUE(std::none_of(candidates.begin(), candidates.end(), [](const auto& c) {
+    return c.name.find("course") != std::string::npos || c.name.find("rest") != std::string::npos;
+  })) << "of a planner that has forgotten its last plan";
   t.planner.unseen = Unseen::nothing;
   EXPECT_TRUE(Planner(t).plan(first()).goal_in_range);
 }

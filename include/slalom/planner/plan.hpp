@@ -73,7 +73,7 @@ const char* to_string(Rung rung);
 
 /// A motion that a verifying planner looked at.
 struct Candidate {
-  std::string name;  ///< what it comes from, e.g. "guided 2, solved"
+  std::string name;  ///< what it comes from, e.g. "way 2, solved"
   double cost = 0;   ///< by which candidates are compared, in the cost's unit; verified ones only
   Certificate certificate;
 };
