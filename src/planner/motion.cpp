@@ -1,6 +1,7 @@
 #include "motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "../base/between_knots.hpp"
 
@@ -12,6 +13,22 @@ vehicle::State Motion::state_at(double at) const {
 
 vehicle::Control Motion::control_at(double at) const {
   return between_knots(t, controls, at);
+}
+
+void Motion::append(const Motion& other) {
+  for (std::size_t k = 0; k < other.size(); ++k)
+    add(other.t[k], other.states[k], other.controls[k]);
+}
+
+double apart(const vehicle::State& a, const vehicle::State& b) {
+  return std::hypot(a[vehicle::X] - b[vehicle::X], a[vehicle::Y] - b[vehicle::Y]);
+}
+
+Motion part_before(const Motion& motion, double at) {
+  Motion part;
+  for (std::size_t k = 0; k < motion.size() && motion.t[k] < at - kSameTime; ++k)
+    part.add(motion.t[k], motion.states[k], motion.controls[k]);
+  return part;
 }
 
 Motion part_from(const Motion& motion, double t0, const vehicle::Plant& plant) {

@@ -26,6 +26,7 @@ struct Motion {
     states.push_back(state);
     controls.push_back(control);
   }
+  void append(const Motion& other);
 
   void drop_last() {
     t.pop_back();
@@ -38,8 +39,14 @@ struct Motion {
   vehicle::Control control_at(double at) const;
 };
 
+/// The knots of a motion before `at` [s].
+Motion part_before(const Motion& motion, double at);
+
 /// What there is of a motion from t0 on, which is not before it begins. The state between two knots
 /// is the plant's. Throws PlantError.
 Motion part_from(const Motion& motion, double t0, const vehicle::Plant& plant);
+
+/// Between the places of two states [m].
+double apart(const vehicle::State& a, const vehicle::State& b);
 
 }  // namespace slalom::planner

@@ -30,9 +30,8 @@ constexpr double kShortest = 0.4;
 constexpr double kAstray = 5;
 /// Without guidance the OCP starts straight on, at this speed at least [m/s].
 constexpr double kStraightSpeed = 5;
-/// How often a search looks whether it is to stop [places], and what the other steps count beside a
-/// place, by their times on one machine.
-constexpr double kPlaces = 256, kIteration = 300, kMotion = 1000, kMaking = 4000;
+/// What other steps count beside a place that a search looks at, by their times on one machine.
+constexpr double kIteration = 300, kMotion = 1000, kMaking = 4000;
 
 bool cancelled(void* turns) {
   return static_cast<Turns*>(turns)->spend(kIteration);
@@ -90,7 +89,7 @@ void Proposals::follow_ways() {
   ways_.find_ways(
       question_.from, question_.t_from, obstacles, search, question_.ways,
       [&](const world::Way& way) { return follow(way, "way " + std::to_string(++number)); },
-      [&] { return turns_.spend(kPlaces); });
+      [&] { return turns_.spend(world::WayFinder::kAskedEvery); });
 }
 
 /// Whether the way leads to a verified arrival.
@@ -102,7 +101,7 @@ bool Proposals::follow(const world::Way& way, const std::string& name) {
   Motion guess = tracked(reference);
   const bool arrives = propose(name, guess, false);
   const State &end = guess.states.back(), &wanted = reference.states.back();
-  if (std::hypot(end[X] - wanted[X], end[Y] - wanted[Y]) > kAstray) guess = reference;
+  if (apart(end, wanted) > kAstray) guess = reference;
   while (guess.size() > 2 && guess.end() > way.back().t + kSameTime) guess.drop_last();
   return solve(guess, name + ", solved") || arrives;
 }

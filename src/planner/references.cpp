@@ -148,9 +148,6 @@ Motion braking_reference(const Motion& reference, const State& X0, double t0, do
   // The path by its length, and how far along it X0 is.
   std::vector<double> length{0};
   std::size_t nearest = 0;
-  const auto apart = [](const State& a, const State& b) {
-    return std::hypot(a[X] - b[X], a[Y] - b[Y]);
-  };
   for (std::size_t k = 1; k < reference.size(); ++k) {
     length.push_back(length.back() + apart(reference.states[k], reference.states[k - 1]));
     if (apart(reference.states[k], X0) < apart(reference.states[nearest], X0)) nearest = k;

@@ -40,10 +40,6 @@ double gap(const State& a, const State& b) {
   return most;
 }
 
-double distance(const State& a, const State& b) {
-  return std::hypot(a[X] - b[X], a[Y] - b[Y]);
-}
-
 }  // namespace
 
 VerifiedPlanner::VerifiedPlanner(const Task& task)
@@ -192,7 +188,7 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   } else {
     rest = part_from(old, std::max(t0, old.begin()), plant_);
     cycle.rest_unchanged = gap(rest.states[0], X0p) < kSameState;
-    note_error(cycle, distance(rest.states[0], X0p));
+    note_error(cycle, apart(rest.states[0], X0p));
     if (cycle.rest_unchanged) {
       rest.states[0] = X0p;
     } else {  // The plan as it was made, for what tracks a tracked motion strays.
@@ -287,7 +283,7 @@ void VerifiedPlanner::look_further(Cycle& cycle) {
     work -= turn;
     cycle.beside_s = turns.cpu_s() - before;
     cycle.iterations += proposals_.take_iterations();
-    for (Proposal& proposal : proposals_.take()) adopt(cycle, std::move(proposal));
+    for (const Proposal& proposal : proposals_.take()) adopt(cycle, proposal);
     if (turns.wants_more()) break;
   }
   if (!turns.under_way()) expected_s_ = turns.cpu_s() - asked_work_s_;
@@ -295,24 +291,20 @@ void VerifiedPlanner::look_further(Cycle& cycle) {
 
 /// A proposal from where the cycle is. One that begins elsewhere is tracked from here, at first
 /// along the rest.
-void VerifiedPlanner::adopt(Cycle& cycle, Proposal proposal) {
+void VerifiedPlanner::adopt(Cycle& cycle, const Proposal& proposal) {
   const auto& question = proposals_.question();
   const double t0 = cycle.t_start();
   if (question.t_from == t0 && question.from == cycle.request.X0p &&
       same(question.obstacles, cycle.obstacles)) {
-    follow(cycle, std::move(proposal));
+    follow(cycle, proposal);
     return;
   }
   const Motion& found = proposal.motion;
   if (found.size() < 2 || found.end() <= t0 + kSameTime) return;
   Motion reference;
   if (cycle.rest && t0 < found.begin())
-    for (std::size_t k = 0; k < cycle.rest->motion().size(); ++k)
-      if (cycle.rest->motion().t[k] < found.begin() - kSameTime)
-        reference.add(cycle.rest->motion().t[k], cycle.rest->motion().states[k],
-                      cycle.rest->motion().controls[k]);
-  for (std::size_t k = 0; k < found.size(); ++k)
-    reference.add(found.t[k], found.states[k], found.controls[k]);
+    reference = part_before(cycle.rest->motion(), found.begin());
+  reference.append(found);
   follow(cycle, judged(cycle, proposal.name,
                        tracker_.follow(reference, cycle.request.X0p, t0, reference.end()),
                        proposal.solved));

@@ -108,13 +108,13 @@ class VerifiedPlanner final : public PlanningMethod {
   void look_further(Cycle& cycle);
   bool due(const Cycle& cycle) const;
   void ask(Cycle& cycle);
-  void adopt(Cycle& cycle, Proposal proposal);
+  void adopt(Cycle& cycle, const Proposal& proposal);
   void stop(Cycle& cycle);
   Motion settled(Motion motion, double until) const;
   bool consider(Cycle& cycle, Proposal proposal, const Course& course = {});
   Proposal judged(const Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
   void follow_course(Cycle& cycle);
-  void follow(Cycle& cycle, Proposal proposal);
+  void follow(Cycle& cycle, const Proposal& proposal);
   bool stop_late(Cycle& cycle, const Proposal& proposal);
   bool stop_along(Cycle& cycle, const Stop& stop, double deceleration, const Course& course);
   double cost_of(const Motion& motion, const Verdict& verdict) const;

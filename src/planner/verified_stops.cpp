@@ -19,14 +19,6 @@ constexpr std::array kStops = {3.4, 2.0, 1.0};
 constexpr double kEarlier = 1;
 constexpr std::array kLate = {1., 0.5};
 
-/// A motion's knots before t.
-Motion before(const Motion& motion, double t) {
-  Motion part;
-  for (std::size_t k = 0; k < motion.size() && motion.t[k] < t - kSameTime; ++k)
-    part.add(motion.t[k], motion.states[k], motion.controls[k]);
-  return part;
-}
-
 }  // namespace
 
 /// Comes to a creep at no acceleration and no steering rate, and creeps on until then.
@@ -59,9 +51,7 @@ bool VerifiedPlanner::stop_along(Cycle& cycle, const Stop& stop, double decelera
   const double t = at_once ? t0 : stop.lead.end();
   Motion reference = stop.lead;
   if (!at_once) reference.drop_last();
-  const Motion braking = braking_reference(stop.path, from, t, deceleration, task_.vehicle);
-  for (std::size_t k = 0; k < braking.size(); ++k)
-    reference.add(braking.t[k], braking.states[k], braking.controls[k]);
+  reference.append(braking_reference(stop.path, from, t, deceleration, task_.vehicle));
   try {
     Motion motion =
         settled(tracker_.follow(reference, X0p, t0, reference.end()), t0 + cycle.beyond());
@@ -82,18 +72,17 @@ bool VerifiedPlanner::stop_late(Cycle& cycle, const Proposal& proposal) {
     const double braking = motion.state_at(wrong)[UX] / (2 * kStops[0]) + kEarlier;
     const double at = t0 + share * (wrong - t0 - braking);
     if (at <= t0 + cycle.tex()) continue;
-    if (stop_along(cycle, {proposal.name + ", then a stop", before(motion, at), motion}, kStops[0],
-                   course))
+    if (stop_along(cycle, {proposal.name + ", then a stop", part_before(motion, at), motion},
+                   kStops[0], course))
       return true;
   }
   return false;
 }
 
 /// Considers a motion to the goal, and where it is refused, a stop along it.
-void VerifiedPlanner::follow(Cycle& cycle, Proposal proposal) {
-  const Proposal copy = proposal;
-  if (!consider(cycle, std::move(proposal)) && !cycle.arrives() && task_.planner.fallback)
-    stop_late(cycle, copy);
+void VerifiedPlanner::follow(Cycle& cycle, const Proposal& proposal) {
+  if (!consider(cycle, proposal) && !cycle.arrives() && task_.planner.fallback)
+    stop_late(cycle, proposal);
 }
 
 /// The course from here, and a stop before what is wrong with it.
@@ -102,11 +91,11 @@ void VerifiedPlanner::follow_course(Cycle& cycle) {
   if (!course_ || t0 < course_->begin() - kSameTime || t0 >= course_->end() - kSameTime) return;
   const Course course = course_;
   const Motion reference = part_from(*course, std::max(t0, course->begin()), plant_);
-  Proposal whole = judged(cycle, "course",
-                          tracker_.follow(reference, cycle.request.X0p, t0, reference.end()), true);
+  const Proposal whole = judged(
+      cycle, "course", tracker_.follow(reference, cycle.request.X0p, t0, reference.end()), true);
   if (whole.verdict.unseen && whole.verdict.end == MotionEnd::arrives)
     cycle.course_arrival = whole.verdict.arrival;
-  follow(cycle, std::move(whole));
+  follow(cycle, whole);
 }
 
 /// Stops along the rest, late or at once; straight on, and after swerves: the first that is good.

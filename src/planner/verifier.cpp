@@ -64,11 +64,10 @@ void Verifier::refuse(double t, std::string why) {
   certificate.refused_at = t;
 }
 
-Verifier::Excess Verifier::excess_of(const State& x) const {
+Verifier::Excess Verifier::excess_of(const State& x, const WheelLoads& loads) const {
   const Parameters& p = task_.vehicle;
   constexpr double inf = std::numeric_limits<double>::infinity();
   Excess excess;
-  const WheelLoads loads = plant_.dynamics().wheel_loads(x);
   for (std::size_t w = 0; w < kWheels; ++w)
     excess.load[w] = beyond(loads[w], need_.wheel_load, inf);
   excess.ux = beyond(x[UX], p.ux_min, p.ux_max + kUxSlack);
@@ -82,7 +81,7 @@ Verifier::Excess Verifier::excess_of(const State& x) const {
 void Verifier::note_limits(double t, const State& x) {
   auto& certificate = verdict_.certificate;
   const WheelLoads loads = plant_.dynamics().wheel_loads(x);
-  const Excess excess = excess_of(x);
+  const Excess excess = excess_of(x, loads);
   const Excess allowed = t - begin_ < kToComeBack ? first_ : Excess{};
   for (std::size_t w = 0; w < kWheels; ++w) {
     certificate.least_wheel_load = std::min(certificate.least_wheel_load, loads[w]);
@@ -186,7 +185,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   }
   certificate.until = motion.end();
   begin_ = motion.begin();
-  first_ = excess_of(motion.states[0]);
+  first_ = excess_of(motion.states[0], plant_.dynamics().wheel_loads(motion.states[0]));
   note_limits(motion.t[0], motion.states[0]);
   for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {
     const Interval i{motion.t[k],          motion.t[k + 1],    motion.states[k],

@@ -66,7 +66,7 @@ class Verifier {
     std::array<double, vehicle::kWheels> load{};
     double ux = 0, sa = 0, ax = 0;
   };
-  Excess excess_of(const vehicle::State& state) const;
+  Excess excess_of(const vehicle::State& state, const vehicle::WheelLoads& loads) const;
   void note_limits(double t, const vehicle::State& state);
   void keep_off(const Interval& interval, std::size_t obstacle);
   void find_end(const Motion& motion, double tex);

@@ -50,7 +50,7 @@ bool PlaceSearch::run(const Place& start, const Region& region,
   const int most_moves = static_cast<int>(std::ceil(p_.t_max / p_.dt));
   add(start);
   for (; !open_.empty() && looked_at_ < p_.max_places; ++looked_at_) {
-    if (looked_at_ % 256 == 0 && out_of_budget && out_of_budget()) return false;
+    if (looked_at_ % WayFinder::kAskedEvery == 0 && out_of_budget && out_of_budget()) return false;
     std::pop_heap(open_.begin(), open_.end());
     const auto at = open_.back().place;
     open_.pop_back();

@@ -25,6 +25,15 @@ Task task() {
   return task;
 }
 
+/// The same with a wall across the whole road in the way, at y.
+Task before_a_wall(double y) {
+  Task walled = task();
+  walled.region.x_min = -40;
+  walled.region.x_max = 40;
+  walled.obstacles = {{"wall", 0, y, 80, 2, 0, 0}};
+  return walled;
+}
+
 Request first() {
   Request request;
   request.X0p = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};
@@ -129,10 +138,7 @@ TEST(VerifiedPlanner, ThereIsAPlanWhereNoneIsGoodAndItSaysSo) {
 }
 
 TEST(VerifiedPlanner, WithoutAWayToTheGoalItStopsClear) {
-  Task t = task();
-  t.region.x_min = -40;
-  t.region.x_max = 40;
-  t.obstacles = {{"wall", 0, 110, 80, 2, 0, 0}};
+  const Task t = before_a_wall(110);
   Planner planner(t);
   const Plan plan = planner.plan(first());
   EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
@@ -183,10 +189,7 @@ TEST(VerifiedPlanner, WhereAnythingMayStandUnseenItStopsWithinWhatIsSeen) {
 }
 
 TEST(VerifiedPlanner, AVehicleAtRestAlwaysHasAPlanThatLasts) {
-  Task t = task();
-  t.region.x_min = -40;
-  t.region.x_max = 40;
-  t.obstacles = {{"wall", 0, 20, 80, 2, 0, 0}};
+  const Task t = before_a_wall(20);
   Planner planner(t);
   Request request = first();
   request.X0p[UX] = 0.12;

@@ -51,6 +51,8 @@ struct WaySearch {
 /// Keeps its memory: a find() that is no larger than one before allocates nothing but its answer.
 class WayFinder {
  public:
+  static constexpr int kAskedEvery = 256;
+
   /// Ways lead to the goal of `environment` within its region; its obstacles are not used.
   WayFinder(const Environment& environment, const vehicle::Parameters& vehicle);
   ~WayFinder();
@@ -60,7 +62,7 @@ class WayFinder {
   /// A way from `start` at absolute time t_start [s], that keeps the clearance from `obstacles` --
   /// which are grown by the drive's margin already -- at every tenth of a move, and ends within
   /// half the goal's sigma along its direction and 0.6 sigma across. nullopt when the search finds
-  /// none within max_places or before out_of_budget(), asked every 256 places, says so.
+  /// none within max_places or before out_of_budget(), asked every kAskedEvery places, says so.
   ///
   /// A start that keeps too little distance may leave. An obstacle that has it within the clearance
   /// counts without clearance; one that contains it counts by an ellipse of the same shape half as
