@@ -64,6 +64,7 @@ void Turns::pause() {
 
 bool Turns::spend(double work) {
   spent_ += work;
+  work_done_ += work;
   if (!cancelled_ && (spent_ >= limit_.work || left_s() <= 0)) pause();
   return cancelled_;
 }

@@ -37,7 +37,8 @@ class Turns {
   bool under_way() const { return under_way_; }
   /// The work waits for a turn that is longer than the last one was.
   bool wants_more() const { return wants_more_; }
-  double cpu_s() const { return cpu_s_; }  ///< thread time of all turns [s]
+  double cpu_s() const { return cpu_s_; }     ///< thread time of all turns [s]
+  double work() const { return work_done_; }  ///< spent in all turns [its unit]
 
   // --- the work's --------------------------------------------------------------------------
   /// Notes so much work, and waits for the next turn if this one's is used up. True if the work is
@@ -54,7 +55,7 @@ class Turns {
 
   std::function<void()> work_;
   Limit limit_;
-  double spent_ = 0, cpu_s_ = 0;
+  double spent_ = 0, work_done_ = 0, cpu_s_ = 0;
   bool under_way_ = false, cancelled_ = false, ending_ = false, wants_more_ = false;
   std::exception_ptr error_;
   Timer timer_;  ///< of the turn, in the work's thread

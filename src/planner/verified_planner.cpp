@@ -250,7 +250,7 @@ void VerifiedPlanner::ask(Cycle& cycle) {
   if (cycle.rest && cycle.trusts(*cycle.rest)) {
     const Motion& rest = cycle.rest->motion();
     const double a_cycle = leads ? s.improvement_time : std::max(cycle.left(), 1e-3);
-    const double ahead = std::ceil(expected_s_ / a_cycle) - 1;
+    const double ahead = std::ceil(expected_work_ / (Proposals::kPlacesPerSecond * a_cycle)) - 1;
     const double t = cycle.t_start() + std::max(ahead, 0.0) * cycle.tex();
     Motion lead = rest;
     if (t > cycle.t_start() && t < rest.end() - kSameTime) {
@@ -261,7 +261,7 @@ void VerifiedPlanner::ask(Cycle& cycle) {
     if (cycle.rest->proposal.verdict.end == MotionEnd::arrives && !cycle.rest->proposal.solved)
       question.rest = std::move(lead);
   }
-  asked_work_s_ = proposals_.turns().cpu_s();
+  work_before_ = proposals_.turns().work();
   asked_while_leading_ = leads;
   proposals_.ask(std::move(question));
 }
@@ -286,7 +286,7 @@ void VerifiedPlanner::look_further(Cycle& cycle) {
     for (const Proposal& proposal : proposals_.take()) adopt(cycle, proposal);
     if (turns.wants_more()) break;
   }
-  if (!turns.under_way()) expected_s_ = turns.cpu_s() - asked_work_s_;
+  if (!turns.under_way()) expected_work_ = turns.work() - work_before_;
 }
 
 /// A proposal from where the cycle is. One that begins elsewhere is tracked from here, at first

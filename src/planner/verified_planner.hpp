@@ -134,8 +134,8 @@ class VerifiedPlanner final : public PlanningMethod {
   double last_begin_ = 0;             ///< the moment from which it looked for arrival [s]
   double last_improved_ = 0;          ///< when a better plan was looked for [s]
   double wait_ = 0;                   ///< until the next time [s]
-  double asked_work_s_ = 0;           ///< thread time of the turns before what is under way [s]
-  double expected_s_ = 0;             ///< thread time that was looked for the last time [s]
+  double work_before_ = 0;            ///< of the turns before what is under way [places]
+  double expected_work_ = 0;          ///< that the last thing looked for took [places]
   bool asked_while_leading_ = false;  ///< what is under way is to improve on what leads to the goal
 };
 

@@ -27,6 +27,7 @@ TEST(TurnsInThreads, WorkStopsWhereItsTurnEndsAndGoesOnFromThere) {
   EXPECT_FALSE(turns.under_way());
   turns.go_on({});
   EXPECT_EQ(done.size(), 7U) << "what is done is not done again";
+  EXPECT_EQ(turns.work(), 7);
 }
 
 TEST(TurnsInThreads, WhatBeginsAnewTakesThePlaceOfWhatWasUnderWay) {
