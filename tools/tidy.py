@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 """Runs clang-tidy over src/ and apps/ in parallel; any finding fails.
 
-Files that are compiled as one are looked at as one, and without clang's static analyzer and the checks
-that take longest in library headers, which takes much less time; --alone looks at each by itself and with all of them, which also finds a
-using-declaration that only a neighbour in the batch needs; so are FILEs that are named.
+Files that are compiled as one are looked at as one, and without clang's static analyzer and the
+checks that take longest in library headers, which takes much less time; --alone looks at each by
+itself and with all of them, which also finds a using-declaration that only a neighbour in the batch
+needs; so are FILEs that are named. --changed looks at the batches that hold a file which differs from
+the last tag (from the last commit, where there is no tag), or which names a header that differs; at
+all of them where SLALOM_TIDY=all stands in the environment.
 
 What passed is not looked at again until its text, a header of this project it includes, its
 compile command, .clang-tidy or clang-tidy itself changes: the record is in BUILD/tidy.
 
-usage: tidy.py --build BUILD [--jobs N] [--alone] [FILE...]
+usage: tidy.py --build BUILD [--jobs N] [--alone] [--changed] [FILE...]
 """
 
 import argparse
@@ -22,6 +25,8 @@ import shlex
 import subprocess
 import sys
 import time
+
+from quick import changed_files
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDED = re.compile(r'^#include "(.+)"$', re.MULTILINE)
@@ -44,6 +49,21 @@ def batches(build, only, alone):
         found += [([file], entry["directory"], command) for file in files] if alone else (
             [(files, entry["directory"], command)] if files else [])
     return sorted(found, key=lambda job: -sum(file.stat().st_size for file in job[0]))
+
+
+def last_tag():
+    """The newest tag that the commit stands on; `HEAD` where there is none."""
+    found = subprocess.run(["git", "describe", "--tags", "--abbrev=0"], cwd=ROOT, text=True,
+                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    return found.stdout.strip() or "HEAD"
+
+
+def touched(files, changed):
+    """Whether a file is among `changed` (relative to the root), or names one of its headers."""
+    headers = {name for path in changed if path.suffix == ".hpp"
+               for name in (path.name, str(path).removeprefix("include/"))}
+    return any(file.relative_to(ROOT) in changed or
+               headers & set(INCLUDED.findall(file.read_text("utf-8"))) for file in files)
 
 
 def flags(command, files):
@@ -125,6 +145,7 @@ def main():
                         help="build tree with compile_commands.json")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--alone", action="store_true", help="look at each file by itself")
+    parser.add_argument("--changed", action="store_true", help="only what differs from the last tag")
     parser.add_argument("files", nargs="*", help="only these (default: all)")
     options = parser.parse_args()
 
@@ -137,6 +158,9 @@ def main():
     if not jobs:
         print("tidy: no file to look at")
         return 1
+    if options.changed and os.environ.get("SLALOM_TIDY") != "all":
+        changed = set(changed_files(last_tag()))
+        jobs = [job for job in jobs if touched(job[0], changed)]
 
     checks = "" if options.alone or only else (
         "-clang-analyzer-*,-performance-unnecessary-value-param,-bugprone-reserved-identifier")

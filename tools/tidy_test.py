@@ -61,6 +61,15 @@ class Tidy(unittest.TestCase):
         code, printed = self.run_on([right[0], MISTAKE.format(name="wrong")])
         self.assertEqual(code, 1, printed)
 
+    def test_changed_are_batches_with_a_file_or_a_header_that_changed(self):
+        texts = ["int one();\n", MISTAKE.format(name="wrong")]
+        for changed, code in (("src/one/one.cpp", 0), ("src/two/two.cpp", 1),
+                              ("src/two/two_near.hpp", 1), ("docs/two.md", 0)):
+            with unittest.mock.patch.object(tidy, "changed_files",
+                                            lambda _, name=changed: [pathlib.Path(name)]):
+                ended, printed = self.run_on(texts, "--alone", "--changed")
+            self.assertEqual(ended, code, changed + printed)
+
 
 if __name__ == "__main__":
     unittest.main()

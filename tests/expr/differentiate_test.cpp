@@ -5,10 +5,12 @@
 #include "expr/op_cases.hpp"
 #include "expr/reference.hpp"
 #include "slalom/expr/function.hpp"
+#include "support/sanitized.hpp"
 
 namespace slalom::expr {
 namespace {
 
+constexpr int points = kSanitized ? 20 : 100;
 constexpr double kInf = std::numeric_limits<double>::infinity();
 using reference::full_hessian;
 using reference::full_jacobian;
@@ -27,7 +29,7 @@ TEST(Differentiate, EveryOperationAlone) {
   std::mt19937_64 random(4);
   for (const auto& c : op_cases()) {
     const auto symbols = c.symbols();
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < points; ++i) {
       double first = 0;
       const double both =
           reference::derivative_error({c.build(symbols)}, symbols, c.point(random), {1.3}, &first);
@@ -48,7 +50,7 @@ TEST(Differentiate, EveryOperationInsideOthers) {
       inner[i] = (lo + hi) / 2 + (hi - lo) / 2 * sin(symbols[i] * symbols[symbols.size() - 1 - i]);
     }
     const Expr v = c.build(inner);
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < points; ++i) {
       double first = 0;
       const double both = reference::derivative_error({sin(0.1 * v) + v * inner[0]}, symbols,
                                                       c.point(random), {0.7}, &first);
@@ -67,7 +69,7 @@ TEST(Differentiate, RepeatedArguments) {
       select(y, s, x), pow(s, s * y), x * (y * x)};
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> coordinate(0.3, 3);
-  for (int i = 0; i < 100; ++i)
+  for (int i = 0; i < points; ++i)
     for (const auto& output : outputs) {
       double first = 0;
       const double both = reference::derivative_error(

@@ -1,6 +1,8 @@
 #include "support/allocation_count.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#include "support/sanitized.hpp"
+
+#ifdef SLALOM_SANITIZED
 
 namespace slalom {
 bool AllocationCount::available() {
