@@ -6,12 +6,14 @@ to the goal and processor times to docs/measured/verified-planner.md. Standard l
 """
 
 import itertools
+import math
+import re
 import statistics
 from typing import NamedTuple
 
-from measured import command_of, page_parser, stamp, write
+from measured import ROOT, command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios, of_family, sweep
-from sweeps import head, interval, mcnemar, row, setting, swept
+from sweeps import driven, head, interval, mcnemar, row, setting, swept
 
 PLANNERS = ("P_D", "P_E")
 # As it would be on a vehicle: a cycle ends within its horizon, and what planning takes is charged.
@@ -31,6 +33,14 @@ class Set(NamedTuple):
 SETS = (Set(FAMILIES, 125, 1, 0.5), Set(FAMILIES, 125, 2, 0.8), Set(FAMILIES, 40, 2718, 0.65),
         Set(TIMED_FAMILIES, 100, 3, 0.6))
 
+# Without a clock: the search, the ways and the looks for a better plan have so much more room that what is found is
+# the best that this planner knows, driven by the true plant; the horizon is short, so that it may change its mind.
+OFFLINE = {"loop.deadline": "off", "loop.latency": "paper", "loop.solve_time_limit": 600, "loop.tex": 0.1,
+           "planner.search_places": 3_000_000, "planner.ways": 20, "planner.improvement_places": 1_000_000,
+           "planner.improvement_time": 100, "planner.hysteresis": 0.001}
+RANGES = (90, 150, 200)  # [m]; the paper's range in E_C is the first
+RANGE_TEXES, RANGE_POINTS = (0.1, 0.48), 7
+
 HEAD = """# The planner that verifies
 
 {stamp}
@@ -46,6 +56,30 @@ axes:
   - key: loop.tex
     range: {{from: 0.01, to: 1, count: {points}}}
   - key: obstacles.O2.vy
+    range: {{from: 0, to: {fastest}, count: {points}}}
+set: {settings}
+"""
+# Speeds of O2 up to which the grids go [m/s].
+GRIDS = {-40: "O2 coming at up to 40 m/s", -20: "O2 coming at up to 20 m/s, as the paper's text says"}
+
+BY_SPEED = """title: {title}
+scenario: E_C
+planners: [P_E]
+axes:
+  - key: obstacles.O2.vy
+    range: {{from: 0, to: -40, count: {points}}}
+set: {settings}
+"""
+
+BY_RANGE = """title: P_E that sees so far
+scenario: E_C
+planners: [P_E]
+axes:
+  - key: planner.L_range
+    values: {ranges}
+  - key: loop.tex
+    values: {texes}
+  - key: obstacles.O2.vy
     range: {{from: 0, to: -40, count: {points}}}
 set: {settings}
 """
@@ -59,12 +93,30 @@ def settings_of(planner):
     return REAL_TIME if planner == "P_E" else {}
 
 
-def paper_sweep(options, name, planner, settings):
-    """Runs or completes the paper's sweep; its trials by horizon and speed of O2."""
+def studied(options, name, text):
+    """Runs or completes a study; its trials."""
     study = options.work / f"{name}.yaml"
-    study.write_text(SWEEP.format(planner=planner, points=options.points, settings=setting(settings)))
+    study.write_text(text)
+    return swept(options.program, study, options.work / name)
+
+
+def paper_sweep(options, planner, fastest):
+    """Runs or completes the paper's sweep; its trials by horizon and speed of O2."""
+    text = SWEEP.format(planner=planner, points=options.points, fastest=fastest, settings=setting(settings_of(planner)))
     return {(t["loop.tex"], t["obstacles.O2.vy"]): t
-            for t in swept(options.program, study, options.work / name)}
+            for t in studied(options, f"sweep{fastest}-{planner}", text)}
+
+
+def offline_times(options):
+    """The time to the goal of the best drive found without a clock, by speed of O2, and the drive of an empty road."""
+    text = BY_SPEED.format(title="the best drive found offline", points=options.points, settings=setting(OFFLINE))
+    times = {t["obstacles.O2.vy"]: float(t["goal_time_s"]) if arrives(t) else math.inf
+             for t in studied(options, "offline", text)}
+    scenario = (ROOT / "config/scenarios/E_C.yaml").read_text()
+    road = options.work / "empty-road.yaml"
+    road.write_text(re.sub(r"(?m)^obstacles:\n(  .*\n)+", "", scenario).replace("name: E_C", "name: empty-road"))
+    empty, _ = driven(options.program, road, "P_E", OFFLINE)
+    return times, empty["goal_time_s"]
 
 
 def random_sweep(options, name, folder, planner, settings):
@@ -77,10 +129,16 @@ def arrives(trial):
     return trial["outcome"] == "goal"
 
 
+def ladder(every):
+    """How many cycles drove a new plan, the rest of the last and the least bad."""
+    counts = [sum(int(t[rung]) for t in every) for rung in ("new_plans", "rests", "least_bads")]
+    return ", ".join(map(str, counts)) if any(counts) else "–"
+
+
 def totals(trials):
     """A row a planner; `trials`: by key, for each planner."""
     text = head(["", "drives", "arrive", "95 %", "crash", "other ends", "cycles", "unverified or unsolved",
-                 "least distance beyond the margin [m]", "least wheel load [N]"])
+                 "of the ladder: new, rest, least bad", "least distance beyond the margin [m]", "least wheel load [N]"])
     for planner, of_key in trials.items():
         every = list(of_key.values())
         good = sum(map(arrives, every))
@@ -88,7 +146,7 @@ def totals(trials):
         there = [t for t in every if arrives(t)]
         text += row([planner, len(every), good, "{:.3f}–{:.3f}".format(*interval(good, len(every))), crashes,
                      len(every) - good - crashes, sum(int(t["cycles"]) for t in every),
-                     sum(int(t["failed_cycles"]) for t in every),
+                     sum(int(t["failed_cycles"]) for t in every), ladder(every),
                      number(min(float(t["least_clearance_m"] or "inf") for t in there), 3) if there else "–",
                      number(min(float(t["least_wheel_load_N"]) for t in there), 0) if there else "–"])
     return text
@@ -110,14 +168,63 @@ def compared(trials):
 
 def real_time(trials):
     """Processor time of P_E's cycles beside the horizon, by horizon."""
-    text = head(["tex [s]", "drives", "arrive", "median of a cycle [ms]", "longest [ms]", "longest over tex"])
+    text = head(["tex [s]", "drives", "arrive", "median of a cycle [ms]", "99 % of a drive's cycles, greatest [ms]",
+                 "longest [ms]", "longest over tex", "longest on the clock over tex"])
     for tex, group in itertools.groupby(trials.items(), key=lambda item: item[0][0]):
         own = [t for _, t in group]
         longest = max(float(t["max_cpu_time_s"]) for t in own)
         text += row([f"{float(tex):.4g}", len(own), sum(map(arrives, own)),
                      number(1e3 * statistics.median(float(t["median_cpu_time_s"]) for t in own), 2),
-                     number(1e3 * longest, 1), number(longest / float(tex), 2)])
+                     number(1e3 * max(float(t["p99_cpu_time_s"]) for t in own), 1),
+                     number(1e3 * longest, 1), number(longest / float(tex), 2),
+                     number(max(float(t["max_solve_time_s"]) for t in own) / float(tex), 2)])
     return text
+
+
+def beside_offline(options, trials):
+    """Times to the goal beside those of an offline search, for drives that P_D does and does not end at the goal."""
+    best, empty = offline_times(options)
+    text = ("### Beside an offline search\n\nThe same planner without a clock, with twenty times the places and three times "
+            f"the ways (`{setting(OFFLINE)}`), drives the best way it finds on the true plant, at each speed of O2: an upper "
+            "bound on the least time. The same without any obstacle bounds it from below, as far as its OCP finds the "
+            f"optimum: {empty:.2f} s.\n\n")
+    text += head(["", "drives", "over the offline drive: least", "median", "greatest",
+                  "over the empty road: median", "greatest"])
+    for title, good in (("P_D arrives too", True), ("P_D does not", False)):
+        own = [(float(t["goal_time_s"]), best[key[1]]) for key, t in trials["P_E"].items()
+               if arrives(t) and arrives(trials["P_D"][key]) == good]
+        if not own:
+            continue
+        beside = sorted(time / bound for time, bound in own)
+        alone = sorted(time / empty for time, _ in own)
+        text += row([title, len(own), number(beside[0], 3), number(statistics.median(beside), 3), number(beside[-1], 3),
+                     number(statistics.median(alone), 3), number(alone[-1], 3)])
+    return text
+
+
+def by_range(options):
+    """P_E told of what lies within a range alone."""
+    settings = REAL_TIME | {"planner.known": "range"}
+    text = ("\n## By range\n\nP_E in E_C by `known: range`: it learns of an obstacle when that is as near as `L_range`, and "
+            "takes it that anything may stand beyond (`unseen: standing`) or nothing does (`nothing`). Of each range "
+            f"{len(RANGE_TEXES)} horizons and {RANGE_POINTS} speeds of O2.\n\n"
+            + head(["unseen", "range [m]", "drives", "arrive", "crash", "other ends", "unverified cycles",
+                    "median time to the goal [s]"]))
+    lost = ""
+    for unseen in ("standing", "nothing"):
+        study = BY_RANGE.format(ranges=list(RANGES), texes=list(RANGE_TEXES), points=RANGE_POINTS,
+                                settings=setting(settings | {"planner.unseen": unseen}))
+        trials = studied(options, f"range-{unseen}", study)
+        for far in RANGES:
+            own = [t for t in trials if float(t["planner.L_range"]) == far]
+            there = [t for t in own if arrives(t)]
+            crashes = sum(t["outcome"] == "crash" for t in own)
+            text += row([unseen, far, len(own), len(there), crashes, len(own) - len(there) - crashes,
+                         sum(int(t["failed_cycles"]) for t in own),
+                         number(statistics.median(float(t["goal_time_s"]) for t in there), 1) if there else "–"])
+            lost += "".join(f"- {unseen}, {far} m, tex {t['loop.tex']}, vy {float(t['obstacles.O2.vy']):.4g}: {t['message']}\n"
+                            for t in own if not arrives(t))
+    return text + ("\nThese do not arrive:\n\n" + lost if lost else "\nAll arrive.\n")
 
 
 def by_family(trials, families):
@@ -144,10 +251,15 @@ def main():
     parser.add_argument("--points", type=int, default=20, help="on each axis of the sweep")
     options = parser.parse_args()
     options.work.mkdir(parents=True, exist_ok=True)
-    trials = {p: paper_sweep(options, f"sweep-{p}", p, settings_of(p)) for p in PLANNERS}
     text = HEAD.format(stamp=stamp(command_of(parser, options, "verified-planner", "most", "points"), options.program))
-    text += ("## The paper's sweep\n\nE_C, execution horizons of .01 to 1 s, O2 coming at up to 40 m/s.\n\n"
-             + totals(trials) + "\n" + compared(trials) + "\n" + others(trials) + "\n" + real_time(trials["P_E"]))
+    text += "## The paper's sweep\n\nE_C, execution horizons of .01 to 1 s.\n"
+    for fastest, title in GRIDS.items():
+        trials = {p: paper_sweep(options, p, fastest) for p in PLANNERS}
+        text += (f"\n### {title[0].upper()}{title[1:]}\n\n" + totals(trials) + "\n" + compared(trials) + "\n"
+                 + others(trials) + "\n" + real_time(trials["P_E"]))
+        if fastest == min(GRIDS):
+            text += "\n" + beside_offline(options, trials)
+    text += by_range(options)
     for families, count, seed, difficulty in SETS:
         folder = options.work / f"scenarios-{seed}"
         make_scenarios(options.program, folder, families, min(count, options.most), seed, difficulty)

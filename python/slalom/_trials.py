@@ -10,7 +10,7 @@ from typing import Any
 from ._core import trials_csv
 
 TEXT = {"scenario", "planner", "outcome", "hit", "least_clearance_obstacle", "identity", "message"}
-COUNTS = {"trial", "repeat", "cycles", "failed_cycles", "iterations"}
+COUNTS = {"trial", "repeat", "cycles", "failed_cycles", "iterations", "new_plans", "rests", "least_bads"}
 
 
 def _arrow(caller: str) -> Any:

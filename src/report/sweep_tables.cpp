@@ -94,22 +94,31 @@ std::string failed_cycle_table(const SweepTable& sweep) {
   std::string rows;
   for (const auto& planner : sweep.planners) {
     std::int64_t cycles = 0, failed = 0, trials = 0, trials_failed = 0;
+    std::int64_t fresh = 0, rests = 0, least_bads = 0;
     for (const auto& r : sweep.trials) {
       if (r.planner != planner) continue;
       cycles += r.cycles;
       failed += r.failed_cycles;
+      fresh += r.new_plans;
+      rests += r.rests;
+      least_bads += r.least_bads;
       ++trials;
       trials_failed += r.failed_cycles > 0;
     }
     if (trials == 0) continue;
     rows += row_head(planner) + cell(fmt::format("{} of {}", failed, cycles)) +
-            cell(fmt::format("{} of {}", trials_failed, trials)) + "</tr>\n";
+            cell(fmt::format("{} of {}", trials_failed, trials));
+    for (const auto count : {fresh, rests, least_bads})
+      rows += cell(fresh + rests + least_bads == 0 ? "" : fmt::format("{}", count));
+    rows += "</tr>\n";
   }
   if (rows.empty()) return "";
   return "<h3>Cycles that failed</h3>\n<p class=\"remark\">Those without a solved plan; of a "
          "planner "
-         "that verifies its plans, those without a verified one.</p>\n" +
-         table(head_cells({"planner", "cycles that failed", "trials with one"}), rows);
+         "that verifies its plans, those without a verified one, and beside them what was driven.</p>\n" +
+         table(head_cells({"planner", "cycles that failed", "trials with one", "a new plan",
+                           "the rest of the last", "the least bad"}),
+               rows);
 }
 
 std::string longest_horizon_table(const SweepTable& sweep) {

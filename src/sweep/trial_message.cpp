@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "slalom/sim/solve_times.hpp"
+#include "slalom/sim/verification.hpp"
 
 namespace slalom::sweep {
 namespace {
@@ -25,9 +26,13 @@ void for_each_figure(TrialRecord& r, const F& f) {
   f("cycles", r.cycles);
   f("failed_cycles", r.failed_cycles);
   f("iterations", r.iterations);
+  f("new_plans", r.new_plans);
+  f("rests", r.rests);
+  f("least_bads", r.least_bads);
   f("max_solve_time", r.max_solve_time);
   f("median_solve_time", r.median_solve_time);
   f("max_cpu_time", r.max_cpu_time);
+  f("p99_cpu_time", r.p99_cpu_time);
   f("median_cpu_time", r.median_cpu_time);
 }
 
@@ -99,10 +104,16 @@ TrialRecord record_of(const sim::Drive& drive) {
     r.iterations += cycle.plan.report.iterations;
   }
   r.failed_cycles = sim::unsolved(drive).cycles;
+  if (const auto verification = sim::verification(drive)) {
+    r.new_plans = verification->of(planner::Rung::new_plan);
+    r.rests = verification->of(planner::Rung::rest);
+    r.least_bads = verification->of(planner::Rung::least_bad);
+  }
   const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
   r.max_solve_time = sim::greatest(wall);
   r.median_solve_time = sim::median(wall);
   r.max_cpu_time = sim::greatest(cpu);
+  r.p99_cpu_time = sim::percentile(cpu, 99);
   r.median_cpu_time = sim::median(cpu);
   return r;
 }

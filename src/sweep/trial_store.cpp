@@ -15,7 +15,7 @@ namespace {
 using report::SweepTable;
 using report::TrialRecord;
 
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;
 
 constexpr const char* kSchema =
     "CREATE TABLE IF NOT EXISTS study (format INTEGER, name TEXT, title TEXT, scenarios TEXT,"
@@ -26,7 +26,8 @@ constexpr const char* kSchema =
     " time_s REAL, goal_time_s REAL, least_clearance_m REAL, least_wheel_load_N REAL, cycles "
     "INTEGER,"
     " failed_cycles INTEGER, iterations INTEGER, max_solve_time_s REAL, median_solve_time_s REAL,"
-    " max_cpu_time_s REAL, median_cpu_time_s REAL)";
+    " max_cpu_time_s REAL, median_cpu_time_s REAL, p99_cpu_time_s REAL, new_plans INTEGER,"
+    " rests INTEGER, least_bads INTEGER)";
 
 std::string as_json(const std::vector<std::string>& list) {
   return nlohmann::json(list).dump();
@@ -84,6 +85,10 @@ TrialRecord read_trial(const Statement& row) {
   r.median_solve_time = row.real(18);
   r.max_cpu_time = row.real(19);
   r.median_cpu_time = row.real(20);
+  r.p99_cpu_time = row.real(21);
+  r.new_plans = static_cast<int>(row.integer(22));
+  r.rests = static_cast<int>(row.integer(23));
+  r.least_bads = static_cast<int>(row.integer(24));
   return r;
 }
 
@@ -134,7 +139,7 @@ TrialStore::TrialStore(const fs::path& file, const SweepTable& study)
   insert_ = std::make_unique<Statement>(
       database_,
       "INSERT OR IGNORE INTO trials VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-      "?, ?, ?)");
+      "?, ?, ?, ?, ?, ?, ?)");
 }
 
 void TrialStore::add(const TrialRecord& r) {
@@ -159,6 +164,10 @@ void TrialStore::add(const TrialRecord& r) {
       .bind(19, r.median_solve_time)
       .bind(20, r.max_cpu_time)
       .bind(21, r.median_cpu_time)
+      .bind(22, r.p99_cpu_time)
+      .bind(23, std::int64_t{r.new_plans})
+      .bind(24, std::int64_t{r.rests})
+      .bind(25, std::int64_t{r.least_bads})
       .run();
 }
 

@@ -25,9 +25,10 @@ std::string trials_csv_row(const report::SweepTable& study, const report::TrialR
                       number_cell(r.least_clearance));
   text += fmt::format(",{},{},{},{},{}", io::csv_cell(r.least_clearance_obstacle),
                       number_cell(r.least_wheel_load), r.cycles, r.failed_cycles, r.iterations);
-  text += fmt::format(",{},{},{},{},{}\n", number_cell(r.median_solve_time),
-                      number_cell(r.max_cpu_time), number_cell(r.median_cpu_time), r.identity,
-                      io::csv_cell(r.message));
+  text += fmt::format(",{},{},{}", r.new_plans, r.rests, r.least_bads);
+  text += fmt::format(",{},{},{},{},{},{}\n", number_cell(r.median_solve_time),
+                      number_cell(r.max_cpu_time), number_cell(r.p99_cpu_time),
+                      number_cell(r.median_cpu_time), r.identity, io::csv_cell(r.message));
   return text;
 }
 
@@ -37,8 +38,8 @@ std::string trials_csv_head(const report::SweepTable& study) {
   if (study.repeats > 1) text += ",repeat";
   text +=
       ",outcome,time_s,max_solve_time_s,hit,goal_time_s,least_clearance_m,least_clearance_obstacle,"
-      "least_wheel_load_N,cycles,failed_cycles,iterations,median_solve_time_s,max_cpu_time_s,"
-      "median_cpu_time_s,identity,message\n";
+      "least_wheel_load_N,cycles,failed_cycles,iterations,new_plans,rests,least_bads,"
+      "median_solve_time_s,max_cpu_time_s,p99_cpu_time_s,median_cpu_time_s,identity,message\n";
   return text;
 }
 

@@ -20,6 +20,14 @@ TEST(SolveTimes, TheWarmUpIsLeftOut) {
   EXPECT_EQ(solve_times(drive, true), (std::vector<double>{19, 18}));
 }
 
+TEST(SolveTimes, PercentilesAreByNearestRank) {
+  EXPECT_EQ(percentile({5, 7, 3, 1}, 50), 3);
+  EXPECT_EQ(percentile({5, 7, 3, 1}, 51), 5);
+  EXPECT_EQ(percentile({5, 7, 3, 1}, 0), 1);
+  EXPECT_EQ(percentile({5, 7, 3, 1}, 100), 7);
+  EXPECT_TRUE(std::isnan(percentile({}, 99)));
+}
+
 TEST(SolveTimes, MedianAndGreatestOfUnsortedValues) {
   EXPECT_EQ(median({5, 1, 3}), 3);
   EXPECT_EQ(median({5, 1, 3, 2}), 2.5);

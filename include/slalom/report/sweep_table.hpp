@@ -22,9 +22,11 @@ struct TrialRecord {
   double goal_time = kNone;  ///< the goal's square first entered [s]
   double least_clearance = kNone, least_wheel_load = kNone;  ///< [m], [N]
   int cycles = 0, failed_cycles = 0, iterations = 0;         ///< the warm-up left out
+  /// Of the cycles, by rung of the ladder (planner::Rung); 0 for a planner that does not verify.
+  int new_plans = 0, rests = 0, least_bads = 0;
   /// Measured: solve times over all cycles on the clock, failing ones included [s].
   double max_solve_time = kNone, median_solve_time = kNone;
-  double max_cpu_time = kNone, median_cpu_time = kNone;
+  double max_cpu_time = kNone, p99_cpu_time = kNone, median_cpu_time = kNone;
 
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 

@@ -18,6 +18,8 @@ Unsolved unsolved(const Drive& drive);
 
 /// The mean of the middle two for an even number; NaN for none.
 double median(std::vector<double> values);
+/// The least value that so many per cent of them do not exceed (nearest rank); NaN for none.
+double percentile(std::vector<double> values, double per_cent);
 /// NaN for no values.
 double greatest(const std::vector<double>& values);
 
