@@ -13,6 +13,7 @@ import random
 import re
 import shutil
 import statistics
+from typing import NamedTuple
 
 from measured import command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios, of_family
@@ -23,6 +24,7 @@ from verified_planner import REAL_TIME, arrives, number
 LEVELS = {"small": 0.1, "medium": 0.5, "large": 1.0}  # shares of the ranges
 SEED, DIFFICULTY = 5, 0.6
 ALL_FAMILIES = FAMILIES + TIMED_FAMILIES
+CRASH_MARGIN = 2  # [m]: sm_crash
 MOST_LISTED = 20  # crashes of a level on the page
 CHUNK = 200  # drives between which folders are thinned: each drive leaves more than a megabyte
 
@@ -40,7 +42,10 @@ Noise has a seed of its own in each scenario.
 VERIFIED = """
 *Verified*: the plan that was driven at the crash had a certificate, which holds only for a vehicle and obstacles that are
 as believed ([verified-planner.md](../verified-planner.md)); so says the last plan in the drive's `cycles.csv` that had
-taken effect by then.
+taken effect by then. By its certificate the vehicle planned for keeps a distance (*kept*) beyond the crash edge of the
+obstacles believed in. A crash needs errors beyond that: of the vehicle's place (*off plan*), of the obstacle's, or of
+both together, by the triangle's inequality. In how many the vehicle alone was farther off than what was kept stands in
+the table; in the others the obstacle was elsewhere by at least the rest.
 
 """
 
@@ -114,13 +119,12 @@ def thin(folder, crashed):
     for path in folder.iterdir():
         if path.is_dir():
             shutil.rmtree(path)
-        elif path.name != "cycles.csv":
+        elif path.name not in ("cycles.csv", "plans.csv"):
             path.unlink()
 
 
 def drive_level(options, level, plain):
-    """Runs or completes the drives of a level; its trials by scenario, and by scenario whether the plan driven at a
-    crash was verified."""
+    """Runs or completes the drives of a level; its trials by scenario, and by scenario what is known of a crash."""
     study, out, trials = write_files(options, level, plain), options.work / level, []
     while len(trials) < len(plain):
         trials = swept(options.program, study, out, "--limit", str(CHUNK))
@@ -129,15 +133,45 @@ def drive_level(options, level, plain):
     verified = {}
     for trial in trials:
         if trial["outcome"] == "crash":
-            with open(drive_folder(out, trial) / "cycles.csv", newline="") as file:
-                verified[trial["scenario"]] = was_verified(csv.DictReader(file), float(trial["time_s"]))
+            rows = [rows_of(drive_folder(out, trial) / name) for name in ("cycles.csv", "plans.csv")]
+            verified[trial["scenario"]] = crash_of(*rows, trial)
     return {t["scenario"]: t for t in trials}, verified
 
 
-def was_verified(cycles, at):
-    """Whether the plan driven at a time was verified; `cycles`: the rows of cycles.csv."""
+def rows_of(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Crash(NamedTuple):
+    """What is known of a crash."""
+
+    verified: bool  # the plan that was driven
+    kept: float  # what its certificate keeps beyond the crash edge [m]; nan without one
+    off_plan: float  # how far the vehicle was from where that plan has it [m]; nan without one
+
+    def explained(self):
+        """By the vehicle alone: it was farther off than what was kept. Else an obstacle was, for the rest."""
+        return self.off_plan >= self.kept
+
+
+def crash_of(cycles, plans, trial):
+    """`cycles`, `plans`: the rows of cycles.csv and plans.csv."""
+    at = float(trial["time_s"])
     taken = [c for c in cycles if c["used"] == "1" and float(c["t_swap"]) <= at]
-    return bool(taken) and taken[-1]["verified"] == "1"
+    if not taken or taken[-1]["verified"] != "1":
+        return Crash(False, math.nan, math.nan)
+    cycle = taken[-1]
+    there = re.search(r" at \(([-\d.e+]+), ([-\d.e+]+)\)", trial["message"])
+    nodes = [p for p in plans if p["cycle"] == cycle["cycle"]]
+    near = min(range(len(nodes)), key=lambda k: abs(float(nodes[k]["t"]) - at))
+    before, after = nodes[max(near - 1, 0)], nodes[near]
+    if float(after["t"]) < at:
+        before, after = after, nodes[min(near + 1, len(nodes) - 1)]
+    length = float(after["t"]) - float(before["t"])
+    share = min(max((at - float(before["t"])) / length, 0), 1) if length > 0 else 0
+    planned = [float(before[k]) + share * (float(after[k]) - float(before[k])) for k in ("x", "y")]
+    return Crash(True, float(cycle["verified_clearance"]) - CRASH_MARGIN, math.dist(planned, map(float, there.groups())))
 
 
 # --- the page -----------------------------------------------------------------------------------
@@ -153,14 +187,15 @@ def ranges_table():
 
 
 def levels_table(trials, verified):
-    text = head(["level", "drives", "arrive", "95 %", "crash", "of these verified", "other ends",
+    text = head(["level", "drives", "arrive", "95 %", "crash", "of these verified", "of these off plan by more than kept", "other ends",
                  "least distance beyond the 2 m of those that arrive [m]"])
     for level, of_scenario in trials.items():
         every = list(of_scenario.values())
         there = [t for t in every if arrives(t)]
         least = min((float(t["least_clearance_m"] or "inf") for t in there), default=None)
         text += row([level, len(every), len(there), "{:.4f}–{:.4f}".format(*interval(len(there), len(every))),
-                     len(verified[level]), sum(verified[level].values()),
+                     len(verified[level]), sum(c.verified for c in verified[level].values()),
+                     sum(c.verified and c.explained() for c in verified[level].values()),
                      len(every) - len(there) - len(verified[level]), "–" if least is None else number(least, 3)])
     return text
 
@@ -187,6 +222,10 @@ def shares_table(trials):
     return text
 
 
+def metres(crash):
+    return [number(value, 2) if crash.verified else "–" for value in (crash.kept, crash.off_plan)]
+
+
 def listed(trials, verified):
     """The crashes of each level, those of verified plans first; the whole list is the table of crashes()."""
     text = ""
@@ -195,11 +234,12 @@ def listed(trials, verified):
         if not of_scenario:
             text += "None.\n"
             continue
-        first = sorted(of_scenario, key=lambda s: (not of_scenario[s], s))
-        text += head(["scenario", "verified", "how it ended", "errors"])
+        first = sorted(of_scenario, key=lambda s: (not of_scenario[s].verified, s))
+        text += head(["scenario", "verified", "kept [m]", "off plan [m]", "how it ended", "errors"])
         for scenario in first[:MOST_LISTED]:
             values = errors(drawn(scenario)[0], level)
-            text += row([scenario, "yes" if of_scenario[scenario] else "no", trials[level][scenario]["message"],
+            crash = of_scenario[scenario]
+            text += row([scenario, "yes" if crash.verified else "no", *metres(crash), trials[level][scenario]["message"],
                          ", ".join(f"{key.split('.')[1]} {value:.3g}" for key, value in values.items())])
         if len(first) > MOST_LISTED:
             text += f"\nAnd {len(first) - MOST_LISTED} more.\n"
@@ -210,10 +250,11 @@ def crashes(trials, verified):
     """A row a crash: level, scenario, whether its plan was verified, how it ended, and the errors."""
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["level", "scenario", "verified", "message", *(q.key for q in QUANTITIES)])
+    writer.writerow(["level", "scenario", "verified", "kept_m", "off_plan_m", "message", *(q.key for q in QUANTITIES)])
     for level, of_scenario in verified.items():
-        for scenario, was in of_scenario.items():
-            writer.writerow([level, scenario, int(was), trials[level][scenario]["message"],
+        for scenario, crash in of_scenario.items():
+            numbers = [f"{value:.3f}" if crash.verified else "" for value in (crash.kept, crash.off_plan)]
+            writer.writerow([level, scenario, int(crash.verified), *numbers, trials[level][scenario]["message"],
                              *errors(drawn(scenario)[0], level).values()])
     return file.getvalue()
 

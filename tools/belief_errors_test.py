@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What the page on errors of belief draws, and how it counts, on drives made up for it."""
 
+import math
 import pathlib
 import sys
 import tempfile
@@ -8,7 +9,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import belief_errors  # noqa: E402
-from belief_errors import LEVELS, crashes, drawn, errors, page, thin, was_verified, with_errors  # noqa: E402
+from belief_errors import LEVELS, Crash, crash_of, crashes, drawn, errors, page, thin, with_errors  # noqa: E402
 from sensitivity import QUANTITIES  # noqa: E402
 
 FILE = ("plant:\n" + "".join(f"  {q.key.split('.')[1]}: {q.neutral}\n" for q in QUANTITIES if "plant" in q.key)
@@ -20,8 +21,11 @@ def trial(outcome):
     return {"outcome": outcome, "message": "ended 3.5", "least_clearance_m": "0.31"}
 
 
-def cycle(t_swap, verified, used="1"):
-    return {"t_swap": t_swap, "verified": verified, "used": used}
+def cycle(t_swap, verified, used="1", number="1"):
+    return {"cycle": number, "t_swap": t_swap, "verified": verified, "used": used, "verified_clearance": "2.3"}
+
+
+NOT_VERIFIED = Crash(False, math.nan, math.nan)
 
 
 class Draws(unittest.TestCase):
@@ -53,19 +57,29 @@ class Draws(unittest.TestCase):
 class Crashes(unittest.TestCase):
     def test_the_plan_driven_is_the_last_that_took_effect(self):
         cycles = [cycle("1", "1"), cycle("2", "0"), cycle("3.4", "1", used="0"), cycle("3.6", "1")]
-        self.assertFalse(was_verified(cycles, 3.5))
-        self.assertTrue(was_verified(cycles, 1.5))
-        self.assertTrue(was_verified(cycles, 3.6))
-        self.assertFalse(was_verified(cycles, 0.5))
+        plans = [{"cycle": "1", "t": t, "x": x, "y": "0"} for t, x in (("1", "10"), ("2", "20"), ("4", "30"))]
+        for at, verified in ((3.5, False), (1.5, True), (3.6, True), (0.5, False)):
+            hit = {"time_s": str(at), "message": "hit O2 at 3.5 s at (25, -0.3), 17 m/s"}
+            self.assertEqual(crash_of(cycles, plans, hit).verified, verified, at)
+
+    def test_a_crash_is_measured_by_what_was_kept_and_how_far_the_plan_is(self):
+        plans = [{"cycle": n, "t": t, "x": x, "y": "0"} for n, t, x in
+                 (("1", "3", "0"), ("2", "1", "10"), ("2", "2", "20"), ("2", "4", "30"))]
+        hit = {"time_s": "3", "message": "hit O2 at 3 s at (25, -0.3), 17 m/s"}
+        crash = crash_of([cycle("1", "1", number="2")], plans, hit)
+        self.assertAlmostEqual(crash.kept, 0.3)
+        self.assertAlmostEqual(crash.off_plan, 0.3)
+        for wide, explained in ((0.31, True), (0.29, False)):
+            self.assertEqual(Crash(True, 0.3, wide).explained(), explained)
 
     def test_of_a_drive_stays_what_is_needed(self):
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch) / "000001"
             (folder / "figures").mkdir(parents=True)
-            for name in ("cycles.csv", "report.html", "figures/map.svg"):
+            for name in ("cycles.csv", "plans.csv", "report.html", "figures/map.svg"):
                 (folder / name).write_text("text\n")
             thin(folder, crashed=True)
-            self.assertEqual([f.name for f in folder.iterdir()], ["cycles.csv"])
+            self.assertEqual(sorted(f.name for f in folder.iterdir()), ["cycles.csv", "plans.csv"])
             thin(folder, crashed=True)
             thin(folder, crashed=False)
             self.assertFalse(folder.exists())
@@ -76,23 +90,24 @@ class Page(unittest.TestCase):
     def setUp(self):
         few = {"gates-0001": trial("goal"), "gates-0002": trial("crash"), "crossing_at_rest-0001": trial("timeout")}
         self.trials = {level: dict(few) for level in LEVELS}
-        self.verified = {"small": {"gates-0002": True}, "medium": {"gates-0002": False}, "large": {"gates-0002": False}}
+        self.verified = {"small": {"gates-0002": Crash(True, 0.2, 0.5)}, "medium": {"gates-0002": NOT_VERIFIED},
+                         "large": {"gates-0002": NOT_VERIFIED}}
 
     def test_it_counts_by_level_and_family(self):
         text = page(self.trials, self.verified, "A stamp.\n")
-        self.assertIn("| small | 3 | 1 | 0.0084–0.9057 | 1 | 1 | 1 | 0.310 |", text)
-        self.assertIn("| large | 3 | 1 | 0.0084–0.9057 | 1 | 0 | 1 | 0.310 |", text)
+        self.assertIn("| small | 3 | 1 | 0.0084–0.9057 | 1 | 1 | 1 | 1 | 0.310 |", text)
+        self.assertIn("| large | 3 | 1 | 0.0084–0.9057 | 1 | 0 | 0 | 1 | 0.310 |", text)
         self.assertIn("| gates | 1/2 | 1/2 | 1/2 | 1 | 1 | 1 |", text)
         self.assertIn("| crossing | 0/0 | 0/0 | 0/0 | 0 | 0 | 0 |", text)
-        self.assertIn("| gates-0002 | no | ended 3.5 | mass_factor ", text)
+        self.assertIn("| gates-0002 | no | – | – | ended 3.5 | mass_factor ", text)
 
     def test_no_more_than_some_are_listed_but_all_are_in_the_table(self):
         many = {f"gates-{k:04}": trial("crash") for k in range(belief_errors.MOST_LISTED + 3)}
-        words = {s: s == "gates-0022" for s in many}
+        words = {s: Crash(True, 0.2, 0.1) if s == "gates-0022" else NOT_VERIFIED for s in many}
         trials, verified = {"large": many}, {"large": words}
         text = belief_errors.listed(trials, verified)
         self.assertEqual(text.count("| gates-"), belief_errors.MOST_LISTED)
-        self.assertIn("| gates-0022 | yes |", text)
+        self.assertIn("| gates-0022 | yes | 0.20 | 0.10 |", text)
         self.assertIn("And 3 more.", text)
         self.assertEqual(len(crashes(trials, verified).splitlines()), 1 + len(many))
 

@@ -60,6 +60,9 @@
       ${fact('Horizon tf', `${number(plan.tf, 2)} s`)}
       ${fact('Solve time', `${number(cycle.wall, 3)} s <small>CPU ${number(cycle.cpu, 3)} s</small>`)}
       ${fact('Solver', `${cycle.rung ? '' : escape(cycle.status) + ', '}${cycle.iterations} iterations`)}
+      ${cycle.start_slack[0] > 0.005 || cycle.start_slack[1] > 0.05 ? fact('Begins', `${number(cycle.start_slack[0], 2)} m and ${number(cycle.start_slack[1], 1)}° beside the vehicle`) : ''}
+      ${cycle.blocks ? fact('What blocks', escape(cycle.blocks)) : ''}
+      ${cycle.passage ? fact('Between nodes', `${number(cycle.passage[0], 2)} m into the margin of ${escape(cycle.passage[1])}`) : ''}
       ${fact('Goal', cycle.goal_in_range ? 'in range' : 'out of range')}
       ${fact('Obstacles', held ? `held where they are at ${number(plan.held, 2)} s` : 'move as predicted')}
       ${cycle.worst ? fact('Largest violation', `${escape(cycle.worst)} <small>${cycle.violation === null ? '' : cycle.violation.toExponential(1)}</small>`) : ''}
@@ -135,7 +138,8 @@
     if (data.goal_time !== null) addMark(data.goal_time, 'goal', 'goal reached');
     if (data.least_clearance_t !== null) addMark(data.least_clearance_t, 'near', 'least clearance');
     if (data.outcome !== 'goal' && data.plant.t.length) addMark(end, 'bad', data.outcome);
-    for (const c of data.cycles) if (c.index > 0 && !c.solved) addMark(Math.min(c.t0 + c.tex, end), 'bad', 'not solved');
+    for (const m of data.marks) for (const t of m.times) addMark(Math.min(t, end), 'bad', m.text);
+    for (const c of data.cycles) if (c.index > 0 && !c.solved) addMark(Math.min(c.t0 + c.tex, end), 'bad', 'not solved' + (c.blocks ? ': ' + c.blocks : ''));
   }
 
   slider.min = String(start);

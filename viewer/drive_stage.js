@@ -9,7 +9,10 @@
   const ctx = canvas.getContext('2d');
   const box = slalom.courseBox();
   const camera = { mode: 'follow', x: 0, y: 0, scale: 8, span: 90 };
-  const layers = { grown: true, path: true, plan: true, ghosts: true, range: false };
+  const layers = { grown: true, margins: false, path: true, plan: true, ghosts: true, range: false };
+  /** A course that is wider than it is high has a stage that is, too, above the charts. */
+  const WIDE = 1.3;
+  document.body.classList.toggle('wide', box.x1 - box.x0 > WIDE * (box.y1 - box.y0));
   /** At most so many of an obstacle are drawn along a plan. */
   const MOST_GHOSTS = 40;
   let colour = {};
@@ -141,6 +144,16 @@
         ctx.lineWidth = 1;
         ctx.stroke();
         ctx.globalAlpha = 1;
+      }
+      if (layers.margins) {
+        ctx.strokeStyle = colour.vermilion;
+        ctx.lineWidth = 1;
+        ctx.setLineDash([1, 3]);
+        for (const margin of data.planner.margins) {
+          ellipse(p.x, p.y, o.a + margin, o.b + margin);
+          ctx.stroke();
+        }
+        ctx.setLineDash([]);
       }
       ellipse(p.x, p.y, Math.max(o.a, 1.2 / camera.scale), Math.max(o.b, 1.2 / camera.scale));
       ctx.fillStyle = colour.vermilion;

@@ -10,7 +10,8 @@ namespace slalom::app {
 namespace {
 
 int check(const CommonOptions& options) {
-  const auto scenario = io::load_scenario(options.request);
+  std::vector<std::string> advice;
+  const auto scenario = io::load_scenario(options.request, advice);
   if (options.quiet) return kOk;
   if (options.json) {
     nlohmann::ordered_json json;
@@ -19,10 +20,12 @@ int check(const CommonOptions& options) {
     json["planner"] = scenario.planner.name;
     json["vehicle"] = scenario.vehicle.name;
     json["obstacles"] = scenario.obstacles.size();
+    json["advice"] = advice;
     json["resolved"] = io::to_yaml(scenario);
     print(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   } else {
     print(io::to_yaml(scenario));
+    for (const auto& sentence : advice) fmt::print(stderr, "slalom: note: {}\n", sentence);
   }
   return kOk;
 }

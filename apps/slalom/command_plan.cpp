@@ -6,6 +6,7 @@
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "slalom/io/drive_files.hpp"
+#include "slalom/io/results_folder.hpp"
 #include "slalom/sim/closed_loop.hpp"
 
 namespace slalom::app {
@@ -44,7 +45,8 @@ std::string plan_text(const sim::Scenario& scenario, const sim::FirstPlan& first
 int plan(const CommonOptions& options) {
   check_expectations(options.expect, kOutcomes);
   const auto scenario = io::load_scenario(options.request);
-  if (options.writes()) write_or_fail([&] { io::prepare_folder(options.out, options.force); });
+  io::ResultsFolder folder;
+  if (options.writes()) write_or_fail([&] { folder = {options.out, options.force}; });
   const auto first = sim::first_plan(scenario, interrupted);
   const auto& cycle = first.cycle;
   const auto* warm_up = first.warm_up ? &*first.warm_up : nullptr;

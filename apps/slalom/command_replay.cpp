@@ -49,8 +49,49 @@ std::string json_text(const io::RecordedSolve& solve, const planner::Replayed& r
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+nlohmann::ordered_json json_of(const planner::Certificate& c) {
+  const auto number = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
+  };
+  return {{"verified", c.verified},     {"least_clearance_m", number(c.least_clearance)},
+          {"nearest", c.nearest},       {"least_wheel_load_N", number(c.least_wheel_load)},
+          {"until_s", number(c.until)}, {"refused", c.refused}};
+}
+
+/// Verifies a recorded plan again.
+int replay(const io::RecordedMotion& motion, const CommonOptions& options) {
+  const auto& recorded = motion.plan.certificate;
+  const auto again = planner::verify_again(motion.plan, motion.scenario);
+  const bool same = planner::same(recorded, again);
+  if (options.json) {
+    nlohmann::ordered_json json;
+    json["scenario"] = motion.scenario.name;
+    json["planner"] = motion.scenario.planner.name;
+    json["t0_s"] = motion.plan.t0;
+    json["rung"] = to_string(motion.plan.rung);
+    json["recorded"] = json_of(recorded);
+    json["replayed"] = json_of(again);
+    json["same"] = same;
+    print(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  } else if (!options.quiet) {
+    const auto line = [](const char* who, const planner::Certificate& c) {
+      return fmt::format("  {:<10} {}, {} m to {}, {} N\n", who,
+                         c.verified ? "verified" : "refused: " + c.refused, c.least_clearance,
+                         c.nearest.empty() ? "no obstacle" : c.nearest, c.least_wheel_load);
+    };
+    print(fmt::format("{} {}, planned at {} s\n", motion.scenario.name,
+                      motion.scenario.planner.name, motion.plan.t0) +
+          line("recorded", recorded) + line("replayed", again) +
+          (same ? "  the same to the last bit\n" : "  NOT the same\n"));
+  }
+  return same ? kOk : kNotExpected;
+}
+
 int replay(const ReplayOptions& options) {
-  const auto solve = io::read_recording(options.file);
+  const auto recorded = io::read_recording(options.file);
+  if (const auto* motion = std::get_if<io::RecordedMotion>(&recorded))
+    return replay(*motion, options.common);
+  const auto& solve = std::get<io::RecordedSolve>(recorded);
   const auto replayed = planner::replay(solve.recording, solve.scenario);
   if (options.common.json) {
     print(json_text(solve, replayed));
@@ -64,10 +105,11 @@ int replay(const ReplayOptions& options) {
 
 void add_replay(CLI::App& app, Command& run) {
   auto options = std::make_shared<ReplayOptions>();
-  auto* command = app.add_subcommand("replay", "Solve a recorded solve again and compare the bits");
+  auto* command = app.add_subcommand(
+      "replay", "Solve a recorded solve again, or verify a recorded plan, and compare the bits");
   command
       ->add_option("FILE", options->file,
-                   "A recorded solve, from 'slalom simulate --record-failures'")
+                   "A recorded solve or plan, from 'slalom simulate --record-failures'")
       ->required();
   add_printing(*command, options->common);
   command->footer(std::string("Exits with 0 when the answer is the same to the last bit, else 1.\n"

@@ -13,6 +13,7 @@
 #include "interrupt.hpp"
 #include "progress.hpp"
 #include "slalom/io/drive_files.hpp"
+#include "slalom/io/results_folder.hpp"
 #include "slalom/sim/closed_loop.hpp"
 #include "slalom/sim/solve_times.hpp"
 #include "slalom/sweep/sweep.hpp"
@@ -131,9 +132,10 @@ int reproduce(const ReproduceOptions& options) {
   check_expectations(options.expect, {"paper"});
   auto all = load(options);
   const fs::path out = options.out;
+  io::ResultsFolder folder;
   if (options.writes())
     write_or_fail([&] {
-      io::prepare_folder(out, options.force);
+      folder = {out, options.force};
       for (const auto& one : all.drives) io::prepare_folder(out / one.folder, options.force);
       for (const auto& one : all.cases) io::prepare_folder(out / one.driven.folder, options.force);
     });

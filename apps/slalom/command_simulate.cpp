@@ -12,6 +12,7 @@
 #include "progress.hpp"
 #include "slalom/io/drive_files.hpp"
 #include "slalom/io/recording_file.hpp"
+#include "slalom/io/results_folder.hpp"
 #include "slalom/sim/closed_loop.hpp"
 
 namespace slalom::app {
@@ -22,7 +23,7 @@ struct SimulateOptions : CommonOptions {
   double slow = std::numeric_limits<double>::infinity();  ///< record from this solve time on [s]
 };
 
-/// Writes solves that failed or were slow, one file a cycle.
+/// Writes solves and plans that failed or were slow, one file a cycle.
 class Recordings {
  public:
   Recordings(const SimulateOptions& options, const sim::Scenario& scenario)
@@ -39,19 +40,27 @@ class Recordings {
               return failed || report.cpu_s >= options_.slow;
             },
             [this](const planner::Recording& recording) {
-              const auto file =
-                  std::filesystem::path(options_.record) / fmt::format("cycle-{}.json", cycle_);
-              write_or_fail([&] { io::write_file(file, io::to_json({scenario_, recording})); });
-              ++count_;
+              write(io::to_json(io::RecordedSolve{scenario_, recording}));
+            },
+            [this](const planner::RecordedPlan& plan) {
+              write(io::to_json(io::RecordedMotion{scenario_, plan}));
             }};
   }
   void next_cycle() { ++cycle_; }
   std::string text() const {
     if (options_.record.empty()) return "";
-    return fmt::format("  recorded           {} solves in {}\n", count_, options_.record);
+    const bool verifies = scenario_.planner.method == planner::Method::verified;
+    return fmt::format("  recorded           {} {} in {}\n", count_, verifies ? "plans" : "solves",
+                       options_.record);
   }
 
  private:
+  void write(const std::string& text) {
+    const auto file = std::filesystem::path(options_.record) / fmt::format("cycle-{}.json", cycle_);
+    write_or_fail([&] { io::write_file(file, text); });
+    ++count_;
+  }
+
   const SimulateOptions& options_;
   const sim::Scenario& scenario_;
   int cycle_, count_ = 0;
@@ -60,7 +69,8 @@ class Recordings {
 int simulate(const SimulateOptions& options) {
   check_expectations(options.expect, sim::outcome_names());
   const auto scenario = io::load_scenario(options.request);
-  if (options.writes()) write_or_fail([&] { io::prepare_folder(options.out, options.force); });
+  io::ResultsFolder folder;
+  if (options.writes()) write_or_fail([&] { folder = {options.out, options.force}; });
 
   Recordings recordings(options, scenario);
   sim::Drive drive;
@@ -81,7 +91,9 @@ int simulate(const SimulateOptions& options) {
     print(io::summary_json(scenario, drive));
   } else if (!options.quiet) {
     auto text = drive_text(scenario, drive);
-    if (options.writes()) text += fmt::format("  written to         {}\n", options.out);
+    if (options.writes())
+      text += fmt::format("  written to         {}, its page is {}\n", options.out,
+                          (std::filesystem::path(options.out) / "report.html").string());
     print(text + recordings.text());
   }
   return exit_code_for(sim::to_string(drive.outcome), options.expect);

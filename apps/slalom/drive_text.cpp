@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "slalom/sim/marks.hpp"
 #include "slalom/sim/solve_times.hpp"
 #include "slalom/sim/verification.hpp"
 
@@ -41,12 +42,15 @@ std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
   if (!drive.message.empty()) text += fmt::format("  {}\n", drive.message);
   if (drive.goal_time) text += fmt::format("  goal entered       {:.2f} s\n", *drive.goal_time);
   if (std::isfinite(drive.least_clearance))
-    text += fmt::format("  least clearance    {:.2f} m, to {} at {:.2f} s\n",
-                        without_sign(drive.least_clearance), drive.least_clearance_obstacle,
-                        drive.least_clearance_t);
+    text += fmt::format(
+        "  least clearance    {:.2f} m beyond the {:g} m of a crash, to {} at {:.2f} s\n",
+        without_sign(drive.least_clearance), scenario.loop.sm_crash, drive.least_clearance_obstacle,
+        drive.least_clearance_t);
   text += fmt::format("  least wheel load   {:.0f} N\n", drive.least_wheel_load);
 
   text += verification_text(drive);
+  for (const auto& mark : sim::marks(scenario, drive))
+    text += fmt::format("  warning            {}\n", mark.text);
 
   const auto wall = sim::solve_times(drive);
   if (wall.empty()) return text;

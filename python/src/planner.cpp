@@ -16,6 +16,8 @@ namespace {
 using planner::Plan;
 using sim::Scenario;
 
+constexpr double kLongest = 36000;  ///< that a plant is advanced at once [s]
+
 vehicle::State state_of(const std::vector<double>& numbers, const char* where) {
   if (numbers.size() != vehicle::kStates)
     throw InvalidValue(where, std::to_string(numbers.size()) + " numbers",
@@ -33,14 +35,28 @@ struct ScenarioPlanner {
   explicit ScenarioPlanner(const Scenario& s) : planner(s), tex(s.loop.tex) {}
 };
 
+/// Obstacles as measured at t0, as a request has them: where they would have been at t = 0.
+std::vector<world::Obstacle> measured_at(double t0, std::vector<world::Obstacle> obstacles) {
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    auto& o = obstacles[i];
+    if (o.name.empty()) o.name = "O" + std::to_string(i + 1);
+    world::obstacle_options().check(o, "plan: obstacle " + o.name);
+    o.x -= o.vx * t0;
+    o.y -= o.vy * t0;
+  }
+  return obstacles;
+}
+
 Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
-          std::optional<double> tex, double time_limit, double best_iterate_tol) {
+          std::optional<double> tex, double time_limit, double best_iterate_tol,
+          const std::optional<std::vector<world::Obstacle>>& obstacles) {
   planner::Request request;
   request.X0p = state_of(state, "plan: state");
   request.t0 = t0;
   request.t_start = t0 + tex.value_or(self.tex);
   request.time_limit = time_limit;
   request.best_iterate_tol = best_iterate_tol;
+  if (obstacles) request.obstacles = measured_at(t0, *obstacles);
   Released released;
   request.interrupted = [&released] { return released.interrupted(); };
   Plan result;
@@ -175,15 +191,28 @@ void bind_plant(nb::module_& module) {
               throw InvalidValue("advance", "t1 before t0", "t0 <= t1, absolute times [s]");
             const auto signal = plan ? control_signal(*plan) : vehicle::ControlSignal();
             const auto begin = state_of(state, "advance: state");
-            const auto end = [&] {
+            if (!(t1 - t0 <= kLongest))
+              throw InvalidValue("advance", std::to_string(t1 - t0) + " s",
+                                 "at most " + std::to_string(static_cast<int>(kLongest)) +
+                                     " s; t0 and t1 are times of the drive, not of the day");
+            Released released;
+            vehicle::State end = begin;
+            {
               const nb::gil_scoped_release unlock;
-              return plant.predict(begin, signal, t0, t1);
-            }();
+              double t = t0;
+              for (const double next : plant.instants(signal, t0, t1)) {
+                end = plant.advance(end, signal, t, next);
+                t = next;
+                if (released.interrupted()) break;
+              }
+            }
+            released.raise_if_interrupted();
             return to_numpy(std::vector<double>(end.begin(), end.end()));
           },
           "state"_a, "plan"_a.none(), "t0"_a, "t1"_a, nb::rv_policy::move,
           "The state at t1 from that at t0 [s], driven by a plan's controls; without a plan "
-          "straight on at\nconstant speed. Raises Error where the state leaves the model's "
+          "straight on at\nconstant speed. At most ten hours. Raises Error where the state leaves "
+          "the model's "
           "domain.");
 }
 
@@ -198,9 +227,13 @@ void bind_planner(nb::module_& module) {
            "The planner of a scenario: its settings, vehicle, goal, region and obstacles.")
       .def("plan", &plan, "state"_a, nb::kw_only(), "t0"_a = 0.0, "tex"_a = nb::none(),
            "time_limit"_a = std::numeric_limits<double>::infinity(), "best_iterate_tol"_a = -1.0,
+           "obstacles"_a = nb::none(),
            "The plan from `state`, that at t0 + tex [s] in the order of state_names; tex is the "
            "scenario's if\nleft out. A plan whose solve ended otherwise is returned too. "
-           "`time_limit` is of thread time [s].")
+           "`time_limit` is of thread time "
+           "[s]. `obstacles`, if given, take the place of the\nscenario's in this call, as many as "
+           "there are: their x and y are those at t0, and those of one name are\none from call to "
+           "call.")
       .def(
           "reset", [](ScenarioPlanner& self) { self.planner.reset(); }, doc::planner_Planner_reset);
 }

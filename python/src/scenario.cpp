@@ -33,12 +33,12 @@ std::string text_of(const nb::dict& scenario) {
 
 std::vector<std::string> keys(const Scenario& scenario) {
   std::vector<std::string> names;
-  for (const auto& [key, value] : io::settings_of(scenario)) names.push_back(key);
+  for (const auto& [key, value] : io::values_of(scenario)) names.push_back(key);
   return names;
 }
 
 nb::any value(const Scenario& scenario, const std::string& wanted) {
-  for (const auto& [key, value] : io::settings_of(scenario))
+  for (const auto& [key, value] : io::values_of(scenario))
     if (key == wanted)
       return std::visit([](const auto& v) { return nb::borrow<nb::any>(nb::cast(v)); }, value);
   const auto nearest = nearest_name(wanted, keys(scenario));
@@ -62,6 +62,18 @@ void bind_parts(nb::module_& module) {
       .def_ro("y_min", &Region::y_min)
       .def_ro("y_max", &Region::y_max);
   nb::class_<Obstacle>(module, "Obstacle", doc::world_Obstacle)
+      .def(
+          "__init__",
+          [](Obstacle* self, double x, double y, std::optional<double> r, std::optional<double> a,
+             std::optional<double> b, double vx, double vy, const std::string& name) {
+            if (r ? a || b : !(a && b))
+              throw InvalidValue("Obstacle", r ? "r beside a or b" : "no size", "r, or a and b");
+            new (self) Obstacle{name, x, y, r ? *r : *a, r ? *r : *b, vx, vy};
+          },
+          nb::kw_only(), "x"_a, "y"_a, "r"_a = nb::none(), "a"_a = nb::none(), "b"_a = nb::none(),
+          "vx"_a = 0.0, "vy"_a = 0.0, "name"_a = "",
+          "One to plan with: centre x, y [m], radius r or semi-axes a and b [m], velocity vx, vy "
+          "[m/s].")
       .def_ro("name", &Obstacle::name)
       .def_ro("x", &Obstacle::x, doc::world_Obstacle_x)
       .def_ro("y", &Obstacle::y, doc::world_Obstacle_y)
@@ -85,8 +97,9 @@ void bind_class(nb::module_& module) {
       .def_ro("region", &Scenario::region)
       .def_prop_ro(
           "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
-      .def("keys", &keys, "Keys of the values of loop, plant, sensing, planner and vehicle.")
-      .def("__getitem__", &value, "key"_a, "A value by its key, such as \"planner.w_t\".")
+      .def("keys", &keys, "Keys of all values, as `set=` takes them.")
+      .def("__getitem__", &value, "key"_a,
+           "A value by its key, such as \"planner.w_t\", \"start.ux\" or \"obstacles.lorry.b\".")
       .def(
           "replace",
           [](const Scenario& s, const std::optional<std::string>& planner,

@@ -109,6 +109,8 @@ def test_plans():
         plant.advance(scenario.start, plan, 1, 0)
     with pytest.raises(TypeError):
         plant.advance(scenario.start, "plan", 0, 1)
+    with pytest.raises(slalom.InvalidValue, match="at most 36000 s"):
+        plant.advance(scenario.start, None, 0.0, 1.7e9)
 
 
 def test_verified_plans():
@@ -182,3 +184,35 @@ def test_frame_plot_and_files(tmp_path):
     path = drive.plot().axes[0]
     np.testing.assert_array_equal(path.lines[0].get_xdata(), drive.states[:, 0])
     assert len(path.patches) == 1
+
+
+def test_obstacles_of_each_cycle_take_the_place_of_the_scenarios():
+    scenario = slalom.load_scenario("E_B", planner="P_D")
+    planner = slalom.Planner(scenario)
+    free = planner.plan(scenario.start, obstacles=[])
+    assert free.solved
+    x = free.states[:, 0]
+    wall = slalom.Obstacle(x=float(x[5]), y=float(free.states[5, 1]), r=3, name="wall")
+    blocked = planner.plan(scenario.start, obstacles=[wall, slalom.Obstacle(x=150, y=20, a=2, b=1)])
+    assert blocked.solved
+    away = np.hypot(blocked.states[:, 0] - wall.x, blocked.states[:, 1] - wall.y)
+    assert away[1:].min() > 5.5
+    # Positions are those at t0, whenever that is.
+    later = [slalom.Obstacle(x=wall.x, y=wall.y - 10, r=3, vy=10)]
+    first, second = (slalom.Planner(scenario).plan(scenario.start, t0=t0, obstacles=later) for t0 in (0.0, 100.0))
+    assert first.solved
+    np.testing.assert_allclose(second.states, first.states, atol=1e-6)
+    with pytest.raises(slalom.InvalidValue, match="r, or a and b"):
+        slalom.Obstacle(x=0, y=0)
+    with pytest.raises(slalom.InvalidValue, match="obstacle O1: found a = -1"):
+        planner.plan(scenario.start, obstacles=[slalom.Obstacle(x=0, y=0, r=-1)])
+
+
+def test_values_are_read_by_the_keys_that_set_them():
+    scenario = slalom.load_scenario("E_C", set={"start.ux": 16, "obstacles.O2.vy": -12})
+    assert scenario["start.ux"] == 16
+    assert scenario["obstacles.O2.vy"] == -12
+    assert scenario["goal.sigma"] == 25
+    assert "obstacles.cone3.y" in scenario.keys()
+    with pytest.raises(KeyError, match="perhaps 'obstacles.O2.vy'"):
+        scenario["obstacles.O2.vz"]

@@ -1,12 +1,15 @@
 #include "slalom/io/drive_files.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "file_set.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/io/version.hpp"
 #include "slalom/report/report.hpp"
+#include "slalom/sim/marks.hpp"
 #include "slalom/sim/solve_times.hpp"
 #include "slalom/sim/verification.hpp"
 
@@ -40,6 +43,21 @@ void add_verification(Json& summary, const sim::Drive& drive) {
   Json& rungs = summary["rungs"] = Json::object();
   for (const auto rung : {planner::Rung::new_plan, planner::Rung::rest, planner::Rung::least_bad})
     rungs[planner::to_string(rung)] = verification->of(rung);
+}
+
+void add_marks(Json& summary, const sim::Scenario& scenario, const sim::Drive& drive) {
+  double farthest = 0, turned = 0;
+  for (const auto& cycle : drive.cycles) {
+    if (!cycle.used) continue;
+    const auto slack = sim::start_slack(cycle);
+    farthest = std::max(farthest, slack.distance);
+    turned = std::max(turned, slack.heading);
+  }
+  summary["start_slack_max_m"] = number(farthest);
+  summary["start_slack_max_deg"] = number(turned * 180 / std::numbers::pi);
+  Json& marks = summary["marks"] = Json::array();
+  for (const auto& mark : sim::marks(scenario, drive))
+    marks.push_back({{"kind", mark.kind}, {"text", mark.text}, {"times_s", mark.times}});
 }
 
 /// Median and greatest time of the solves on the clock; the warm-up stands by itself.
@@ -91,6 +109,7 @@ std::string summary_json(const sim::Scenario& scenario, const sim::Drive& drive)
   summary["tex_s"] = number(scenario.loop.tex);
   summary["floor"] = number(scenario.planner.floor);
   add_solve_times(summary, drive);
+  add_marks(summary, scenario, drive);
   summary["version"] = kVersion;
   return dump(summary);
 }

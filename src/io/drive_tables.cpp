@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "csv.hpp"
 #include "slalom/io/drive_files.hpp"
+#include "slalom/sim/marks.hpp"
 #include "slalom/sim/verification.hpp"
 
 namespace slalom::io {
@@ -95,7 +97,9 @@ std::string cycles_csv(const sim::Drive& drive) {
   for (const auto& term : terms) text += "," + csv_cell("cost_" + term);
   text +=
       ",worst_constraint,worst_violation,stationarity,complementarity,phi,tf,goal_in_range,used,"
-      "backend,best_iterate,planning_cpu_s,charged_s,t_swap";
+      "backend,best_iterate,planning_cpu_s,charged_s,t_swap,start_slack_m,start_slack_deg,passage_"
+      "m,"
+      "passage_obstacle";
   const bool verifies = sim::verification(drive).has_value();
   if (verifies)
     text +=
@@ -114,6 +118,9 @@ std::string cycles_csv(const sim::Drive& drive) {
                     cycle.plan.tf, cycle.plan.goal_in_range ? 1 : 0, cycle.used ? 1 : 0,
                     csv_cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s,
                     cycle.charged, cycle.t_swap);
+    const sim::StartSlack slack = sim::start_slack(cycle);
+    text += fmt::format(",{},{},{},{}", slack.distance, slack.heading * 180 / std::numbers::pi,
+                        report.passage.depth, csv_cell(report.passage.obstacle));
     text += verifies ? verification_cells(cycle.plan) + "\n" : "\n";
   }
   return text;

@@ -1,7 +1,9 @@
 #include "json_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -155,12 +157,13 @@ std::string JsonReader::shown() const {
 }
 
 Json read_json(const std::string& file, std::size_t max_bytes, const std::string& content,
-               const std::string& format) {
+               const std::vector<std::string>& formats) {
   const std::string text = read_file(file, max_bytes, content);
   Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) throw InvalidValue(file, "no valid JSON", content);
   const JsonReader found = JsonReader(file, content, json).at("format");
-  if (found.text() != format) found.refuse("'" + found.text() + "'", "'" + format + "'");
+  if (std::find(formats.begin(), formats.end(), found.text()) == formats.end())
+    found.refuse("'" + found.text() + "'", fmt::format("'{}'", fmt::join(formats, "' or '")));
   return json;
 }
 

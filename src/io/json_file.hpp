@@ -60,9 +60,9 @@ class JsonReader {
   const Json& json_;
 };
 
-/// The JSON of a file of at most `max_bytes`, whose `format` must be the one given. Throws
+/// The JSON of a file of at most `max_bytes`, whose `format` must be one of those given. Throws
 /// InvalidValue.
 Json read_json(const std::string& file, std::size_t max_bytes, const std::string& content,
-               const std::string& format);
+               const std::vector<std::string>& formats);
 
 }  // namespace slalom::io

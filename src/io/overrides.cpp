@@ -114,6 +114,15 @@ void apply_override(const std::string& assignment, sim::Scenario& scenario, Plac
   apply(split(assignment), scenario, places);
 }
 
+std::set<std::string> stated_of_vehicle(const std::vector<std::string>& assignments) {
+  static const std::string vehicle = "vehicle.";
+  std::set<std::string> stated;
+  for (const auto& assignment : assignments)
+    if (assignment.starts_with(vehicle))
+      stated.insert(assignment.substr(vehicle.size(), assignment.find('=') - vehicle.size()));
+  return stated;
+}
+
 void apply_setting(const std::string& path, const Place& place, const Value& value,
                    sim::Scenario& scenario, Places& places) {
   Assignment a;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ void apply_override(const std::string& assignment, sim::Scenario& scenario, Plac
 /// places.
 void apply_setting(const std::string& path, const Place& place, const Value& value,
                    sim::Scenario& scenario, Places& places);
+
+/// The vehicle's settings that assignments or key paths name, without their section.
+std::set<std::string> stated_of_vehicle(const std::vector<std::string>& assignments);
 
 /// Sets each of several values of one key, one after the other, for what is thrown alone.
 void try_settings(const std::string& path, const Place& place,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "json_file.hpp"
@@ -14,7 +15,9 @@ namespace slalom::io {
 namespace {
 
 constexpr const char* kFormat = "slalom recorded solve 1";
-constexpr const char* kContent = "a recorded solve (JSON, from slalom simulate --record-failures)";
+constexpr const char* kPlanFormat = "slalom recorded plan 1";
+constexpr const char* kContent =
+    "a recorded solve or plan (JSON, from slalom simulate --record-failures)";
 constexpr std::size_t kMaxRecordingBytes = 64 << 20;
 
 vehicle::State state(const JsonReader& reader) {
@@ -44,6 +47,56 @@ std::vector<world::Obstacle> obstacles(const JsonReader& reader) {
   return result;
 }
 
+template <std::size_t N>
+Json json_rows(const std::vector<std::array<double, N>>& rows) {
+  Json json = Json::array();
+  for (const auto& row : rows) json.push_back(json_numbers({row.begin(), row.end()}));
+  return json;
+}
+
+template <class Row>
+std::vector<Row> rows(const JsonReader& reader, std::size_t count) {
+  std::vector<Row> result;
+  for (const auto& list : reader.table(Row{}.size())) {
+    result.emplace_back();
+    std::copy(list.begin(), list.end(), result.back().begin());
+  }
+  if (result.size() != count)
+    reader.refuse(fmt::format("{} rows", result.size()), fmt::format("{}, as t has", count));
+  return result;
+}
+
+RecordedMotion motion(const JsonReader& reader, const std::string& file) {
+  RecordedMotion result;
+  auto& p = result.plan;
+  result.scenario = parse_scenario(reader.at("scenario").text(), file + ": scenario");
+  p.rung = reader.at("rung").one_of(planner::Rung::least_bad);
+  p.t0 = reader.at("t0").real();
+  p.tex = reader.at("tex").real();
+  if (!(p.tex > 0)) reader.at("tex").refuse(fmt::format("{}", p.tex), "a number > 0");
+  const JsonReader need = reader.at("need");
+  p.clearance = need.at("clearance").real();
+  p.wheel_load = need.at("wheel_load").real();
+  const auto seen = need.at("seen").list();
+  if (seen.size() != 3)
+    need.at("seen").refuse(fmt::format("{} numbers", seen.size()), "x, y and radius");
+  p.seen_x = seen[0];
+  p.seen_y = seen[1];
+  p.seen_radius = seen[2];
+  p.obstacles = obstacles(reader.at("obstacles"));
+  p.t = reader.at("t").list();
+  if (!std::is_sorted(p.t.begin(), p.t.end()))
+    reader.at("t").refuse("times out of order", "rising");
+  p.states = rows<vehicle::State>(reader.at("states"), p.t.size());
+  p.controls = rows<vehicle::Control>(reader.at("controls"), p.t.size());
+  const JsonReader c = reader.at("certificate");
+  p.certificate = {c.at("verified").flag(),  c.at("least_clearance").real(),
+                   c.at("nearest").text(),   c.at("least_wheel_load").real(),
+                   c.at("until").real(),     c.at("refused").text(),
+                   c.at("refused_at").real()};
+  return result;
+}
+
 }  // namespace
 
 std::string to_json(const RecordedSolve& solve) {
@@ -56,7 +109,7 @@ std::string to_json(const RecordedSolve& solve) {
                      {"t0", r.t0},
                      {"t_start", r.t_start},
                      {"goal_in_range", r.goal_in_range}};
-  if (!r.obstacles.empty()) json["request"]["obstacles"] = json_obstacles(r.obstacles);
+  if (r.obstacles) json["request"]["obstacles"] = json_obstacles(*r.obstacles);
   json["options"] = json_options(r.options);
   json["status"] = nlp::to_string(r.status);
   json["iterations"] = r.iterations;
@@ -69,9 +122,37 @@ std::string to_json(const RecordedSolve& solve) {
   return json.dump() + "\n";
 }
 
-RecordedSolve read_recording(const std::string& file) {
-  const Json json = read_json(file, kMaxRecordingBytes, kContent, kFormat);
+std::string to_json(const RecordedMotion& motion) {
+  const auto& p = motion.plan;
+  const auto& c = p.certificate;
+  Json json;
+  json["format"] = kPlanFormat;
+  json["version"] = kVersion;
+  json["rung"] = to_string(p.rung);
+  json["t0"] = p.t0;
+  json["tex"] = p.tex;
+  json["need"] = {{"clearance", json_number(p.clearance)},
+                  {"wheel_load", json_number(p.wheel_load)},
+                  {"seen", json_numbers({p.seen_x, p.seen_y, p.seen_radius})}};
+  json["obstacles"] = json_obstacles(p.obstacles);
+  json["t"] = json_numbers(p.t);
+  json["states"] = json_rows(p.states);
+  json["controls"] = json_rows(p.controls);
+  json["certificate"] = {{"verified", c.verified},
+                         {"least_clearance", json_number(c.least_clearance)},
+                         {"nearest", c.nearest},
+                         {"least_wheel_load", json_number(c.least_wheel_load)},
+                         {"until", json_number(c.until)},
+                         {"refused", c.refused},
+                         {"refused_at", json_number(c.refused_at)}};
+  json["scenario"] = to_yaml(motion.scenario);
+  return json.dump() + "\n";
+}
+
+Recorded read_recording(const std::string& file) {
+  const Json json = read_json(file, kMaxRecordingBytes, kContent, {kFormat, kPlanFormat});
   const JsonReader reader(file, kContent, json);
+  if (json.at("format") == kPlanFormat) return motion(reader, file);
 
   RecordedSolve solve;
   auto& r = solve.recording;

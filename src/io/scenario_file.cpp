@@ -1,6 +1,7 @@
 #include "slalom/io/scenario_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <set>
 
@@ -9,12 +10,15 @@
 #include "overrides.hpp"
 #include "scenario_sections.hpp"
 #include "semantic_check.hpp"
+#include "slalom/sim/advice.hpp"
+#include "slalom/vehicle/derived.hpp"
 
 namespace slalom::io {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMaxObstacles = 1000;
+constexpr int kMaxBases = 8;
 
 /// Reads one scenario file and what it refers to.
 class Loader {
@@ -34,6 +38,28 @@ class Loader {
     apply_command_line();
     check_scenario(scenario_, {file_.string(), 1, 1}, places_);
     return std::move(scenario_);
+  }
+
+  /// What a vehicle that states some settings has from elsewhere, in a sentence each.
+  std::vector<std::string> of_vehicle() const {
+    std::vector<std::string> sentences;
+    // Limits of one's own make no other vehicle.
+    const auto body = {"m", "Izz", "la", "lb", "h", "track", "FzF0", "FzR0"};
+    if (std::none_of(body.begin(), body.end(),
+                     [&](const char* name) { return own_.count(name) > 0; }))
+      return sentences;
+    if (!derived_.empty())
+      sentences.push_back(
+          fmt::format("of the vehicle, {} follow from what is stated", fmt::join(derived_, ", ")));
+    std::vector<std::string> taken;
+    for (const auto& entry : vehicle::parameter_options().entries())
+      if (entry.info.name != "name" && own_.count(entry.info.name) == 0 &&
+          derived_.count(entry.info.name) == 0)
+        taken.push_back(entry.info.name);
+    if (!taken.empty())
+      sentences.push_back(fmt::format("of the vehicle, these are those of {}: {}", base_vehicle_,
+                                      fmt::join(taken, ", ")));
+    return sentences;
   }
 
  private:
@@ -70,16 +96,45 @@ class Loader {
     }
   }
 
-  /// Reads a section's file over the defaults.
-  void read_file_of(const ScenarioSection& section, const fs::path& file) {
+  /// Reads a section's file over the defaults, or over the file that it names as its base.
+  void read_file_of(const ScenarioSection& section, const fs::path& file, int depth = 0) {
     const auto what = "a " + section.name;
     const Value map = parse_file(file, what);
     require_map(map, fmt::format("{} (a map of its settings)", what));
+    const Value* base = map.find("base");
+    if (base != nullptr) {
+      const auto place = base->place.to_string();
+      if (depth == kMaxBases)
+        throw InvalidValue(place, fmt::format("more than {} files, each over another", kMaxBases),
+                           "fewer, and none over itself");
+      to_text(*base, fmt::format("the name of a {} or a file", section.name));
+      read_file_of(section, referenced(section.name, base->text, file.parent_path(), place),
+                   depth + 1);
+    }
     const auto settings = section.bind(scenario_);
     const Value* name = map.find("name");
     settings.find("name")->store(name != nullptr ? to_text(*name, "a name") : file.stem().string());
     if (const Value* title = map.find("title")) to_text(*title, "a title");
-    settings.read(map, places_, {"name", "title"});
+    settings.read(map, places_, {"name", "title", "base"});
+    if (section.name != "vehicle") return;
+    derive(stated_in(map));
+    if (base != nullptr) return;
+    // A whole file states its vehicle; what is stated over it is what differs.
+    base_vehicle_ = file.stem().string();
+    own_.clear();
+    derived_.clear();
+  }
+
+  static std::set<std::string> stated_in(const Value& map) {
+    std::set<std::string> stated;
+    for (const auto& member : map.members) stated.insert(member.key);
+    return stated;
+  }
+
+  /// What follows from the vehicle's settings that a map or the command line states.
+  void derive(const std::set<std::string>& stated) {
+    for (auto& name : vehicle::derive(scenario_.vehicle, stated)) derived_.insert(name);
+    own_.insert(stated.begin(), stated.end());
   }
 
   /// Reads `vehicle:` or `planner:`, a name or a map with the base and what differs from it.
@@ -101,6 +156,7 @@ class Loader {
     if (is_map) {
       const auto settings = section.bind(scenario_);
       settings.read(*value, places_, {"base", "name"});
+      if (what == "vehicle") derive(stated_in(*value));
       if (const Value* name = value->find("name"); name != nullptr && !(base && chosen))
         settings.find("name")->store(to_text(*name, "a name"));
     }
@@ -161,6 +217,7 @@ class Loader {
     }
     for (const auto& assignment : request_.overrides)
       apply_override(assignment, scenario_, places_);
+    derive(stated_of_vehicle(request_.overrides));
   }
 
   const ScenarioRequest& request_;
@@ -169,6 +226,9 @@ class Loader {
   sim::Scenario scenario_;
   Places places_;
   std::set<std::string> names_;
+  std::string base_vehicle_ = "hmmwv";
+  std::set<std::string> own_,
+      derived_;  ///< of the vehicle, stated beside its file, and that follow
 };
 
 }  // namespace
@@ -176,6 +236,15 @@ class Loader {
 sim::Scenario load_scenario(const ScenarioRequest& request) {
   const auto file = find_config("scenario", request.name_or_file, "", "SCENARIO");
   return Loader(request, file, parse_file(file, "a scenario")).load();
+}
+
+sim::Scenario load_scenario(const ScenarioRequest& request, std::vector<std::string>& advice) {
+  const auto file = find_config("scenario", request.name_or_file, "", "SCENARIO");
+  Loader loader(request, file, parse_file(file, "a scenario"));
+  auto scenario = loader.load();
+  advice = loader.of_vehicle();
+  for (auto& sentence : sim::advice(scenario)) advice.push_back(std::move(sentence));
+  return scenario;
 }
 
 sim::Scenario parse_scenario(const std::string& text, const std::string& source) {

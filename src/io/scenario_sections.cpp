@@ -118,16 +118,19 @@ Section entry_section(ObstacleEntry& entry) {
   return obstacle_section(entry.obstacle, "an obstacle").add(repeat_options(), entry);
 }
 
-std::vector<std::pair<std::string, OptionValue>> settings_of(const sim::Scenario& scenario) {
+std::vector<std::pair<std::string, OptionValue>> values_of(const sim::Scenario& scenario) {
   auto copy = scenario;  // sections are bound to what they could also set
-  std::vector<std::pair<std::string, OptionValue>> settings;
-  for (const auto& section : scenario_sections()) {
-    if (section.form != Form::block) continue;
-    const Section bound = section.bind(copy);
-    for (const auto& field : bound.fields())
-      settings.emplace_back(section.name + "." + field.info.name, field.load());
-  }
-  return settings;
+  std::vector<std::pair<std::string, OptionValue>> values;
+  const auto add = [&](const Section& section) {
+    for (const auto& field : section.fields())
+      if (field.excludes.empty())
+        values.emplace_back(section.path() + "." + field.info.name, field.load());
+  };
+  for (const auto& section : scenario_sections())
+    if (section.bind != nullptr) add(section.bind(copy));
+  for (auto& obstacle : copy.obstacles)
+    add(obstacle_section(obstacle, "obstacles." + obstacle.name));
+  return values;
 }
 
 }  // namespace slalom::io

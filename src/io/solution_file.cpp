@@ -209,12 +209,12 @@ void save_solution(const std::string& file, const ocp::PhasedSolution& solution)
 }
 
 ocp::Solution read_solution(const std::string& file) {
-  const Json json = read_json(file, kMaxSolutionBytes, kContent, kFormat);
+  const Json json = read_json(file, kMaxSolutionBytes, kContent, {kFormat});
   return read_one(JsonReader(file, kContent, json));
 }
 
 ocp::PhasedSolution read_phased_solution(const std::string& file) {
-  const Json json = read_json(file, kMaxSolutionBytes, kContent, kPhasedFormat);
+  const Json json = read_json(file, kMaxSolutionBytes, kContent, {kPhasedFormat});
   const JsonReader reader(file, kContent, json);
   ocp::PhasedSolution solution;
   read_outcome(reader, solution);

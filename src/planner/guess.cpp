@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace slalom::planner {
 
 using namespace vehicle;
+
+namespace {
+
+/// A start slower than this speeds up in the guess [m/s], at this share of what the vehicle can.
+constexpr double kSlow = 3, kShare = 0.7;
+
+}  // namespace
 
 ocp::Trajectory& Guess::operator()(const Request& request, bool in_range, const LastPlan* last) {
   last != nullptr ? shift(request, *last) : straight_on(request);
@@ -17,6 +25,7 @@ ocp::Trajectory& Guess::operator()(const Request& request, bool in_range, const 
 
 void Guess::straight_on(const Request& request) {
   const State& X0p = request.X0p;
+  if (X0p[UX] < kSlow) return speeding_up(request);
   const double distance = std::hypot(X0p[X] - goal_.x, X0p[Y] - goal_.y);
   const double tf = std::clamp(std::min(settings_.L_range, distance) / std::max(X0p[UX], 5.0),
                                1.01 * settings_.tf_min, 0.99 * settings_.tf_max);
@@ -26,6 +35,34 @@ void Guess::straight_on(const Request& request) {
   end[PSI] = X0p[PSI];
   end[UX] = X0p[UX];
   guess_ = {0, tf, {0, 1}, {{X0p.begin(), X0p.end()}, end}, {{0, 0}, {0, 0}}, {}, {}};
+}
+
+/// From a crawl or from rest: straight on too, at an acceleration with which a plan gets anywhere.
+/// At rest the slope of a slip angle is 1/EP, and a guess that stands still starts where tyre
+/// forces are all or nothing.
+void Guess::speeding_up(const Request& request) {
+  const State& X0p = request.X0p;
+  const double a = kShare * vehicle_.ax_max_at(kSlow);
+  const double distance =
+      std::min(settings_.L_range, std::hypot(X0p[X] - goal_.x, X0p[Y] - goal_.y));
+  const double u = std::max(X0p[UX], 0.0);
+  const double tf = std::clamp((std::sqrt(u * u + 2 * a * distance) - u) / a,
+                               1.01 * settings_.tf_min, 0.99 * settings_.tf_max);
+  const std::size_t samples = 1 + static_cast<std::size_t>(settings_.N) * 2;
+  guess_ = {0, tf, {}, {}, {}, {}, {}};
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double tau = static_cast<double>(k) / static_cast<double>(samples - 1), t = tau * tf;
+    std::vector<double> x(X0p.begin(), X0p.end());
+    const double s = u * t + a * t * t / 2;
+    x[X] += s * std::cos(X0p[PSI]);
+    x[Y] += s * std::sin(X0p[PSI]);
+    x[V] = x[R] = x[SA] = 0;
+    x[UX] = std::min(u + a * t, vehicle_.ux_max);
+    x[AX] = a;
+    guess_.tau.push_back(tau);
+    guess_.states.push_back(std::move(x));
+    guess_.controls.push_back({0, 0});
+  }
 }
 
 /// The last plan from the new start on, its last point held, its end time kept.
@@ -53,6 +90,12 @@ void Guess::shift(const Request& request, const LastPlan& last) {
     mix(plan.states[after - 1], plan.states[after], guess_.states[k]);
     mix(plan.controls[after - 1], plan.controls[after], guess_.controls[k]);
   }
+  // Headings are within a turn at the start of each plan, so that a plan may begin a turn off the
+  // last one.
+  constexpr double turn = 2 * std::numbers::pi;
+  const double turns = std::round((request.X0p[PSI] - guess_.states.front()[PSI]) / turn);
+  if (turns != 0)
+    for (auto& state : guess_.states) state[PSI] += turns * turn;
 }
 
 /// X(0) and its slacks inside their rows. After a plan X(0) keeps its offset from X0p and the

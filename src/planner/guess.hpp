@@ -17,22 +17,26 @@ struct LastPlan {
 };
 
 /// Where a solve starts (section 3, "Guess"): straight on from X0p at its heading and speed without
-/// a last plan, else that plan from the new start on, resampled; slacks inside their rows.
+/// a last plan (speeding up from a crawl), else that plan from the new start on, resampled; slacks
+/// inside their rows.
 class Guess {
  public:
-  explicit Guess(const Task& task) : settings_(task.planner), goal_(task.goal) {}
+  explicit Guess(const Task& task)
+      : settings_(task.planner), vehicle_(task.vehicle), goal_(task.goal) {}
 
   /// `last` may be null. The result, of full states and controls, lives until the next call.
   ocp::Trajectory& operator()(const Request& request, bool in_range, const LastPlan* last);
 
  private:
   void straight_on(const Request& request);
+  void speeding_up(const Request& request);
   void shift(const Request& request, const LastPlan& last);
   void place_initial_slacks(const Request& request, const LastPlan* last);
   void place_final_slacks();
   double inside(double room, double weight) const;
 
   const Settings settings_;
+  const vehicle::Parameters vehicle_;
   const world::Goal goal_;
   ocp::Trajectory guess_;
 };

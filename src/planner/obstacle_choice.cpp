@@ -47,16 +47,44 @@ double nearest_pass(const world::Obstacle& o, double x, double y, double t0, dou
   return std::hypot(dx + o.vx * t, dy + o.vy * t);
 }
 
-std::vector<world::Obstacle> in_reach(const Settings& s, const Request& request,
-                                      const std::vector<world::Obstacle>& obstacles) {
-  // Every node lies within L_range + kappa of x(0), and x(0) within X0_tol of X0p.
-  const double reach = s.L_range + s.kappa + std::hypot(s.X0_tol[0], s.X0_tol[1]);
+/// How far from X0p a plan may come [m]: every node lies within L_range + kappa of x(0), and x(0)
+/// within X0_tol of X0p.
+double reach_of(const Settings& s) {
+  return s.L_range + s.kappa + std::hypot(s.X0_tol[0], s.X0_tol[1]);
+}
+
+/// The least distance [m] between an obstacle's centre and X0p over the times of a plan.
+double nearest_pass(const Settings& s, const Request& request, const world::Obstacle& o) {
   const double begin = s.moving_avoidance ? request.t_start : request.t0;
   const double end = s.moving_avoidance ? begin + s.tf_max : begin;
+  return nearest_pass(o, request.X0p[vehicle::X], request.X0p[vehicle::Y], begin, end);
+}
+
+/// An obstacle that stays farther than the first beyond a plan's reach is a far one, and is put as
+/// far beyond it as the second [m].
+constexpr double kFar = 2048, kParked = 50;
+
+bool far(const Settings& s, const Request& request, const world::Obstacle& o) {
+  return nearest_pass(s, request, o) > reach_of(s) + std::max(o.a, o.b) + s.sm_end + kFar;
+}
+
+/// A far obstacle, standing where its row is of the others' size and no plan comes.
+world::Obstacle parked(const Settings& s, const Request& request, const world::Obstacle& o) {
+  const double x = request.X0p[vehicle::X], y = request.X0p[vehicle::Y];
+  const double dx = o.x_at(request.t_start) - x, dy = o.y_at(request.t_start) - y;
+  const double share = (reach_of(s) + std::max(o.a, o.b) + s.sm_end + kParked) / std::hypot(dx, dy);
+  world::Obstacle result = o;
+  result.x = x + share * dx;
+  result.y = y + share * dy;
+  result.vx = result.vy = 0;
+  return result;
+}
+
+std::vector<world::Obstacle> in_reach(const Settings& s, const Request& request,
+                                      const std::vector<world::Obstacle>& obstacles) {
   std::vector<world::Obstacle> chosen;
   for (const auto& o : obstacles)
-    if (nearest_pass(o, request.X0p[vehicle::X], request.X0p[vehicle::Y], begin, end) <=
-        reach + std::max(o.a, o.b) + s.sm_end)
+    if (nearest_pass(s, request, o) <= reach_of(s) + std::max(o.a, o.b) + s.sm_end)
       chosen.push_back(o);
   return chosen;
 }
@@ -133,9 +161,18 @@ std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Re
                                               const std::vector<world::Obstacle>& obstacles) {
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
     return in_reach(settings, request, obstacles);
-  if (settings.obstacle_choice == ObstacleChoice::nearest)
-    return nearest(settings, request, obstacles);
-  return obstacles;
+  auto chosen = settings.obstacle_choice == ObstacleChoice::nearest
+                    ? nearest(settings, request, obstacles)
+                    : obstacles;
+  for (auto& o : chosen)
+    if (far(settings, request, o)) o = parked(settings, request, o);
+  return chosen;
+}
+
+bool any_far(const Settings& settings, const Request& request,
+             const std::vector<world::Obstacle>& obstacles) {
+  return std::any_of(obstacles.begin(), obstacles.end(),
+                     [&](const auto& o) { return far(settings, request, o); });
 }
 
 bool same_names(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b) {

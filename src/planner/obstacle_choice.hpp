@@ -19,8 +19,13 @@ std::vector<world::Obstacle> group_obstacles(const Settings& settings,
 /// one velocity; positions are those at t = 0.
 world::Obstacle covering_ellipse(const std::vector<world::Obstacle>& members);
 
+/// Whether one of them stays so far beyond what a plan for `request` can reach that its numbers
+/// would only spoil the scale of the others' rows.
+bool any_far(const Settings& settings, const Request& request,
+             const std::vector<world::Obstacle>& obstacles);
+
 /// Of `obstacles`, in their order, those that a plan for `request` knows of, as
-/// Settings::obstacle_choice says.
+/// Settings::obstacle_choice says. Far ones stand nearer than they are, still out of reach.
 std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
                                               const std::vector<world::Obstacle>& obstacles);
 

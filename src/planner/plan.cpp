@@ -10,6 +10,7 @@ const char* to_string(PlanStatus status) {
   if (status == PlanStatus::not_confirmed) return "not_confirmed";
   if (status == PlanStatus::no_prediction) return "no prediction";
   if (status == PlanStatus::unverified) return "unverified";
+  if (status == PlanStatus::passes_through) return "passes_through";
   return nlp::to_string(static_cast<nlp::Status>(status));
 }
 

@@ -14,8 +14,8 @@ class PlanningMethod {
 
   virtual Plan plan(const Request& request) = 0;
   virtual void reset() = 0;
-  /// Solves that are recorded are those of the paper's OCP; other methods record none.
-  virtual void record(const Recorder&) {}
+  /// The paper's method records solves of its OCP, one that verifies its plans.
+  virtual void record(const Recorder& recorder) = 0;
 };
 
 }  // namespace slalom::planner

@@ -42,7 +42,7 @@ class Proposals {
     double tex = 0;         ///< between the loop's looks for arrival [s]
     double beyond = 0;      ///< for which motions go on after they arrive [s]
     std::vector<world::Obstacle> obstacles;
-    Verifier::Need need;
+    Need need;
     std::optional<Motion> rest;  ///< of the last plan from t_from on, where it is to be solved
     double arrival = std::numeric_limits<double>::infinity();  ///< that is known already [s]
     int places = 0, ways = 0;                                  ///< looked at, at the most

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <string>
 
+#include "local_frame.hpp"
 #include "obstacle_choice.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "trajectory_problem.hpp"
+#include "verifier.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -39,8 +41,8 @@ Replayed replay(const Recording& recording, const Task& task) {
   request.t0 = recording.t0;
   request.t_start = recording.t_start;
   const Settings& settings = task.planner;
-  Task known = task;
-  if (!recording.obstacles.empty()) known.obstacles = recording.obstacles;
+  Task known = LocalFrame(task.goal).to_local(task);
+  if (recording.obstacles) known.obstacles = *recording.obstacles;
   known.obstacles = choose_obstacles(settings, request, group_obstacles(settings, known.obstacles));
   TrajectoryProblem problem(known, recording.goal_in_range);
   problem.update(request);
@@ -62,6 +64,25 @@ Replayed replay(const Recording& recording, const Task& task) {
   result.same = same_end && answer.iterations == recording.iterations &&
                 same_bits(answer.point, recording.end);
   return result;
+}
+
+Certificate verify_again(const RecordedPlan& recording, const Task& task) {
+  const Task local = LocalFrame(task.goal).to_local(task);
+  const vehicle::Plant plant = Verifier::believed_plant(local.vehicle);
+  Verifier verifier(local, plant);
+  const Motion motion{recording.t, recording.states, recording.controls};
+  const Need need{recording.clearance,
+                  recording.wheel_load,
+                  {recording.seen_x, recording.seen_y, recording.seen_radius}};
+  return verifier.judge(motion, recording.obstacles, need, recording.tex).certificate;
+}
+
+bool same(const Certificate& one, const Certificate& other) {
+  const auto numbers = [](const Certificate& c) {
+    return std::vector<double>{c.least_clearance, c.least_wheel_load, c.until, c.refused_at};
+  };
+  return one.verified == other.verified && one.nearest == other.nearest &&
+         one.refused == other.refused && same_bits(numbers(one), numbers(other));
 }
 
 }  // namespace slalom::planner

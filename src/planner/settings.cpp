@@ -63,7 +63,22 @@ void add_what_tells_planners_apart(Table& table) {
           "hard: a plan stays off its obstacles (paper Eqn. 7); soft: it pays w_obstacle for how "
           "far its rows fall below 1, integrated over time (l1).")
       .real("w_obstacle", &S::w_obstacle, Range::positive(), "1/s",
-            "Weight of going into obstacles, where they are soft.");
+            "Weight of going into obstacles, where they are soft.")
+      .choice(
+          "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
+          "Rows of obstacles hold at nodes alone, as in the paper. A plan that between them goes "
+          "deeper than passage_depth into the margin of an obstacle, by the smaller of sm_start "
+          "and sm_end: report: has the status passes_through, and is driven; refine: is solved "
+          "again on finer meshes, up to eight times the intervals, and is not solved if that "
+          "does not help; ignore: is not looked for.")
+      .real(
+          "passage_depth", &S::passage_depth, Range::non_negative(), "m",
+          "How deep a plan may go into a margin between its nodes: by the defaults, down to the 2 "
+          "m at which a drive counts as a crash.")
+      .boolean(
+          "retry_sides", &S::retry_sides,
+          "A cycle whose solve fails is tried again from guesses that pass the obstacle in the "
+          "way to the left and to the right, as long as there is time.");
 }
 
 void add_weights(Table& table) {
@@ -203,10 +218,11 @@ void add_verification(Table& table) {
           "improvement_period", &S::improvement_period, Range::non_negative(), "s",
           "While the last plan still leads to the goal, a better one is looked for this long after "
           "a new one, and then in intervals that double, up to eightfold, while none is found.")
-      .real("improvement_time", &S::improvement_time, Range::positive(), "s",
-            "While the last plan still leads to the goal, a cycle looks so long for a better one, "
-            "and "
-            "the next cycle goes on. It is counted in work, not by a clock, so that drives repeat.")
+      .real(
+          "improvement_time", &S::improvement_time, Range::positive(), "s",
+          "While the last plan still leads to the goal, a cycle looks so long for a better one, at "
+          "most .3 of the execution horizon, and the next cycle goes on. It is counted in work, "
+          "not by a clock, so that drives repeat.")
       .real("hysteresis", &S::hysteresis, Range::non_negative(), "s",
             "A new plan is driven when it is sooner at the goal by this, so that plans do not "
             "alternate.")

@@ -1,6 +1,7 @@
 #include "trajectory_problem.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -109,7 +110,10 @@ void TrajectoryProblem::add_cost(const Model& model) {
                                                        std::cos(goal_.psi) * (X_[Y] - goal_.y)));
   if (s.w_ax != 0 && model.role[AX] == Role::state)
     problem_.lagrange("acceleration", s.w_ax * square(X_[AX]));
-  if (s.w_psi != 0) problem_.lagrange("heading", s.w_psi * square(X_[PSI] - goal_.psi));
+  if (s.w_psi != 0) {
+    goal_psi_ = problem_.parameter("goal_psi", goal_.psi);
+    problem_.lagrange("heading", s.w_psi * square(X_[PSI] - *goal_psi_));
+  }
 
   Expr initial_slacks;
   for (std::size_t i = 0; i < kStates; ++i)
@@ -206,6 +210,11 @@ void TrajectoryProblem::update(const Request& request) {
     if (map_.model().role[i] != Role::derived) problem_.set_parameter(X0p_[i], request.X0p[i]);
   problem_.set_parameter(t_start_, request.t_start);
   problem_.set_parameter(t_planning_, request.t0);
+  if (goal_psi_) {  // the whole turns nearest to the start's heading
+    constexpr double turn = 2 * std::numbers::pi;
+    const double turns = std::round((request.X0p[PSI] - goal_.psi) / turn);
+    problem_.set_parameter(*goal_psi_, goal_.psi + turns * turn);
+  }
 }
 
 }  // namespace slalom::planner

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "model_map.hpp"
@@ -56,6 +57,7 @@ class TrajectoryProblem {
   std::array<Expr, vehicle::kStates> x0s_;  ///< slacks on the initial state
   std::array<Expr, 2> xfs_;                 ///< slacks on the final position
   Expr t_planning_, t_start_;               ///< absolute times of planning and of node 0
+  std::optional<Expr> goal_psi_;            ///< the goal's heading, where the cost asks for it
 };
 
 }  // namespace slalom::planner

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <limits>
@@ -18,8 +19,9 @@ class Turns {
  public:
   /// What one turn may take.
   struct Limit {
-    double work = std::numeric_limits<double>::infinity();   ///< of what is spent [its unit]
-    double cpu_s = std::numeric_limits<double>::infinity();  ///< thread time
+    double work = std::numeric_limits<double>::infinity();     ///< of what is spent [its unit]
+    double cpu_s = std::numeric_limits<double>::infinity();    ///< thread time
+    double clock_s = std::numeric_limits<double>::infinity();  ///< by the wall clock
   };
 
   Turns() = default;
@@ -44,14 +46,16 @@ class Turns {
   /// Notes so much work, and waits for the next turn if this one's is used up. True if the work is
   /// cancelled: it is to end soon.
   bool spend(double work);
-  /// Waits for the next turn unless this one has so much thread time left [s]. Whether there is as
+  /// Waits for the next turn unless this one has so much time left [s]. Whether there is as
   /// much then, and the work is not cancelled.
   bool wait_for(double cpu_s);
 
  private:
   void run();
   void pause();
-  double left_s() const { return limit_.cpu_s - timer_.cpu(); }
+  double left_s() const {
+    return std::min(limit_.cpu_s - timer_.cpu(), limit_.clock_s - timer_.wall());
+  }
 
   std::function<void()> work_;
   Limit limit_;

@@ -12,8 +12,6 @@ namespace {
 
 using namespace vehicle;
 
-/// The plant's integrator as the loop has it by default.
-constexpr double kPlantTolerance = 1e-9, kSampleStep = 0.02;
 /// The state predicted is that of the last plan up to this [its unit].
 constexpr double kSameState = 1e-7;
 /// This near to its arrival a plan is not improved on [s].
@@ -44,7 +42,7 @@ double gap(const State& a, const State& b) {
 
 VerifiedPlanner::VerifiedPlanner(const Task& task)
     : task_(task),
-      plant_(task_.vehicle, kPlantTolerance, kSampleStep),
+      plant_(Verifier::believed_plant(task_.vehicle)),
       tracker_(task_.vehicle, plant_),
       verifier_(task_, plant_),
       proposals_(task_, tracker_, verifier_) {
@@ -56,6 +54,24 @@ void VerifiedPlanner::reset() {
   course_.reset();
   errors_.clear();
   proposals_.turns().cancel();
+}
+
+void VerifiedPlanner::record(const Recorder& recorder) {
+  recorder_.reset();
+  if (recorder.wanted && recorder.take_plan) recorder_ = recorder;
+}
+
+/// Hands the plan to the recorder if it is wanted. The rest of a plan that goes on as it was is
+/// that plan's, which had its turn.
+void VerifiedPlanner::record_plan(const Cycle& cycle, const Plan& plan,
+                                  const Option& option) const {
+  if (!recorder_ || !recorder_->wanted(plan.report)) return;
+  if (plan.rung == Rung::rest && cycle.rest_unchanged) return;
+  const Need& need = option.proposal.verdict.need;
+  const Motion& motion = option.motion();
+  recorder_->take_plan({plan.rung, cycle.request.t0, cycle.tex(), need.clearance, need.wheel_load,
+                        need.seen.x, need.seen.y, need.seen.radius, cycle.obstacles, motion.t,
+                        motion.states, motion.controls, option.certificate()});
 }
 
 /// A state that the vehicle may be in: noise may say that a vehicle at rest goes backwards.
@@ -78,10 +94,9 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
 }
 
 std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) const {
-  std::vector<world::Obstacle> obstacles =
-      request.obstacles.empty() ? task_.obstacles : request.obstacles;
+  std::vector<world::Obstacle> obstacles = request.obstacles.value_or(task_.obstacles);
   if (task_.planner.known == Known::range) {
-    const Verifier::Seen seen = this->seen(request);
+    const Seen seen = this->seen(request);
     std::erase_if(obstacles, [&](const auto& o) {
       return world::distance(o, seen.x, seen.y, request.t0) > seen.radius;
     });
@@ -90,7 +105,7 @@ std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) cons
 }
 
 /// What the vehicle sees when it plans, at t0: there it is as far behind X0p as it drives by then.
-Verifier::Seen VerifiedPlanner::seen(const Request& request) const {
+Seen VerifiedPlanner::seen(const Request& request) const {
   const State& x = request.X0p;
   const double driven = x[UX] * (request.t_start - request.t0);
   return {x[X] - driven * std::cos(x[PSI]), x[Y] - driven * std::sin(x[PSI]),
@@ -98,12 +113,11 @@ Verifier::Seen VerifiedPlanner::seen(const Request& request) const {
 }
 
 /// What a new plan keeps: what it loses by errors as they were lately leaves enough for its rest.
-Verifier::Need VerifiedPlanner::need(const Cycle& cycle) const {
+Need VerifiedPlanner::need(const Cycle& cycle) const {
   const Settings& s = task_.planner;
   double error = 0;
   for (const auto& [when, size] : errors_) error = std::max(error, size);
-  Verifier::Need need{std::max(s.verified_clearance, s.kept_clearance + error),
-                      s.verified_wheel_load};
+  Need need{std::max(s.verified_clearance, s.kept_clearance + error), s.verified_wheel_load};
   if (s.known == Known::range && s.unseen == Unseen::standing) need.seen = seen(cycle.request);
   return need;
 }
@@ -249,7 +263,8 @@ void VerifiedPlanner::ask(Cycle& cycle) {
   if (leads) question.arrival = cycle.arrival();
   if (cycle.rest && cycle.trusts(*cycle.rest)) {
     const Motion& rest = cycle.rest->motion();
-    const double a_cycle = leads ? s.improvement_time : std::max(cycle.left(), 1e-3);
+    const double a_cycle =
+        leads ? cycle.for_better(s.improvement_time) : std::max(cycle.left(), 1e-3);
     const double ahead = std::ceil(expected_work_ / (Proposals::kPlacesPerSecond * a_cycle)) - 1;
     const double t = cycle.t_start() + std::max(ahead, 0.0) * cycle.tex();
     Motion lead = rest;
@@ -275,11 +290,11 @@ void VerifiedPlanner::look_further(Cycle& cycle) {
   if (!turns.under_way() && due(cycle)) ask(cycle);
   const double before = turns.cpu_s();
   double work = leads && !cycle.request.warm_up
-                    ? Proposals::kPlacesPerSecond * task_.planner.improvement_time
+                    ? Proposals::kPlacesPerSecond * cycle.for_better(task_.planner.improvement_time)
                     : std::numeric_limits<double>::infinity();
   while (turns.under_way() && work > 0 && !cycle.over()) {
     const double turn = std::min(work, kTurn);
-    turns.go_on({turn, cycle.left()});
+    turns.go_on({turn, cycle.left(), cycle.clock_left()});
     work -= turn;
     cycle.beside_s = turns.cpu_s() - before;
     cycle.iterations += proposals_.take_iterations();
@@ -360,6 +375,7 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   last_obstacles_ = cycle.obstacles;
   plan.report.cpu_s = plan.report.planning_cpu_s = cycle.cpu_s();
   plan.report.wall_s = cycle.timer.wall();
+  record_plan(cycle, plan, *last_);
   return plan;
 }
 

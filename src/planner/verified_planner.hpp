@@ -30,6 +30,7 @@ class VerifiedPlanner final : public PlanningMethod {
 
   Plan plan(const Request& request) override;
   void reset() override;
+  void record(const Recorder& recorder) override;
 
  private:
   /// A motion to the goal that cannot be driven to its end yet; none where it can.
@@ -67,11 +68,20 @@ class VerifiedPlanner final : public PlanningMethod {
     double tex() const { return std::max(request.t_start - request.t0, 1e-3); }
     double beyond() const { return std::max(kBeyond, kBeyondHorizons * tex()); }
     double cpu_s() const { return timer.cpu() + beside_s; }
+    /// Thread time left [s], and time by the clock.
     double left() const {
       return request.warm_up ? std::numeric_limits<double>::infinity()
                              : kShare * request.time_limit - cpu_s();
     }
-    bool over() const { return left() <= 0 || (request.interrupted && request.interrupted()); }
+    double clock_left() const {
+      return request.warm_up ? std::numeric_limits<double>::infinity()
+                             : kShare * request.clock_limit - timer.wall();
+    }
+    bool over() const {
+      return left() <= 0 || clock_left() <= 0 || (request.interrupted && request.interrupted());
+    }
+    /// Thread time for a better plan than one that leads to the goal [s].
+    double for_better(double wanted) const { return std::min(wanted, kBetterShare * tex()); }
     /// Verified; or, where verification is left out, as good as that.
     bool trusts(const Option& option) const {
       return option.certificate().verified || !verification;
@@ -95,12 +105,14 @@ class VerifiedPlanner final : public PlanningMethod {
     static constexpr double kBeyondHorizons = 2, kBeyond = 1;
     /// Share of its time that a cycle plans; the rest is for reading and choosing.
     static constexpr double kShare = 0.8;
+    /// Share of it in which a better plan is looked for, at the most.
+    static constexpr double kBetterShare = 0.3;
   };
 
   Request possible(Request request) const;
   std::vector<world::Obstacle> known(const Request& request) const;
-  Verifier::Seen seen(const Request& request) const;
-  Verifier::Need need(const Cycle& cycle) const;
+  Seen seen(const Request& request) const;
+  Need need(const Cycle& cycle) const;
   void note_error(const Cycle& cycle, double state_error);
   void continue_last(Cycle& cycle);
   Motion rest_of_last(Cycle& cycle);
@@ -120,12 +132,14 @@ class VerifiedPlanner final : public PlanningMethod {
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   const Option* chosen(const Cycle& cycle, Rung& rung);
   Plan choose(Cycle& cycle);
+  void record_plan(const Cycle& cycle, const Plan& plan, const Option& option) const;
 
   const Task task_;
   const vehicle::Plant plant_;
   Tracker tracker_;
   Verifier verifier_;
   Proposals proposals_;
+  std::optional<Recorder> recorder_;
   std::optional<Option> last_;                    ///< what is driven
   Motion made_;                                   ///< the same as it was when it was new
   Course course_;                                 ///< of which it drives the beginning

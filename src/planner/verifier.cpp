@@ -32,6 +32,9 @@ constexpr double kToComeBack = 1;
 /// Within the goal's square by this much counts as there [m].
 constexpr double kInside = 0.1;
 
+/// The plant's integrator as the loop has it by default.
+constexpr double kPlantTolerance = 1e-9, kSampleStep = 0.02;
+
 double speed(const Parameters& p, const State& x) {
   return std::hypot(x[UX], x[V] + p.la * x[R]);
 }
@@ -56,6 +59,10 @@ struct Verifier::Interval {
   const State &x0, &x1;
   Control u0, u1;
 };
+
+Plant Verifier::believed_plant(const Parameters& vehicle) {
+  return {vehicle, kPlantTolerance, kSampleStep};
+}
 
 void Verifier::refuse(double t, std::string why) {
   auto& certificate = verdict_.certificate;
@@ -176,6 +183,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   obstacles_ = &obstacles;
   need_ = need;
   verdict_ = {};
+  verdict_.need = need;
   verdict_.nearest.assign(obstacles.size(), inf);
   auto& certificate = verdict_.certificate;
   certificate.least_clearance = certificate.least_wheel_load = inf;

@@ -20,12 +20,24 @@ enum class MotionEnd {
   open      ///< neither
 };
 
-/// What verify() found.
+/// A disk outside which anything may stand [m].
+struct Seen {
+  double x = 0, y = 0, radius = std::numeric_limits<double>::infinity();
+};
+/// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N], and this
+/// distance within what is seen.
+struct Need {
+  double clearance, wheel_load;
+  Seen seen{};
+};
+
+/// What judge() found.
 struct Verdict {
   Certificate certificate;
   MotionEnd end = MotionEnd::open;
   double arrival = 0;           ///< when it arrives [s]
   std::vector<double> nearest;  ///< least distance to each obstacle's edge [m]
+  Need need{};                  ///< what was asked of it
   bool unseen = false;          ///< it is refused for nothing but leaving what is seen
 };
 
@@ -37,16 +49,8 @@ struct Verdict {
 /// thread-safe.
 class Verifier {
  public:
-  /// A disk outside which anything may stand [m].
-  struct Seen {
-    double x = 0, y = 0, radius = std::numeric_limits<double>::infinity();
-  };
-  /// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N], and this
-  /// distance within what is seen.
-  struct Need {
-    double clearance, wheel_load;
-    Seen seen{};
-  };
+  /// The plant as it is believed in, with the integrator that the loop has by default.
+  static vehicle::Plant believed_plant(const vehicle::Parameters& vehicle);
 
   /// Both outlive it.
   Verifier(const Task& task, const vehicle::Plant& plant) : task_(task), plant_(plant) {}

@@ -1,7 +1,11 @@
 #include "drive_data.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
+
+#include "slalom/sim/marks.hpp"
 
 namespace slalom::report {
 namespace {
@@ -26,6 +30,19 @@ Json exact(double value) {
 constexpr int kStateDigits[] = {4, 4, 5, 5, 5, 6, 4, 4};
 constexpr int kControlDigits[] = {6, 5};
 constexpr int kTimeDigits = 6;
+
+// What a page carries at the most, so that one of an hour's drive opens at once: samples of the
+// plant, nodes of all plans together, and cycles with the terms of their cost.
+constexpr std::size_t kMostSamples = 12'000, kMostNodes = 24'000, kMostTerms = 2'000;
+
+/// Which of `count` entries are kept of at most `most`: evenly, the first and last among them.
+std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> indices;
+  most = std::min(std::max<std::size_t>(most, 2), count);
+  for (std::size_t k = 0; k < most; ++k)
+    indices.push_back(most == 1 ? 0 : k * (count - 1) / (most - 1));
+  return indices;
+}
 
 Json scenario_data(const sim::Scenario& scenario) {
   const auto& v = scenario.vehicle;
@@ -58,7 +75,11 @@ Json scenario_data(const sim::Scenario& scenario) {
   json["loop"] = {{"tex", scenario.loop.tex},
                   {"sm_crash", scenario.loop.sm_crash},
                   {"Fz_failure", scenario.loop.Fz_failure}};
-  json["planner"] = {{"L_range", scenario.planner.L_range}};
+  const auto& planner = scenario.planner;
+  json["planner"] = {{"L_range", planner.L_range}};
+  json["planner"]["margins"] = planner.method == planner::Method::verified
+                                   ? Json::array({planner.verified_clearance})
+                                   : Json::array({planner.sm_start, planner.sm_end});
   return json;
 }
 
@@ -71,7 +92,8 @@ Json plant_data(const std::vector<sim::PlantSample>& plant) {
   controls.fill(Json::array());
   loads.fill(Json::array());
   auto clearance = Json::array();
-  for (const auto& sample : plant) {
+  for (const std::size_t k : kept(plant.size(), kMostSamples)) {
+    const auto& sample = plant[k];
     t.push_back(rounded(sample.t, kTimeDigits));
     for (std::size_t i = 0; i < vehicle::kStates; ++i)
       states[i].push_back(rounded(sample.state[i], kStateDigits[i]));
@@ -93,22 +115,23 @@ Json plant_data(const std::vector<sim::PlantSample>& plant) {
   return json;
 }
 
-Json plan_data(const planner::Plan& plan) {
+/// `nodes`: so many of its nodes at the most.
+Json plan_data(const planner::Plan& plan, std::size_t nodes) {
+  const auto indices = kept(plan.t.size(), nodes);
   Json json;
   json["t_start"] = rounded(plan.t_start, kTimeDigits);
   json["tf"] = rounded(plan.tf, kTimeDigits);
   json["held"] =
       plan.obstacle_time_held >= 0 ? rounded(plan.obstacle_time_held, kTimeDigits) : Json(nullptr);
   json["t"] = Json::array();
-  for (const double t : plan.t) json["t"].push_back(rounded(t, kTimeDigits));
+  for (const auto k : indices) json["t"].push_back(rounded(plan.t[k], kTimeDigits));
   for (std::size_t i = 0; i < vehicle::kStates; ++i) {
     auto& column = json[vehicle::kStateNames[i]] = Json::array();
-    for (const auto& state : plan.states) column.push_back(rounded(state[i], kStateDigits[i]));
+    for (const auto k : indices) column.push_back(rounded(plan.states[k][i], kStateDigits[i]));
   }
   for (std::size_t i = 0; i < vehicle::kControls; ++i) {
     auto& column = json[vehicle::kControlNames[i]] = Json::array();
-    for (const auto& control : plan.controls)
-      column.push_back(rounded(control[i], kControlDigits[i]));
+    for (const auto k : indices) column.push_back(rounded(plan.controls[k][i], kControlDigits[i]));
   }
   return json;
 }
@@ -137,7 +160,7 @@ void add_verification(Json& json, const planner::Plan& plan) {
   }
 }
 
-Json cycle_data(const sim::Cycle& cycle) {
+Json cycle_data(const sim::Cycle& cycle, std::size_t cycles) {
   const auto& report = cycle.plan.report;
   Json json;
   json["index"] = cycle.index;
@@ -152,12 +175,17 @@ Json cycle_data(const sim::Cycle& cycle) {
   json["cost"] = rounded(report.cost, 4);
   json["terms"] = Json::array();
   for (const auto& [name, value] : report.cost_terms)
-    json["terms"].push_back(Json::array({name, rounded(value, 4)}));
+    if (cycles <= kMostTerms) json["terms"].push_back(Json::array({name, rounded(value, 4)}));
   json["worst"] = report.worst_constraint;
+  if (!report.blocks.empty()) json["blocks"] = report.blocks;
   json["violation"] = exact(report.worst_violation);
   json["goal_in_range"] = cycle.plan.goal_in_range;
+  const sim::StartSlack slack = sim::start_slack(cycle);
+  json["start_slack"] = {rounded(slack.distance, 3), rounded(slack.heading * 180 / M_PI, 2)};
+  if (report.passage.depth > 0)
+    json["passage"] = {rounded(report.passage.depth, 3), report.passage.obstacle};
   add_verification(json, cycle.plan);
-  json["plan"] = plan_data(cycle.plan);
+  json["plan"] = plan_data(cycle.plan, kMostNodes / cycles);
   return json;
 }
 
@@ -169,9 +197,16 @@ nlohmann::ordered_json drive_data(const sim::Scenario& scenario, const sim::Driv
   json["goal_time"] = drive.goal_time ? exact(*drive.goal_time) : Json(nullptr);
   json["least_clearance_t"] =
       std::isfinite(drive.least_clearance) ? exact(drive.least_clearance_t) : Json(nullptr);
+  json["marks"] = Json::array();
+  for (const auto& mark : sim::marks(scenario, drive)) {
+    auto times = Json::array();
+    for (const double t : mark.times) times.push_back(rounded(t, kTimeDigits));
+    json["marks"].push_back({{"kind", mark.kind}, {"text", mark.text}, {"times", times}});
+  }
   json["plant"] = plant_data(drive.plant);
   json["cycles"] = Json::array();
-  for (const auto& cycle : drive.cycles) json["cycles"].push_back(cycle_data(cycle));
+  for (const auto& cycle : drive.cycles)
+    json["cycles"].push_back(cycle_data(cycle, drive.cycles.size()));
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include "drive_data.hpp"
 #include "html.hpp"
 #include "slalom/report/report.hpp"
+#include "slalom/sim/marks.hpp"
 #include "slalom/sim/verification.hpp"
 #include "viewer_assets.hpp"
 #include "words.hpp"
@@ -25,11 +26,12 @@ std::string facts(const sim::Scenario& scenario, const sim::Drive& drive) {
   std::string html;
   html += fact("Driven", number(drive.time, 2) + " s",
                drive.goal_time ? "goal entered at " + number(*drive.goal_time, 2) : "");
-  html += fact("Least clearance", number(drive.least_clearance, 2) + " m",
-               std::isfinite(drive.least_clearance)
-                   ? fmt::format("to {} at {} s", drive.least_clearance_obstacle,
-                                 number(drive.least_clearance_t, 2))
-                   : "no obstacle");
+  html +=
+      fact("Least clearance", number(drive.least_clearance, 2) + " m",
+           std::isfinite(drive.least_clearance)
+               ? fmt::format("beyond the {:g} m of a crash, to {} at {} s", scenario.loop.sm_crash,
+                             drive.least_clearance_obstacle, number(drive.least_clearance_t, 2))
+               : "no obstacle");
   html += fact("Mean speed", number(mean_speed(drive), 1) + " m/s");
   html += fact("Least wheel load",
                number(drive.plant.empty() ? NAN : drive.least_wheel_load, 0) + " N");
@@ -40,6 +42,15 @@ std::string facts(const sim::Scenario& scenario, const sim::Drive& drive) {
     html += fact("Cycles verified", fmt::format("{} of {}", v->cycles - v->unverified, v->cycles),
                  fmt::format("{} new, {} the rest of the last", v->of(planner::Rung::new_plan),
                              v->of(planner::Rung::rest)));
+  return html;
+}
+
+/// What the outcome does not tell, one paragraph each.
+std::string marks_html(const sim::Scenario& scenario, const sim::Drive& drive) {
+  std::string html;
+  for (const auto& mark : sim::marks(scenario, drive))
+    html += fmt::format("    <p class=\"mark\" data-kind=\"{}\">{}</p>\n", escape(mark.kind),
+                        escape(mark.text));
   return html;
 }
 
@@ -111,6 +122,7 @@ std::string drive_page(const sim::Scenario& scenario, const sim::Drive& drive) {
                {"outcome_words", escape(outcome_words(drive))},
                {"message", escape(drive.message)},
                {"facts", facts(scenario, drive)},
+               {"marks", marks_html(scenario, drive)},
                {"settings", settings},
                {"data", script_json(drive_data(scenario, drive))},
                {"script", script}});

@@ -56,8 +56,7 @@ class ClosedLoop {
   std::optional<End> turn(int index) {
     if (interrupted()) return End{Outcome::interrupted, "interrupted"};
     Cycle cycle = planning_.cycle(
-        index, timing_.next_cycle(), [this](double t) { return state_at(t); },
-        actuator_.commanded());
+        index, timing_.next_cycle(), [this](double t) { return state_at(t); }, actuator_);
     timing_.settle(cycle);
     auto end =
         interrupted() ? End{Outcome::interrupted, "interrupted while planning"} : carry_out(cycle);
@@ -91,17 +90,19 @@ class ClosedLoop {
       return End{Outcome::solve_time,
                  fmt::format("the solve of cycle {} took {:.3g} s, over {:.6g} s", cycle.index,
                              cycle.solve_time, loop_.solve_time_limit)};
-    if (to_be_driven(cycle.plan) || loop_.on_failure != OnFailure::stop) return std::nullopt;
-    return End{
-        Outcome::not_optimal,
-        fmt::format("the NLP of cycle {} was not solved: {}", cycle.index,
-                    report.solved ? "the plan has no usable controls" : report.status_text())};
+    if (cycle.late || to_be_driven(cycle.plan) || loop_.on_failure != OnFailure::stop)
+      return std::nullopt;
+    return End{Outcome::not_optimal,
+               fmt::format("the NLP of cycle {} was not solved: {}{}", cycle.index,
+                           report.solved ? "the plan has no usable controls" : report.status_text(),
+                           report.blocks.empty() ? "" : "; " + report.blocks)};
   }
 
   /// The plant takes the plan over, if it is one to be driven.
   void swap(Cycle& cycle) {
-    if (!to_be_driven(cycle.plan)) return;
-    actuator_.command(control_signal(cycle.plan), t_);
+    if (cycle.late || !to_be_driven(cycle.plan)) return;
+    // A plan for when it acts is commanded that much earlier.
+    actuator_.command(control_signal(cycle.plan).delayed(-planning_.known_actuator_delay()), t_);
     drive_.plant.back().control = actuator_.driven(t_).at(t_);
     cycle.used = true;
   }

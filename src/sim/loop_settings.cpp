@@ -48,6 +48,11 @@ const OptionTable<LoopSettings>& loop_options() {
         .real("best_iterate_tol", &L::best_iterate_tol, Range::non_negative(), "unit of the row",
               "Largest violation of a constraint with which best_iterate drives a plan that is not "
               "solved: metres of a defect of position, newtons of a wheel load.")
+        .boolean(
+            "compensate_delay", &L::compensate_delay,
+            "The planner knows of sensing.delay and plant.actuator_delay: it predicts from the "
+            "time of the measurement, by what the plant drove and will drive of what was "
+            "commanded, to when its plan acts, and the plan is commanded that much earlier.")
         .boolean("warm_up", &L::warm_up,
                  "Solve the first OCP once before the clock starts, as the paper warm-starts its "
                  "optimisations.",

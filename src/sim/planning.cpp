@@ -20,15 +20,37 @@ Planning::Planning(const Scenario& scenario, const Timing& timing, const PlanFun
       believed_(scenario.vehicle, scenario.loop.plant_tolerance, scenario.loop.sample_step),
       sensors_(scenario.sensing, scenario.plant.cg_shift) {}
 
+double Planning::known_actuator_delay() const {
+  return scenario_.loop.compensate_delay ? scenario_.plant.actuator_delay : 0;
+}
+
+/// The state when the plan of a cycle that begins at t0 acts: on from what is measured by what is
+/// commanded. A planner that knows of delays takes the measurement for what it is, a state some
+/// time ago, and the vehicle for driven by what was commanded before.
+vehicle::State Planning::predicted(const vehicle::State& measured, double t0,
+                                   const Actuator& actuator) const {
+  const double begin = timing_.plan_start(t0);
+  if (!scenario_.loop.compensate_delay)
+    return believed_.predict(measured, actuator.commanded(), t0, begin);
+  const double until = begin + known_actuator_delay();
+  vehicle::State state = measured;
+  for (double t = std::max(t0 - scenario_.sensing.delay, 0.0); t < until;) {
+    const double next = std::min(until, actuator.next_change(t));
+    state = believed_.predict(state, actuator.driven(t), t, next);
+    t = next;
+  }
+  return state;
+}
+
 Cycle Planning::cycle(int index, double t0, const History& history,
-                      const vehicle::ControlSignal& commanded) const {
+                      const Actuator& actuator) const {
   Cycle cycle;
   cycle.index = index;
   cycle.t0 = t0;
   cycle.tex = scenario_.loop.tex;
   try {
     const auto measured = sensors_.measured(history(t0 - scenario_.sensing.delay), index);
-    cycle.X0p = believed_.predict(measured, commanded, t0, timing_.plan_start(t0));
+    cycle.X0p = predicted(measured, t0, actuator);
   } catch (const vehicle::PlantError& error) {
     cycle.X0p.fill(std::nan(""));
     cycle.plan.report.status = planner::PlanStatus::no_prediction;
@@ -47,9 +69,10 @@ planner::Request Planning::request(const Cycle& cycle) const {
   planner::Request request;
   request.X0p = cycle.X0p;
   request.t0 = cycle.t0;
-  request.t_start = timing_.plan_start(cycle.t0);
+  request.t_start = timing_.plan_start(cycle.t0) + known_actuator_delay();
   request.obstacles = sensors_.believed(scenario_.obstacles, cycle.index, cycle.t0);
   request.time_limit = timing_.time_limit();
+  request.clock_limit = timing_.clock_limit();
   request.warm_up = cycle.index == 0;
   if (loop.on_failure == OnFailure::best_iterate) request.best_iterate_tol = loop.best_iterate_tol;
   request.interrupted = interrupted_;
@@ -57,7 +80,9 @@ planner::Request Planning::request(const Cycle& cycle) const {
 }
 
 Cycle Planning::first_cycle(int index) const {
-  return cycle(index, 0, [this](double) { return scenario_.start; }, {});
+  const Actuator still(scenario_.plant.actuator_delay);
+  return cycle(
+      index, 0, [this](double) { return scenario_.start; }, still);
 }
 
 std::optional<Cycle> Planning::warm_up() const {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "slalom/sim/actuator.hpp"
 #include "slalom/sim/closed_loop.hpp"
 #include "slalom/sim/sensing.hpp"
 #include "slalom/vehicle/control_signal.hpp"
@@ -24,10 +25,11 @@ class Planning {
   Planning(const Scenario& scenario, const Timing& timing, const PlanFunction& plan,
            const std::function<bool()>& interrupted);
 
-  /// Cycle `index`, which begins at t0 [s] with `commanded` under way. Its charge and its swap are
-  /// left to Timing::settle.
-  Cycle cycle(int index, double t0, const History& history,
-              const vehicle::ControlSignal& commanded) const;
+  /// Cycle `index`, which begins at t0 [s] with what `actuator` was commanded under way. Its charge
+  /// and its swap are left to Timing::settle.
+  Cycle cycle(int index, double t0, const History& history, const Actuator& actuator) const;
+  /// How long after it is commanded a plan acts, as far as the planner knows [s].
+  double known_actuator_delay() const;
   /// The same from the scenario's start.
   Cycle first_cycle(int index) const;
   /// The first OCP as cycle 0, before the clock starts; none if the scenario wants none.
@@ -37,6 +39,8 @@ class Planning {
 
  private:
   planner::Request request(const Cycle& cycle) const;
+  vehicle::State predicted(const vehicle::State& measured, double t0,
+                           const Actuator& actuator) const;
 
   const Scenario& scenario_;
   const Timing& timing_;

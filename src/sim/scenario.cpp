@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "slalom/base/error.hpp"
 #include "slalom/sim/latency.hpp"
 #include "slalom/vehicle/model.hpp"
@@ -10,6 +13,8 @@ namespace slalom::sim {
 namespace {
 
 using Keys = std::vector<std::string>;
+
+constexpr double kCrawl = 0.1;  // [m/s]
 
 void check_region(const world::Region& region, const std::string& where) {
   const auto side = [&](double lo, double hi, const std::string& axis) {
@@ -48,10 +53,13 @@ void require_within(const Scenario& s, vehicle::StateIndex index, double lo, dou
                     const Keys& low, const Keys& high, const std::string& where,
                     const std::string& reason) {
   const double value = s.start[index];
-  if (value >= lo && value <= hi) return;
+  // A heading is the same but for whole turns.
+  const double bounded =
+      index == vehicle::PSI ? std::remainder(value, 2 * std::numbers::pi) : value;
+  if (bounded >= lo && bounded <= hi) return;
   const std::string name = vehicle::kStateNames[index];
   Keys keys = {"start." + name};
-  const auto& others = value < lo ? low : high;
+  const auto& others = bounded < lo ? low : high;
   keys.insert(keys.end(), others.begin(), others.end());
   throw InvalidValue(where + ": start", fmt::format("{} = {:.9g}", name, value),
                      fmt::format("{:.9g} to {:.9g} ({})", lo, hi, reason), keys);
@@ -68,10 +76,11 @@ void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
   require(X, s.region.x_min, s.region.x_max, {"region.x_min"}, {"region.x_max"}, "the region");
   require(Y, s.region.y_min, s.region.y_max, {"region.y_min"}, {"region.y_max"}, "the region");
   const Keys psi = {"vehicle.psi_max"}, sa = {"vehicle.sa_max_deg"};
-  require(PSI, -car.psi_max, car.psi_max, psi, psi, "psi_max, in rad");
+  require(PSI, -car.psi_max, car.psi_max, psi, psi, "psi_max, in rad, but for whole turns");
   require(SA, -car.sa_max(), car.sa_max(), sa, sa, "sa_max_deg, in rad");
-  require(UX, car.ux_min, car.ux_max, {"vehicle.ux_min"}, {"vehicle.ux_max"},
-          "ux_min to ux_max, in m/s");
+  // A vehicle that may crawl may also stand.
+  require(UX, car.ux_min <= kCrawl ? 0 : car.ux_min, car.ux_max, {"vehicle.ux_min"},
+          {"vehicle.ux_max"}, "0 or ux_min to ux_max, in m/s");
   require(AX, car.ax_min_at(s.start[UX]), car.ax_max_at(s.start[UX]),
           {"start.ux", "vehicle.ax_min"}, {"start.ux", "vehicle.ax_max"},
           "ax_min to ax_max at the start's ux, in m/s^2");
@@ -98,6 +107,28 @@ void check_start_clear(const Scenario& s, const std::string& where) {
   }
 }
 
+/// A plan ends at the goal, within the region and off every obstacle that stands.
+void check_goal(const Scenario& s, const std::string& where) {
+  if (!s.region.contains(s.goal.x, s.goal.y))
+    throw InvalidValue(where + ": goal", fmt::format("({:.6g}, {:.6g})", s.goal.x, s.goal.y),
+                       "a goal within the region", {"goal", "region"});
+  const bool verifies = s.planner.method == planner::Method::verified;
+  const double margin = verifies ? s.planner.verified_clearance : s.planner.sm_end;
+  for (const auto& obstacle : s.obstacles) {
+    if (obstacle.moves()) continue;
+    const double clearance = world::distance(obstacle.grown(margin), s.goal.x, s.goal.y, 0);
+    if (!(clearance >= 0))
+      throw InvalidValue(
+          where + ": goal",
+          fmt::format("({:.6g}, {:.6g}), {:.6g} m inside obstacle {} grown by {} = {:.6g} m",
+                      s.goal.x, s.goal.y, -clearance, obstacle.name,
+                      verifies ? "verified_clearance" : "sm_end", margin),
+          "a goal outside every grown obstacle that stands",
+          {"goal", "obstacles." + obstacle.name,
+           verifies ? "planner.verified_clearance" : "planner.sm_end"});
+  }
+}
+
 }  // namespace
 
 void check(const Scenario& scenario, const std::string& where) {
@@ -113,6 +144,7 @@ void check(const Scenario& scenario, const std::string& where) {
                        "0, for planner model constant_speed holds the speed",
                        {"start.ax", "planner.model"});
   check_start_clear(scenario, where);
+  check_goal(scenario, where);
 }
 
 }  // namespace slalom::sim

@@ -64,9 +64,10 @@ vehicle::State Sensors::measured(vehicle::State state, int index) const {
   return state;
 }
 
-std::vector<world::Obstacle> Sensors::believed(const std::vector<world::Obstacle>& obstacles,
-                                               int index, double t0) const {
-  if (settings_.obstacle_velocity_factor == 1 && settings_.obstacle_position_noise == 0) return {};
+std::optional<std::vector<world::Obstacle>> Sensors::believed(
+    const std::vector<world::Obstacle>& obstacles, int index, double t0) const {
+  if (settings_.obstacle_velocity_factor == 1 && settings_.obstacle_position_noise == 0)
+    return std::nullopt;
   auto result = obstacles;
   for (std::uint32_t i = 0; i < result.size(); ++i) {
     auto& o = result[i];

@@ -1,6 +1,7 @@
 #include "timing.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace slalom::sim {
 namespace {
@@ -20,22 +21,33 @@ Timing::Timing(const LoopSettings& settings, planner::Method method)
       latency_(settings),
       deadline_(settings.deadline == Deadline::tex ||
                 (settings.deadline == Deadline::by_planner && !latency_.scripted() &&
-                 method == planner::Method::verified)) {}
+                 method == planner::Method::verified)),
+      verifies_(method == planner::Method::verified) {}
 
 double Timing::time_limit() const {
   return deadline_ && !latency_.scripted() ? std::min(settings_.tex, settings_.solve_time_limit)
                                            : settings_.solve_time_limit;
 }
 
+double Timing::clock_limit() const {
+  return deadline_ && settings_.latency == LatencyRule::measured
+             ? settings_.tex
+             : std::numeric_limits<double>::infinity();
+}
+
 void Timing::settle(Cycle& cycle) {
   cycle.charged = latency_.charge(cycle.index, cycle.solve_time);
   if (latency_.scripted()) {
     cycle.solve_time = cycle.charged;
-    if (deadline_ && cycle.charged > settings_.tex) cut_off(cycle, settings_.tex);
+    if (deadline_ && cycle.charged > settings_.tex) {
+      cut_off(cycle, settings_.tex);
+      cycle.late = verifies_;
+    }
   }
   ++horizons_;
   const double ready = cycle.t0 + cycle.charged;
   if (ready > next_cycle()) {
+    cycle.late = verifies_;
     grid_ = ready;
     horizons_ = 0;
   }

@@ -24,17 +24,22 @@ class Timing {
   /// What the planner may take of this thread's time [s]. A scripted rule holds the deadline
   /// against the time charged instead.
   double time_limit() const;
+  /// And by the wall clock, where that is what is charged [s].
+  double clock_limit() const;
 
   /// When the next cycle begins, and the one before ends [s].
   double next_cycle() const { return grid_ + horizons_ * settings_.tex; }
   /// Ends the cycle that began at next_cycle(): settles its charge and the time of its swap. By a
-  /// scripted rule its solve time is the charge, and a plan that misses the deadline is void.
+  /// scripted rule its solve time is the charge, and a plan that misses the deadline is void. A
+  /// late plan of a planner that verifies is no longer the one that was verified: the last one goes
+  /// on.
   void settle(Cycle& cycle);
 
  private:
   const LoopSettings& settings_;
   Latency latency_;
   bool deadline_;     ///< planning ends within tex
+  bool verifies_;     ///< the planner does
   double grid_ = 0;   ///< cycles begin at grid + k tex [s]
   int horizons_ = 0;  ///< k of the next one
 };

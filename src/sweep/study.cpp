@@ -13,6 +13,7 @@
 #include "slalom/base/kernels.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/io/version.hpp"
+#include "slalom/vehicle/derived.hpp"
 #include "study_axes.hpp"
 #include "study_bases.hpp"
 
@@ -179,6 +180,7 @@ sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& 
     const io::Place place{where + ": " + keys[i], 0, 0};
     io::apply_setting(keys[i], place, io::parse_argument(values.at(i), place.source), base, places);
   }
+  vehicle::derive(base.vehicle, io::stated_of_vehicle(keys));
   io::check_scenario(base, {where, 0, 0}, places);
   return base;
 }

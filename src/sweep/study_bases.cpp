@@ -11,6 +11,7 @@
 #include "../io/overrides.hpp"
 #include "axis_values.hpp"
 #include "slalom/io/scenario_file.hpp"
+#include "slalom/vehicle/derived.hpp"
 
 namespace slalom::sweep {
 namespace fs = std::filesystem;
@@ -151,10 +152,15 @@ class BaseReader {
     apply_to(bases_, scenario, [&] {
       if (const io::Value* set = root_.find("set")) {
         io::require_map(*set, "a map from key paths to values");
-        for (const auto& member : set->members)
+        std::vector<std::string> keys;
+        for (const auto& member : set->members) {
           io::apply_setting(member.key, member.place, member.value, scenario, places_);
+          keys.push_back(member.key);
+        }
+        vehicle::derive(scenario.vehicle, io::stated_of_vehicle(keys));
       }
       for (const auto& assignment : overrides_) io::apply_override(assignment, scenario, places_);
+      vehicle::derive(scenario.vehicle, io::stated_of_vehicle(overrides_));
     });
     return scenario;
   }

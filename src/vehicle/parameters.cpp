@@ -24,11 +24,20 @@ void add_body(OptionTable<Parameters>& table) {
             kTable)
       .real("width", &P::width, Range::positive(), "m", "Width as drawn; no equation uses it.")
       .real("length", &P::length, Range::positive(), "m", "Length as drawn; no equation uses it.")
-      .real("FzF0", &P::FzF0, Range::positive(), "N",
-            "Static load of the front axle; a number of its own, not derived from m, la and lb.",
-            kSection)
-      .real("FzR0", &P::FzR0, Range::positive(), "N",
-            "Static load of the rear axle; a number of its own, not derived from m, la and lb.",
+      .real(
+          "h", &P::h, Range::positive(), "m",
+          "Height of the c.g. No equation uses it; KZX, KZYR and KZYF follow from it where a file "
+          "states it and not them. The HMMWV's is the one that its KZX comes to.")
+      .real(
+          "track", &P::track, Range::positive(), "m",
+          "Distance between the wheels of an axle. No equation uses it; KZYR and KZYF follow from "
+          "it where a file states it and not them. The HMMWV's is the one that these come to.")
+      .real(
+          "FzF0", &P::FzF0, Range::positive(), "N",
+          "Static load of the front axle. Where a file states m, la or lb and not this, it follows "
+          "from them; the HMMWV's is a number of its own.",
+          kSection)
+      .real("FzR0", &P::FzR0, Range::positive(), "N", "Static load of the rear axle; else as FzF0.",
             kSection)
       .real("KZX", &P::KZX, Range::non_negative(), "N/(m/s^2)",
             "Load moved from the front axle to the rear by 1 m/s^2 of ax - v r.", kTable)

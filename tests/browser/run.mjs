@@ -219,6 +219,42 @@ function changedPage(name, change, report = join(driveDir, 'report.html')) {
   return file;
 }
 
+describe('the page of a drive from west to east', () => {
+  /** The drive turned by a quarter: x is y, and y is -x. */
+  const turned = (data) => {
+    const turn = (o, names) => {
+      for (const [x, y] of names) if (o[x] !== undefined) {
+        const minus = Array.isArray(o[x]) ? o[x].map((v) => -v) : -o[x];
+        [o[x], o[y]] = [o[y], minus];
+      }
+    };
+    for (const part of [data.start, data.goal, data.plant, ...data.cycles.map((c) => c.plan), ...data.obstacles]) {
+      turn(part, [['x', 'y'], ['vx', 'vy']]);
+      if (part.psi) part.psi = Array.isArray(part.psi) ? part.psi.map((v) => v - Math.PI / 2) : part.psi;
+    }
+    data.region = { x_min: null, x_max: null, y_min: null, y_max: null };
+    data.marks = [{ kind: 'wheel_load', text: 'a mark', times: [1, 3] }];
+  };
+
+  test('has a stage that is wider than high, above the charts, and margins that can be drawn', async () => {
+    const browser = await openBrowser();
+    try {
+      const { page, complaints } = await browser.open(changedPage('east', turned), '#t=2');
+      const stage = await (await page.$('#stage')).boundingBox();
+      const charts = await (await page.$('#charts')).boundingBox();
+      assert.ok(stage.width > 2 * stage.height && stage.y + stage.height <= charts.y);
+      const before = await lookAt(page, ['vermilion']);
+      await page.check('#layer-margins');
+      assert.ok((await lookAt(page, ['vermilion'])).vermilion.count > before.vermilion.count);
+      assert.equal((await page.$$('#marks i[title="a mark"]')).length, 2);
+      await page.screenshot({ path: join(out, 'east.png'), fullPage: true });
+      assert.deepEqual(complaints, []);
+    } finally {
+      await browser.close();
+    }
+  });
+});
+
 describe('the page of a drive of verified plans', () => {
   const verifiedReport = join(verifiedDir, 'report.html');
   const refused = 'clearance to <O2> at 3.5 s';

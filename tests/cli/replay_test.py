@@ -69,6 +69,29 @@ class Replay(ProgramTest):
             result = run("replay", self.write("bit.json", json.dumps(recorded)), "--quiet")
             self.assertEqual((result.code, result.out, result.err), (1, "", ""), key)
 
+    def test_plans_that_are_verified_are_verified_again(self):
+        folder = self.folder / "plans"
+        result = run("simulate", "E_B", "--planner", "P_E", *FAST, "--set", "sensing.position_noise=0.05",
+                     "--record-failures", folder, "--record-slow", "0")
+        self.assertEqual(result.code, 0, result.err)
+        files = sorted(folder.glob("cycle-*.json"))
+        self.assertGreaterEqual(len(files), 4)
+        for path in files:
+            result = run("replay", path, "--json")
+            self.assertEqual(result.code, 0, result.out + result.err)
+            self.assertTrue(json.loads(result.out)["same"])
+        recorded = json.loads(files[1].read_text())
+        self.assertEqual(recorded["format"], "slalom recorded plan 1")
+        # A plan that was moved by a centimetre keeps something else.
+        for state in recorded["states"]:
+            state[0] += 0.01
+        result = run("replay", self.write("moved.json", json.dumps(recorded)))
+        self.assertEqual(result.code, 1, result.out + result.err)
+        self.assertIn("NOT the same", result.out)
+        recorded["controls"].pop()
+        self.assert_refused(run("replay", self.write("short.json", json.dumps(recorded))), 2,
+                            "controls", "as t has")
+
     def test_bad_files(self):
         whole = json.loads(self.record("--record-slow", "0")["cycle-1.json"].read_text())
 

@@ -77,7 +77,7 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "search_places",
                            "improvement_places"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 62u);
+  EXPECT_EQ(names.size(), 65u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

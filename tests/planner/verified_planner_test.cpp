@@ -115,7 +115,7 @@ TEST(VerifiedPlanner, WhatComesIntoTheWayIsAvoided) {
   // Where the plan would be in 4 s.
   const State there = plan.states[std::min<std::size_t>(plan.states.size() - 1, 90)];
   request.obstacles = t.obstacles;
-  request.obstacles.push_back({"new", there[X], there[Y], 3, 3, 0, 0});
+  request.obstacles->push_back({"new", there[X], there[Y], 3, 3, 0, 0});
   const Plan other = planner.plan(request);
   EXPECT_EQ(other.rung, Rung::new_plan);
   EXPECT_TRUE(other.certificate.verified);

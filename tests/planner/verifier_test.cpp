@@ -14,7 +14,7 @@ using namespace vehicle;
 struct Scene : ::testing::Test {
   Task task;
   Motion motion;
-  Verifier::Need need{2.15, 400};
+  Need need{2.15, 400};
 
   Scene() {
     task.vehicle.tyre_asymmetry = false;

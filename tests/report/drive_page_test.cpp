@@ -61,6 +61,46 @@ TEST(DrivePage, IsSelfContained) {
       std::regex_search(page, std::regex("url\\((?!#)|@import|https?://(?!www\\.w3\\.org)")));
 }
 
+TEST(DrivePage, OfAnHoursDriveIsSmall) {
+  auto drive = synthetic_drive();
+  const auto sample = drive.plant.back();
+  const auto cycle = drive.cycles.back();
+  const double first = drive.plant.front().t;
+  drive.plant.clear();
+  drive.cycles.resize(1);
+  for (int k = 0; k < 180'000; ++k) {
+    drive.plant.push_back(sample);
+    drive.plant.back().t = first + 0.02 * k;
+  }
+  for (int k = 1; k <= 7'200; ++k) {
+    drive.cycles.push_back(cycle);
+    drive.cycles.back().index = k;
+  }
+  const auto page = drive_page(synthetic_scenario(), drive);
+  EXPECT_LT(page.size(), 5'000'000u);
+  const auto data = page_data(page);
+  EXPECT_EQ(data["plant"]["t"].front(), first);
+  EXPECT_NEAR(data["plant"]["t"].back(), drive.plant.back().t, 1e-6);
+  const auto& plan = data["cycles"].back()["plan"];
+  EXPECT_EQ(plan["x"].size(), plan["t"].size());
+  EXPECT_DOUBLE_EQ(plan["t"].back(), cycle.plan.t.back());
+}
+
+TEST(DrivePage, SaysWhatTheOutcomeDoesNot) {
+  auto drive = synthetic_drive();
+  auto& plan = drive.cycles[2].plan;
+  plan.report.status = planner::PlanStatus::passes_through;
+  plan.report.passage = {1.25, "O<2>", 3};
+  drive.cycles[1].plan.report.blocks = "O1 in the way";
+  const auto page = drive_page(synthetic_scenario(), drive);
+  EXPECT_EQ(count(page, "data-kind=\"passes_through\">1 plan goes through an obstacle"), 1);
+  EXPECT_EQ(count(page, "1.25 m into the margin of O&lt;2&gt; at 3.00 s"), 1);
+  const auto data = page_data(page);
+  EXPECT_EQ(data["marks"][0]["times"][0], drive.cycles[2].t_swap);
+  EXPECT_EQ(data["cycles"][2]["passage"][1], "O<2>");
+  EXPECT_EQ(data["cycles"][1]["blocks"], "O1 in the way");
+}
+
 TEST(DrivePage, WithstandsOddDrives) {
   for (const auto& odd : odd_drives()) {
     SCOPED_TRACE(odd.name);

@@ -163,16 +163,37 @@ TEST(Belief, ObstaclesHitWhereTheyAreAndArePlannedForWhereTheyAreBelieved) {
   auto s = field();
   s.obstacles = {testing::circle("O1", 30, 40, 2, -12, 0)};
   const auto told = driven(s, testing::straight_on);
-  EXPECT_TRUE(told.asked.front().obstacles.empty());
+  EXPECT_FALSE(told.asked.front().obstacles);
   s.sensing.obstacle_velocity_factor = 0;
   const auto blind = driven(s, testing::straight_on);
   EXPECT_EQ(blind.drive.outcome, Outcome::crash);
   EXPECT_EQ(blind.drive.time, told.drive.time);
   for (const auto& request : blind.asked) {
-    ASSERT_EQ(request.obstacles.size(), 1u);
-    EXPECT_EQ(request.obstacles[0].vx, 0);
-    EXPECT_DOUBLE_EQ(request.obstacles[0].x_at(99), 30 - 12 * request.t0);
+    ASSERT_EQ(request.obstacles->size(), 1u);
+    EXPECT_EQ(request.obstacles->front().vx, 0);
+    EXPECT_DOUBLE_EQ(request.obstacles->front().x_at(99), 30 - 12 * request.t0);
   }
+}
+
+TEST(Belief, KnownDelaysAreCompensatedByPrediction) {
+  for (const double sensing : {0., 0.13})
+    for (const double actuator : {0., 0.21, 0.7}) {
+      auto s = field();
+      s.sensing.delay = sensing;
+      s.plant.actuator_delay = actuator;
+      s.loop.compensate_delay = true;
+      const auto told = driven(s);
+      ASSERT_GE(told.asked.size(), 5u);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto& request = told.asked[k];
+        EXPECT_DOUBLE_EQ(request.t_start, request.t0 + s.loop.tex + actuator);
+        if (request.t_start > s.loop.timeout) continue;
+        // The state that it plans from is the one that the vehicle is in when the plan acts.
+        const auto& sample = sample_at(told.drive, request.t_start);
+        ASSERT_NEAR(sample.t, request.t_start, 1e-6);
+        expect_near(request.X0p, sample.state, 1e-5);
+      }
+    }
 }
 
 TEST(Belief, BadSettingsAreRefused) {

@@ -61,6 +61,22 @@ TEST(Latency, ALatePlanTakesEffectWhenItIsReadyAndTheOldOneRunsOn) {
   EXPECT_EQ(d.cycles[1].charged, 0.8);
 }
 
+TEST(Latency, ALatePlanOfAPlannerThatVerifiesIsNotDrivenAndTheLastGoesOn) {
+  auto s = open_field();
+  s.planner.method = planner::Method::verified;
+  s.loop.latency = LatencyRule::recorded;
+  s.loop.deadline = Deadline::tex;
+  s.loop.solve_times = {0.1, 0.7, 0.1};
+  s.loop.timeout = 3;
+  const auto d = drive(s, testing::wavy);
+  EXPECT_EQ(d.outcome, Outcome::timeout) << d.message;
+  ASSERT_GE(d.cycles.size(), 3u);
+  EXPECT_TRUE(d.cycles[0].used);
+  EXPECT_TRUE(d.cycles[1].late);
+  EXPECT_FALSE(d.cycles[1].used);
+  EXPECT_TRUE(d.cycles[2].used);
+}
+
 TEST(Latency, ScriptedTimesWithinTheHorizonGiveThePapersDrive) {
   auto paper = open_field();
   paper.loop.timeout = 4;

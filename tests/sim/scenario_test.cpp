@@ -53,10 +53,15 @@ TEST(Scenario, DefaultsAndLimitsAreAccepted) {
 }
 
 TEST(Scenario, StartOutsideItsBoundsIsRefused) {
-  expect_refused([](Scenario& s) { s.start[vehicle::PSI] = 7; }, "start: found psi = 7, expected");
+  expect_refused(
+      [](Scenario& s) {
+        s.start[vehicle::PSI] = 7.5;
+        s.vehicle.psi_max = 1;
+      },
+      "start: found psi = 7.5, expected");
   expect_refused([](Scenario& s) { s.start[vehicle::SA] = -.6; }, "start: found sa = -0.6");
   expect_refused([](Scenario& s) { s.start[vehicle::UX] = 29.5; }, "start: found ux = 29.5");
-  expect_refused([](Scenario& s) { s.start[vehicle::UX] = 0; }, "start: found ux = 0");
+  expect_refused([](Scenario& s) { s.start[vehicle::UX] = -0.1; }, "start: found ux = -0.1");
   expect_refused([](Scenario& s) { s.start[vehicle::AX] = 2; }, "start: found ax = 2");
   expect_refused([](Scenario& s) { s.start[vehicle::AX] = -6; }, "start: found ax = -6");
   expect_refused([](Scenario& s) { s.region.x_min = .5; }, "start: found x = 0");
@@ -69,6 +74,17 @@ TEST(Scenario, StartInsideAGrownObstacleIsRefused) {
   expect_refused([](Scenario& s) { s.obstacles[0] = testing::circle("O1", 5.9, 0, 4); },
                  "inside obstacle O1 grown by sm_crash = 2 m");
   expect_refused([](Scenario& s) { s.obstacles[0] = {"O2", 0, 4.9, 50, 3, 0, 0}; }, "O2");
+}
+
+TEST(Scenario, AGoalThatNoPlanMayEndAtIsRefused) {
+  expect_refused(
+      [](Scenario& s) { s.obstacles[0] = testing::circle("blob", s.goal.x, s.goal.y + 5, 2); },
+      "goal: found (0, 1000), 1 m inside obstacle blob grown by sm_end = 4 m");
+  expect_refused([](Scenario& s) { s.region.y_max = 900; }, "a goal within the region");
+  EXPECT_EQ(message([](Scenario& s) {
+              s.obstacles[0] = testing::circle("passes", s.goal.x, s.goal.y, 2, 1);
+            }),
+            "accepted");
 }
 
 TEST(Scenario, ObstaclesGoalAndRegionAreChecked) {
@@ -156,11 +172,11 @@ TEST(Scenario, EveryLoopSettingIsAnOption) {
     EXPECT_FALSE(entry.info.doc.empty());
     EXPECT_NO_THROW((void)entry.info.checked(entry.get(defaults), "defaults")) << entry.info.name;
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"tex", "timeout", "solve_time_limit", "deadline", "on_failure",
-                                   "best_iterate_tol", "warm_up", "sm_crash", "Fz_failure",
-                                   "plant_tolerance", "sample_step", "latency", "solve_times",
-                                   "latency_median", "latency_spread", "latency_seed"}));
+  EXPECT_EQ(names, (std::set<std::string>{"tex", "timeout", "solve_time_limit", "deadline",
+                                          "on_failure", "best_iterate_tol", "warm_up", "sm_crash",
+                                          "Fz_failure", "plant_tolerance", "sample_step", "latency",
+                                          "solve_times", "latency_median", "latency_spread",
+                                          "latency_seed", "compensate_delay"}));
   LoopSettings loop;
   loop_options().set(loop, *loop_options().find("on_failure"), std::string("last_plan"), "test");
   EXPECT_EQ(loop.on_failure, OnFailure::last_plan);

@@ -29,7 +29,7 @@ SensingSettings noisy() {
 TEST(Sensors, DefaultsTellTheTruthToTheBit) {
   const Sensors sensors({}, 0);
   EXPECT_EQ(sensors.measured(kState, 3), kState);
-  EXPECT_TRUE(sensors.believed({testing::circle("O1", 1, 2, 3, 4, 5)}, 3, 2).empty());
+  EXPECT_FALSE(sensors.believed({testing::circle("O1", 1, 2, 3, 4, 5)}, 3, 2));
 }
 
 TEST(Sensors, NoiseHasNoBiasAndTheDeviationAskedFor) {
@@ -84,7 +84,7 @@ TEST(Sensors, ObstaclesStandWhereTheyAreAndErrFromThereOn) {
   const std::vector<world::Obstacle> real = {testing::circle("O1", 10, 20, 3, -2, 5),
                                              testing::circle("cone", 1, 2, 0.5)};
   const double t0 = 6.5;
-  const auto believed = Sensors(settings, 0).believed(real, 2, t0);
+  const auto believed = Sensors(settings, 0).believed(real, 2, t0).value();
   ASSERT_EQ(believed.size(), 2u);
   EXPECT_EQ(believed[0].name, "O1");
   EXPECT_EQ(believed[0].a, 3);
@@ -102,7 +102,7 @@ TEST(Sensors, ObstaclesHaveNoiseOfTheirOwn) {
   double square = 0;
   constexpr int kCycles = 1000;
   for (int k = 0; k < kCycles; ++k) {
-    const auto told = sensors.believed(real, k, 0);
+    const auto told = sensors.believed(real, k, 0).value();
     EXPECT_NE(told[0].x, told[1].x);
     EXPECT_NE(told[1].x, told[2].x);
     for (const auto& o : told)

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace slalom::sim {
 namespace {
 
@@ -90,6 +92,25 @@ TEST(Timing, ALatePlanBeginsAnotherGrid) {
     EXPECT_EQ(cycle.t_swap, swaps[k]) << k;
     EXPECT_EQ(timing.next_cycle(), swaps[k]) << k;
   }
+}
+
+TEST(Timing, ALatePlanOfAPlannerThatVerifiesIsNotTheOneThatWasVerified) {
+  for (const auto rule : {LatencyRule::measured, LatencyRule::recorded}) {
+    auto settings = by(rule, {0.1, 0.75});
+    settings.deadline = Deadline::tex;
+    Timing timing(settings, planner::Method::verified), of_others(settings);
+    EXPECT_FALSE(settled(timing, 1, 0.1).late);
+    EXPECT_TRUE(settled(timing, 2, 0.75).late);
+    EXPECT_FALSE(settled(of_others, 1, 0.1).late);
+    EXPECT_FALSE(settled(of_others, 2, 0.75).late);
+  }
+}
+
+TEST(Timing, WhereTheClockIsChargedItLimitsAPlannerThatVerifies) {
+  const auto measured = by(LatencyRule::measured), paper = by(LatencyRule::paper);
+  EXPECT_EQ(Timing(measured, planner::Method::verified).clock_limit(), 0.5);
+  EXPECT_EQ(Timing(paper, planner::Method::verified).clock_limit(), HUGE_VAL);
+  EXPECT_EQ(Timing(measured).clock_limit(), HUGE_VAL) << "it has no deadline";
 }
 
 TEST(Timing, AScriptedChargeIsTheSolveTimeAndTheDeadlineIsHeldAgainstIt) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 
 #include "slalom/planner/recording.hpp"
 #include "slalom/sim/scenario.hpp"
@@ -13,10 +14,18 @@ struct RecordedSolve {
   planner::Recording recording;
 };
 
+/// A recorded plan of a planner that verifies, with its scenario.
+struct RecordedMotion {
+  sim::Scenario scenario;
+  planner::RecordedPlan plan;
+};
+using Recorded = std::variant<RecordedSolve, RecordedMotion>;
+
 /// One JSON file (docs/output-files.md), from which read_recording takes the same bits.
 std::string to_json(const RecordedSolve& solve);
+std::string to_json(const RecordedMotion& motion);
 /// Throws InvalidValue with the file, the key, what was found and what was expected.
-RecordedSolve read_recording(const std::string& file);
+Recorded read_recording(const std::string& file);
 
 /// Creates (with parents) a folder for recorded solves, removing those of an earlier drive if
 /// `force`; throws Error when it holds any and `force` is false, or when it cannot be written.

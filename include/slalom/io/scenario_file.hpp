@@ -21,6 +21,9 @@ struct ScenarioRequest {
 /// "--set key.path" for overrides), what was found and what was expected; unknown keys name the
 /// nearest known one.
 sim::Scenario load_scenario(const ScenarioRequest& request);
+/// The same, with what a reader of the scenario should know of it in sentences: what its vehicle
+/// takes from the one that it is based on, and sim::advice().
+sim::Scenario load_scenario(const ScenarioRequest& request, std::vector<std::string>& advice);
 
 /// The same for the text of a scenario file that came from `source`.
 sim::Scenario parse_scenario(const std::string& text, const std::string& source);
@@ -31,9 +34,9 @@ sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& req
 /// The whole scenario as one YAML file that load_scenario reads back to the same bits.
 std::string to_yaml(const sim::Scenario& scenario);
 
-/// The settings of loop, plant, sensing, planner and vehicle by key ("planner.w_t"), in the order
-/// of files.
-std::vector<std::pair<std::string, OptionValue>> settings_of(const sim::Scenario& scenario);
+/// All values by the key that sets them ("planner.w_t", "start.ux", "obstacles.O2.vy"), in the
+/// order of files, obstacles last. Sides that the region has not are infinite.
+std::vector<std::pair<std::string, OptionValue>> values_of(const sim::Scenario& scenario);
 
 /// A built-in configuration file.
 struct BuiltIn {

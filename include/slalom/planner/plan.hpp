@@ -21,20 +21,29 @@ enum class PlanStatus {
   too_few_freedoms = static_cast<int>(nlp::Status::too_few_freedoms),
   interrupted = static_cast<int>(nlp::Status::interrupted),
   numerical_failure = static_cast<int>(nlp::Status::numerical_failure),
-  not_confirmed,  ///< the solver says solved, and the residuals deny it
-  no_prediction,  ///< there was no state to plan from, for it could not be predicted
-  unverified,     ///< the least bad motion, driven although it could not be verified
+  not_confirmed,   ///< the solver says solved, and the residuals deny it
+  no_prediction,   ///< there was no state to plan from, for it could not be predicted
+  unverified,      ///< the least bad motion, driven although it could not be verified
+  passes_through,  ///< solved, and between its nodes the plan goes through an obstacle
 };
 /// The word that files have: the solver's, "not_confirmed" or "no prediction".
 const char* to_string(PlanStatus status);
 /// What the solver says, taken over.
 PlanStatus plan_status(nlp::Status status);
 
+/// Where a plan goes into an obstacle's margin between its nodes.
+struct Passage {
+  double depth = 0;      ///< [m]; 0: nowhere
+  std::string obstacle;  ///< its name
+  double t = 0;          ///< absolute time [s]
+};
+
 /// Residuals and cost of one solve, in the user's units.
 struct SolveReport {
   bool solved = false;  ///< the solver says so, and so do the residuals below
   PlanStatus status = PlanStatus::numerical_failure;
-  std::string detail;         ///< what the status leaves open: why there is no prediction
+  std::string
+      detail;  ///< what the status leaves open: why there is no prediction, or what it passes
   bool best_iterate = false;  ///< not solved, and within Request::best_iterate_tol: to be driven
   std::string backend;        ///< which solver answered
   int iterations = 0;
@@ -45,8 +54,12 @@ struct SolveReport {
   double phi = 0;                ///< barrier function f - mu sum log s at the floor
   double worst_violation = 0;    ///< largest constraint violation, in the constraint's unit
   std::string worst_constraint;  ///< its name, e.g. "obstacle[O2] at node 3"
-  double stationarity = 0;       ///< largest component of the Lagrangian's gradient
-  double complementarity = 0;    ///< largest |s z / mu - 1|, or |s z| without floor
+  /// Of a plan that is not solved, what is in the way, in metres where it is an obstacle; else
+  /// empty.
+  std::string blocks;
+  double stationarity = 0;     ///< largest component of the Lagrangian's gradient
+  double complementarity = 0;  ///< largest |s z / mu - 1|, or |s z| without floor
+  Passage passage;             ///< the deepest, by the smaller of sm_start and sm_end
 
   /// The status in a word, with ": " and the detail behind it where there is one.
   std::string status_text() const;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "slalom/planner/plan.hpp"
@@ -17,18 +18,21 @@ struct Request {
   double t0 = 0;         ///< absolute time of planning [s]
   double t_start = 0.5;  ///< absolute time at which the plan begins: t0 + tex [s]
   double time_limit = std::numeric_limits<double>::infinity();  ///< thread time of planning [s]
+  /// By the wall clock [s]: the plan is of no use later. For planners that verify.
+  double clock_limit = std::numeric_limits<double>::infinity();
   /// Nothing is driven while it plans, so that a planner that shares its time out over cycles need
   /// not.
   bool warm_up = false;
   /// A plan that is not solved, but violates no row or bound by more than this [its unit], is one
   /// to be driven, and the next solve starts from it. Negative: none is.
   double best_iterate_tol = -1;
-  /// As measured in this cycle, in the order and with the names that the planner was made with;
-  /// empty: as it was made.
-  std::vector<world::Obstacle> obstacles;
+  /// As measured in this cycle, as many as there are, their positions those at t = 0; those of one
+  /// name are one from cycle to cycle. Nothing: as the planner was made with.
+  std::optional<std::vector<world::Obstacle>> obstacles;
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
 
+class LocalFrame;
 class PlanningMethod;
 
 /// Plans one trajectory in each cycle, by the method of its settings. The paper's solves the OCP of
@@ -52,7 +56,10 @@ class Planner {
   void record(const Recorder& recorder);
 
  private:
+  std::unique_ptr<LocalFrame> frame_;
   std::unique_ptr<PlanningMethod> method_;
+  bool goes_on_;  ///< the method compares a plan's states with the next request's
+  bool begun_ = false;
 };
 
 }  // namespace slalom::planner

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "slalom/base/kernels.hpp"
@@ -13,7 +15,8 @@
 namespace slalom::planner {
 
 /// All that one solve of a planner depends on beside the planner's own settings, and how it ended:
-/// enough to solve it again to the same bits.
+/// enough to solve it again to the same bits. Places and headings are in the planner's own frame,
+/// which may be moved from the task's (docs/design.md, "Frames").
 struct Recording {
   vehicle::State X0p{};  ///< of the Request
   double t0 = 0, t_start = 0.5;
@@ -24,16 +27,34 @@ struct Recording {
 
   nlp::Status status = nlp::Status::numerical_failure;
   int iterations = 0;
-  double phi = 0;                          ///< of nlp::check at `end`
-  double cpu_s = 0, wall_s = 0;            ///< of the solve
-  nlp::Start end;                          ///< the answer's point
-  std::vector<world::Obstacle> obstacles;  ///< of the Request
+  double phi = 0;                                         ///< of nlp::check at `end`
+  double cpu_s = 0, wall_s = 0;                           ///< of the solve
+  nlp::Start end;                                         ///< the answer's point
+  std::optional<std::vector<world::Obstacle>> obstacles;  ///< of the Request
 };
 
-/// Which solves a planner records, and where to.
+/// A plan of a planner that verifies, with all that its certificate depends on beside vehicle, goal
+/// and region: enough to verify it again to the same bits.
+struct RecordedPlan {
+  Rung rung = Rung::none;
+  double t0 = 0;   ///< of the Request
+  double tex = 0;  ///< between the loop's looks for arrival [s]
+  // What was asked of it: distance from obstacles' edges [m], wheel loads [N], and to stay within a
+  // disk outside which anything may stand [m].
+  double clearance = 0, wheel_load = 0;
+  double seen_x = 0, seen_y = 0, seen_radius = std::numeric_limits<double>::infinity();
+  std::vector<world::Obstacle> obstacles;  ///< as believed
+  std::vector<double> t;                   ///< absolute [s]
+  std::vector<vehicle::State> states;
+  std::vector<vehicle::Control> controls;
+  Certificate certificate;
+};
+
+/// Which solves or plans a planner records, and where to.
 struct Recorder {
   std::function<bool(const SolveReport&)> wanted;
   std::function<void(const Recording&)> take;
+  std::function<void(const RecordedPlan&)> take_plan;
 };
 
 /// A recorded solve, solved again.
@@ -48,5 +69,10 @@ struct Replayed {
 /// cut off by time or by the user ends at the same iteration instead. Throws Error for a kernel set
 /// that the processor lacks, InvalidValue for a start that is none of this problem.
 Replayed replay(const Recording& recording, const Task& task);
+
+/// What a recorded plan is found to keep when the plant as it is believed in is driven by it again.
+Certificate verify_again(const RecordedPlan& recording, const Task& task);
+/// Whether two certificates are one, to the last bit.
+bool same(const Certificate& one, const Certificate& other);
 
 }  // namespace slalom::planner

@@ -22,6 +22,10 @@ enum class ObstacleConstraint { hard, soft };
 /// The obstacles that a plan avoids.
 enum class ObstacleChoice { all, in_reach, nearest };
 
+/// What becomes of a plan that goes through an obstacle between its nodes: nothing; it says so; it
+/// is solved again on finer meshes.
+enum class BetweenNodes { ignore, report, refine };
+
 /// How a planner plans: the paper's OCP over a receding horizon, or whole ways to the goal of which
 /// none is driven before it is verified.
 enum class Method { receding_horizon, verified };
@@ -49,6 +53,9 @@ struct Settings {
   double obstacle_group_gap = 0;  ///< nearer ones become one ellipse [m]; 0: none
   ObstacleConstraint obstacle_constraint = ObstacleConstraint::hard;
   double w_obstacle = 1000;  ///< of `soft`: weight of the rows' excess (l1) [1/s]
+  BetweenNodes between_nodes = BetweenNodes::report;
+  double passage_depth = 0.5;  ///< a plan may go into a margin between its nodes [m]
+  bool retry_sides = false;    ///< try again from the left and the right before there is no plan
 
   /// The vehicle as the planner has it, whatever drives.
   vehicle::ModelKind model = vehicle::ModelKind::pacejka;

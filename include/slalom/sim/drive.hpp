@@ -37,6 +37,7 @@ struct Cycle {
   double t_swap = 0;      ///< when the plan took effect, or would have [s]
   vehicle::State X0p{};   ///< state from which it plans: predicted for t0 + tex, unless instant
   planner::Plan plan;     ///< with its solve report; nodes as the solver left them
+  bool late = false;      ///< of a planner that verifies: the plan was there too late to be driven
   bool used = false;      ///< the plant took this plan over at t_swap (false: warm-up, failed, or
                           ///< the drive ended first)
 };

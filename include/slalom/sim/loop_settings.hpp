@@ -35,6 +35,7 @@ struct LoopSettings {
   int latency_seed = 0;
   OnFailure on_failure = OnFailure::stop;
   double best_iterate_tol = 1e-3;  ///< largest violation of a best iterate to be driven [its unit]
+  bool compensate_delay = false;   ///< the planner knows of the delays of sensing and actuator
   bool warm_up = true;             ///< solve the first OCP once before the clock starts
   double sm_crash = 2;             ///< margin by which obstacles grow in the crash check [m]
   double Fz_failure = 100;         ///< least wheel load in the plant [N]

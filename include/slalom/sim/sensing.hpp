@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "slalom/base/options.hpp"
@@ -34,9 +35,10 @@ class Sensors {
   /// What is told of the true `state` in cycle `index`.
   vehicle::State measured(vehicle::State state, int index) const;
   /// Obstacles as believed in cycle `index`: where they are at t0 [s], but for noise, and from
-  /// there on at the velocity believed. Empty when they are believed as they are.
-  std::vector<world::Obstacle> believed(const std::vector<world::Obstacle>& obstacles, int index,
-                                        double t0) const;
+  /// there on at the velocity believed. Nothing where they are believed as
+  /// they are.
+  std::optional<std::vector<world::Obstacle>> believed(
+      const std::vector<world::Obstacle>& obstacles, int index, double t0) const;
 
  private:
   SensingSettings settings_;

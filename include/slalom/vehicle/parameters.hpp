@@ -19,6 +19,8 @@ struct Parameters {
   double lb = 1.7245;   ///< c.g. to rear axle [m]
   double width = 2.0;   ///< drawn width [m]; no equation uses it
   double length = 4.6;  ///< drawn length [m]; no equation uses it
+  double h = 0.98985;   ///< height of the c.g. [m]; of KZX, KZYR and KZYF where they are not stated
+  double track = 1.51994;  ///< between the wheels of an axle [m]; of KZYR and KZYF likewise
 
   // Axle loads and load transfer.
   double FzF0 = 13680;  ///< static front axle load [N]

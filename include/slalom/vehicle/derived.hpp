@@ -1,0 +1,18 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "slalom/vehicle/parameters.hpp"
+
+namespace slalom::vehicle {
+
+/// Settings that follow from those that `stated` names, and are not stated themselves: static axle
+/// loads of mass and axles, load transfer of these, the c.g.'s height and the track, and the
+/// offsets that make the axles' lateral forces vanish at zero slip (docs/formulation.md, section
+/// 2). A data sheet states the first; a vehicle that kept the others of the one it is based on
+/// would pull to a side. Sets them and returns their names.
+std::vector<std::string> derive(Parameters& parameters, const std::set<std::string>& stated);
+
+}  // namespace slalom::vehicle

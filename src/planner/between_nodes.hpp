@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "slalom/planner/plan.hpp"
+#include "slalom/world/obstacle.hpp"
+
+namespace slalom::planner {
+
+/// Depths below this are not looked for [m].
+inline constexpr double kPassageResolution = 0.02;
+
+/// How deep a plan goes into an obstacle grown by `margin` [m], between its nodes too, where rows
+/// of obstacles do not look: the front axle's centre on the cubic through each two nodes and their
+/// velocities (C. de Boor, "A Practical Guide to Splines", chapter IV), obstacles as the plan has
+/// them. Depth 0 where it stays out. `la` [m]: from the c.g. to the front axle.
+Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
+                        double margin, double la);
+
+}  // namespace slalom::planner

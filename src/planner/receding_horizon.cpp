@@ -1,0 +1,362 @@
+#include "receding_horizon.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <utility>
+
+#include "between_nodes.hpp"
+#include "obstacle_choice.hpp"
+#include "slalom/nlp/check.hpp"
+
+namespace slalom::planner {
+namespace {
+
+using namespace vehicle;
+
+/// A plan that goes through an obstacle is solved again on meshes of so many times the intervals.
+constexpr int kRefined[] = {2, 4, 8};
+
+/// The task with its obstacles grouped as its settings say, once these are found to be sound.
+Task with_groups(Task task) {
+  check(task.planner, "planner " + task.planner.name);
+  task.obstacles = group_obstacles(task.planner, task.obstacles);
+  return task;
+}
+
+nlp::Options solver_options(const Settings& settings, const Request& request) {
+  nlp::Options options;
+  options.floor = settings.floor;
+  options.tol = settings.tol;
+  options.max_iterations = settings.max_iterations;
+  if (request.interrupted) {
+    options.stop = [](void* data) { return (*static_cast<const std::function<bool()>*>(data))(); };
+    options.stop_data = const_cast<std::function<bool()>*>(&request.interrupted);
+  }
+  return options;
+}
+
+/// Ended from outside, on its way to an answer.
+bool cut_short(nlp::Status status) {
+  return status == nlp::Status::time_limit || status == nlp::Status::interrupted;
+}
+
+/// The guess with a bulge to one side (1: left) past the obstacle that it goes deepest into, as far
+/// as that takes. Its start stays.
+ocp::Trajectory bent(ocp::Trajectory guess, const world::Obstacle& obstacle, double t_start,
+                     double margin, double side) {
+  constexpr double kWidth = 0.25;  // of the bulge, as a share of the horizon
+  const std::size_t last = guess.tau.size() - 1;
+  if (last == 1) {  // straight on, by its ends: room for a bulge
+    constexpr std::size_t kPoints = 21;
+    const auto ends = guess.states, controls = guess.controls;
+    guess.tau.clear();
+    guess.states.clear();
+    guess.controls.assign(kPoints, controls[0]);
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const double share = static_cast<double>(k) / (kPoints - 1);
+      guess.tau.push_back(share);
+      guess.states.push_back(ends[0]);
+      for (std::size_t i = 0; i < ends[0].size(); ++i)
+        guess.states.back()[i] += share * (ends[1][i] - ends[0][i]);
+    }
+  }
+  std::size_t nearest = 0;
+  double least = INFINITY;
+  for (std::size_t k = 0; k < guess.tau.size(); ++k) {
+    const auto& x = guess.states[k];
+    const double d = world::distance(obstacle, x[X], x[Y], t_start + guess.time(k));
+    if (d < least) {
+      least = d;
+      nearest = k;
+    }
+  }
+  const auto& at = guess.states[nearest];
+  const double t = t_start + guess.time(nearest);
+  const double nx = -std::sin(at[PSI]), ny = std::cos(at[PSI]);  // to the left
+  const double lies = nx * (obstacle.x_at(t) - at[X]) + ny * (obstacle.y_at(t) - at[Y]);
+  const double wanted = side * (std::max(obstacle.a, obstacle.b) + margin) + lies;
+  if (side * wanted <= 0) return guess;
+  const double centre = std::max(guess.tau[nearest], kWidth);
+  for (std::size_t k = 0; k < guess.tau.size(); ++k) {
+    const double away = (guess.tau[k] - centre) / kWidth;
+    const double share = std::min(1.0, guess.tau[k] / centre) * std::exp(-away * away);
+    guess.states[k][X] += share * wanted * nx;
+    guess.states[k][Y] += share * wanted * ny;
+  }
+  return guess;
+}
+
+}  // namespace
+
+RecedingHorizon::Form::Form(TrajectoryProblem p, const Settings& settings, int intervals)
+    : problem(std::move(p)),
+      transcription(problem.problem(), ocp::Mesh::uniform(intervals), scheme_of(settings)) {}
+
+void RecedingHorizon::Form::update(const Request& request) {
+  problem.update(request);
+  transcription.update(problem.problem());
+}
+
+RecedingHorizon::RecedingHorizon(const Task& task)
+    : task_(with_groups(task)),
+      settings_(task_.planner),
+      chosen_(choose_obstacles(settings_, {}, task_.obstacles)),
+      guess_(task_),
+      solver_(nlp::make_solver(to_string(settings_.solver))) {
+  prepare();
+}
+
+Plan RecedingHorizon::plan(const Request& request) {
+  const Timer timer;
+  const Cycle cycle{request, goal_in_range(task_, request.X0p), timer};
+  choose(request);
+  // Multipliers carry over where the plan that they belong to had the same rows.
+  const bool warm =
+      last_ && carries_ && last_->in_range == cycle.in_range && same_names(chosen_, of_last_);
+  ocp::Trajectory& guess = guess_(request, cycle.in_range, last_ ? &*last_ : nullptr);
+  std::optional<ocp::Trajectory> bendable;
+  if (settings_.retry_sides) bendable = guess;
+  Attempt best = attempt(cycle, settings_.N, guess, warm);
+  if (bendable && !best.plan.report.solved) try_sides(cycle, *bendable, best);
+  if (settings_.between_nodes == BetweenNodes::refine) refine(cycle, best);
+  keep(cycle, best);
+  best.plan.report.planning_cpu_s = timer.cpu();
+  return std::move(best.plan);
+}
+
+void RecedingHorizon::record(const Recorder& recorder) {
+  recorder_.reset();
+  if (recorder.wanted && recorder.take) recorder_ = recorder;
+}
+
+/// The form for the goal in or out of range and for as many obstacles as are chosen, transcribed
+/// when it is first wanted.
+RecedingHorizon::Form& RecedingHorizon::form(bool in_range, int intervals) {
+  const FormKey key{in_range, chosen_.size(), intervals};
+  const auto found = forms_.find(key);
+  if (found != forms_.end()) return found->second;
+  Task chosen = task_;
+  chosen.obstacles = chosen_;
+  return forms_.try_emplace(key, TrajectoryProblem(chosen, in_range), settings_, intervals)
+      .first->second;
+}
+
+/// Chooses this cycle's obstacles.
+void RecedingHorizon::choose(const Request& request) {
+  const bool as_made = !request.obstacles && !any_far(settings_, request, task_.obstacles);
+  if (settings_.obstacle_choice == ObstacleChoice::all && as_made && as_made_) return;
+  as_made_ = as_made;
+  chosen_ = choose_obstacles(
+      settings_, request,
+      request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles);
+  for (auto& [key, form] : forms_)
+    if (key.obstacles == chosen_.size()) form.problem.set_obstacles(chosen_);
+}
+
+/// One solve without an iteration of either form, so that all memory is there before the first
+/// cycle and when the goal comes into range.
+void RecedingHorizon::prepare() {
+  for (const bool in_range : {true, false}) {
+    Form& form = this->form(in_range, settings_.N);
+    ocp::Trajectory& guess = guess_({}, in_range, nullptr);
+    form.problem.map().to_planner(guess);
+    start_.x = form.transcription.point(guess);
+    nlp::Options options = solver_options(settings_, {});
+    options.max_iterations = 0;
+    solver_->solve(form.transcription, start_, options, answer_);
+  }
+}
+
+/// Solves once from a guess, which is put into the planner's states.
+RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int intervals,
+                                                  ocp::Trajectory& guess, bool warm) {
+  Form& form = this->form(cycle.in_range, intervals);
+  form.update(cycle.request);
+  form.problem.map().to_planner(guess);
+  start_.x = form.transcription.point(guess);
+  nlp::Options options = solver_options(settings_, cycle.request);
+  options.warm_start = warm;
+  options.time_limit =
+      std::max(0.0, cycle.request.time_limit - cycle.timer.cpu() - longest_reading_s_);
+  solver_->solve(form.transcription, start_, options, answer_);
+  const double solved_at = cycle.timer.cpu();
+  std::optional<Recording> recording;
+  if (recorder_ && intervals == settings_.N) recording = record_solve(cycle, options);
+  Attempt attempt = read(cycle, intervals, options);
+  if (recording && recorder_->wanted(attempt.plan.report)) {
+    recording->phi = attempt.plan.report.phi;
+    recorder_->take(*recording);
+  }
+  longest_reading_s_ = std::max(longest_reading_s_, cycle.timer.cpu() - solved_at);
+  return attempt;
+}
+
+/// The last solve, but for what judging it brings.
+Recording RecedingHorizon::record_solve(const Cycle& cycle, const nlp::Options& options) const {
+  const Request& request = cycle.request;
+  Recording r{request.X0p,   request.t0,     request.t_start, cycle.in_range,     current_kernels(),
+              options,       start_,         answer_.status,  answer_.iterations, 0,
+              answer_.cpu_s, answer_.wall_s, answer_.point,   request.obstacles};
+  r.options.stop = nullptr;
+  r.options.stop_data = nullptr;
+  return r;
+}
+
+/// The answer as a plan, judged.
+RecedingHorizon::Attempt RecedingHorizon::read(const Cycle& cycle, int intervals,
+                                               const nlp::Options& options) {
+  Form& form = this->form(cycle.in_range, intervals);
+  Attempt attempt;
+  attempt.carries = intervals == settings_.N;
+  attempt.cut_short = cut_short(answer_.status);
+  attempt.trajectory = form.transcription.trajectory(answer_.point.x);
+  const ocp::Trajectory& trajectory = attempt.trajectory;
+  form.problem.map().to_plant(cycle.request.X0p, attempt.trajectory);
+  Plan& plan = attempt.plan;
+  plan.goal_in_range = cycle.in_range;
+  plan.t_start = cycle.request.t_start;
+  plan.tf = trajectory.tf;
+  plan.obstacle_time_held = settings_.moving_avoidance ? -1 : cycle.request.t0;
+  const std::size_t points = trajectory.tau.size();
+  plan.t.reserve(points);
+  plan.states.resize(points);
+  plan.controls.resize(points);
+  for (std::size_t k = 0; k < points; ++k) {
+    plan.t.push_back(trajectory.tau[k] * trajectory.tf);
+    std::copy_n(trajectory.states[k].begin(), kStates, plan.states[k].begin());
+    std::copy_n(trajectory.controls[k].begin(), kControls, plan.controls[k].begin());
+  }
+  plan.report = report(cycle.request, form.transcription, options);
+  if (settings_.between_nodes != BetweenNodes::ignore) look_between(plan);
+  if (!plan.report.solved) plan.report.blocks = what_blocks(plan);
+  return attempt;
+}
+
+/// The row that a plan violates most, in a sentence. Of an obstacle's, how far from its edge the
+/// node is at which it stands, and how far it is to be.
+std::string RecedingHorizon::what_blocks(const Plan& plan) const {
+  const std::string& row = plan.report.worst_constraint;
+  if (row.empty()) return "";
+  const auto plain = fmt::format("{} falls short by {:.3g}", row, plan.report.worst_violation);
+  for (const auto& o : chosen_) {
+    const auto begin = fmt::format("obstacle[{}] at node ", o.name);
+    if (!row.starts_with(begin)) continue;
+    char* end = nullptr;
+    const auto node = std::strtoul(row.c_str() + begin.size(), &end, 10);
+    if (*end != '\0' || node >= plan.t.size() || !(plan.tf > 0)) return plain;
+    const State& x = plan.states[node];
+    const double t =
+        plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[node];
+    const double margin =
+        settings_.sm_start + (settings_.sm_end - settings_.sm_start) * plan.t[node] / plan.tf;
+    const double distance = world::distance(o, x[X], x[Y], t);
+    return fmt::format(
+               "{} in the way: node {} of the plan comes {} its edge, where a margin of {:.2f} m "
+               "is kept",
+               o.name, node,
+               distance >= 0 ? fmt::format("to {:.2f} m from", distance)
+                             : fmt::format("{:.2f} m inside", -distance),
+               margin) +
+           (distance >= 0 ? fmt::format(" and {:.2f} m would do", distance) : "");
+  }
+  return plain;
+}
+
+SolveReport RecedingHorizon::report(const Request& request, ocp::Transcription& transcription,
+                                    const nlp::Options& options) const {
+  const auto residuals = nlp::check(transcription, answer_.point, options);
+  SolveReport report;
+  const bool claimed = answer_.status == nlp::Status::solved;
+  report.solved = claimed && residuals.solved(options);
+  report.status =
+      claimed && !report.solved ? PlanStatus::not_confirmed : plan_status(answer_.status);
+  report.best_iterate = !report.solved && residuals.violation <= request.best_iterate_tol;
+  report.backend = answer_.backend;
+  report.iterations = answer_.iterations;
+  report.cpu_s = answer_.cpu_s;
+  report.wall_s = answer_.wall_s;
+  report.cost = residuals.objective;
+  report.cost_terms = transcription.cost_terms(answer_.point.x);
+  report.phi = residuals.phi;
+  report.worst_violation = residuals.violation;
+  report.worst_constraint = residuals.worst_constraint;
+  report.stationarity = residuals.stationarity;
+  report.complementarity = residuals.complementarity;
+  return report;
+}
+
+/// Notes how deep a plan goes into an obstacle between its nodes.
+void RecedingHorizon::look_between(Plan& plan) const {
+  if (settings_.obstacle_constraint == ObstacleConstraint::soft) return;
+  SolveReport& report = plan.report;
+  report.passage = deepest_passage(plan, chosen_, std::min(settings_.sm_start, settings_.sm_end),
+                                   task_.vehicle.la);
+  if (report.status != PlanStatus::solved || report.passage.depth <= settings_.passage_depth)
+    return;
+  report.status = PlanStatus::passes_through;
+  report.detail = fmt::format("{:.2f} m deep into the margin of {} at {:.2f} s",
+                              report.passage.depth, report.passage.obstacle, report.passage.t);
+}
+
+/// Where the cycle has no plan: from the guess bent to the left and to the right of the obstacle
+/// that it goes deepest into. The sooner of those that are solved.
+void RecedingHorizon::try_sides(const Cycle& cycle, const ocp::Trajectory& guess, Attempt& best) {
+  const double margin = std::max(settings_.sm_start, settings_.sm_end);
+  const world::Obstacle* blocks = nullptr;
+  double least = INFINITY;
+  for (const auto& o : chosen_)
+    for (std::size_t k = 0; k < guess.tau.size(); ++k) {
+      const auto& x = guess.states[k];
+      const double d = world::distance(o, x[X], x[Y], cycle.request.t_start + guess.time(k));
+      if (d < least) {
+        least = d;
+        blocks = &o;
+      }
+    }
+  if (blocks == nullptr) return;
+  best.carries = false;  // what is tried takes the multipliers' place
+  for (const double side : {1.0, -1.0}) {
+    auto start = bent(guess, *blocks, cycle.request.t_start, margin, side);
+    Attempt other = attempt(cycle, settings_.N, start, false);
+    if (!other.plan.report.solved) continue;
+    other.carries = false;
+    if (!best.plan.report.solved || other.plan.report.cost < best.plan.report.cost)
+      best = std::move(other);
+  }
+}
+
+/// On finer meshes, whose rows stand closer, until the plan stays out of obstacles; a plan that
+/// never does is not solved.
+void RecedingHorizon::refine(const Cycle& cycle, Attempt& best) {
+  if (best.plan.report.status != PlanStatus::passes_through) return;
+  best.carries = false;  // what is tried takes the multipliers' place
+  for (const int times : kRefined) {
+    auto start = best.trajectory;
+    Attempt finer = attempt(cycle, times * settings_.N, start, false);
+    if (finer.plan.report.status == PlanStatus::solved) {
+      best = std::move(finer);
+      return;
+    }
+  }
+  best.plan.report.solved = false;
+}
+
+/// The next solve starts from a plan to be driven, and goes on from one that was cut short.
+void RecedingHorizon::keep(const Cycle& cycle, Attempt& attempt) {
+  const SolveReport& report = attempt.plan.report;
+  if (!report.solved && !report.best_iterate && !attempt.cut_short) return;
+  last_ = LastPlan{attempt.plan.t_start, cycle.request.X0p, std::move(attempt.trajectory),
+                   cycle.in_range};
+  carries_ = attempt.carries;
+  if (!carries_) return;
+  if (!same_names(chosen_, of_last_)) of_last_ = chosen_;
+  std::swap(start_.y, answer_.point.y);
+  std::swap(start_.zl, answer_.point.zl);
+  std::swap(start_.zu, answer_.point.zu);
+}
+
+}  // namespace slalom::planner

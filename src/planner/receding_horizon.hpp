@@ -1,0 +1,88 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "guess.hpp"
+#include "planning_method.hpp"
+#include "slalom/base/timer.hpp"
+#include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/transcription.hpp"
+#include "trajectory_problem.hpp"
+
+namespace slalom::planner {
+
+/// The paper's planner: its OCP up to the edge of the LiDAR's range, solved in each cycle from the
+/// last plan. As its settings say, a plan that goes through an obstacle between its nodes is solved
+/// again on finer meshes, and a cycle without a plan from guesses on either side.
+class RecedingHorizon final : public PlanningMethod {
+ public:
+  explicit RecedingHorizon(const Task& task);
+
+  Plan plan(const Request& request) override;
+  void reset() override { last_.reset(); }
+  void record(const Recorder& recorder) override;
+
+ private:
+  /// One of the OCP's two forms, transcribed once and solved many times.
+  struct Form {
+    TrajectoryProblem problem;
+    ocp::Transcription transcription;
+
+    Form(TrajectoryProblem p, const Settings& settings, int intervals);
+    void update(const Request& request);
+  };
+  struct FormKey {
+    bool in_range;
+    std::size_t obstacles;
+    int intervals;
+    auto operator<=>(const FormKey&) const = default;
+  };
+  /// One solve of a cycle.
+  struct Attempt {
+    Plan plan;
+    ocp::Trajectory trajectory;  ///< the plant's states
+    bool carries;                ///< its multipliers are those of the rows of Settings::N
+    bool cut_short;              ///< by time or the user
+  };
+  /// What a cycle's attempts have in common.
+  struct Cycle {
+    const Request& request;
+    bool in_range;
+    const Timer& timer;
+  };
+
+  Form& form(bool in_range, int intervals);
+  void choose(const Request& request);
+  void prepare();
+  Attempt attempt(const Cycle& cycle, int intervals, ocp::Trajectory& guess, bool warm);
+  Recording record_solve(const Cycle& cycle, const nlp::Options& options) const;
+  Attempt read(const Cycle& cycle, int intervals, const nlp::Options& options);
+  SolveReport report(const Request& request, ocp::Transcription& transcription,
+                     const nlp::Options& options) const;
+  std::string what_blocks(const Plan& plan) const;
+  void look_between(Plan& plan) const;
+  void try_sides(const Cycle& cycle, const ocp::Trajectory& guess, Attempt& best);
+  void refine(const Cycle& cycle, Attempt& best);
+  void keep(const Cycle& cycle, Attempt& attempt);
+
+  const Task task_;  ///< its obstacles grouped
+  const Settings& settings_;
+  std::vector<world::Obstacle> chosen_;   ///< of these, in this cycle
+  std::vector<world::Obstacle> of_last_;  ///< of the last plan, whose multipliers are there
+  bool as_made_ = false;                  ///< none measured in the last cycle, and none too far
+  std::map<FormKey, Form> forms_;
+  Guess guess_;
+  std::optional<Recorder> recorder_;
+  std::unique_ptr<nlp::Solver> solver_;
+  nlp::Start start_;  ///< its multipliers are the last plan's
+  nlp::Answer answer_;
+  std::optional<LastPlan> last_;  ///< where the next solve starts
+  bool carries_ = false;          ///< the multipliers of `start_` belong to it
+  double longest_reading_s_ = 0;  ///< thread time of a cycle after its solve
+};
+
+}  // namespace slalom::planner

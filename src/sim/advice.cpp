@@ -1,0 +1,128 @@
+#include "slalom/sim/advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "slalom/world/path_exists.hpp"
+
+namespace slalom::sim {
+namespace {
+
+using namespace vehicle;
+
+constexpr double kGravity = 9.80665;     // [m/s^2]
+constexpr double kLoadTolerance = 0.05;  // of the weight
+constexpr double kSlowest = 5;           // a plan is not slower than this [m/s]
+
+bool verifies(const Scenario& s) {
+  return s.planner.method == planner::Method::verified;
+}
+
+/// Rows of obstacles hold at nodes: an obstacle that moves farther between two than it is long,
+/// grown, may pass between them.
+void passes_between(const Scenario& s, std::vector<std::string>& found) {
+  if (verifies(s) || s.planner.between_nodes == planner::BetweenNodes::refine) return;
+  const double speed = std::max(s.start[UX], kSlowest);
+  const double horizon = std::min(s.planner.L_range / speed, s.planner.tf_max);
+  const double margin = std::min(s.planner.sm_start, s.planner.sm_end);
+  const world::Obstacle* gravest = nullptr;
+  double step = 0, covers = 0, closing = 0;
+  int count = 0;
+  for (const auto& o : s.obstacles) {
+    const double speed_of = speed + (s.planner.moving_avoidance ? std::hypot(o.vx, o.vy) : 0);
+    const double step_of = speed_of * horizon / s.planner.N;
+    const double covers_of = 2 * (std::min(o.a, o.b) + margin);
+    if (step_of <= covers_of) continue;
+    ++count;
+    if (gravest != nullptr && step_of - covers_of <= step - covers) continue;
+    gravest = &o;
+    step = step_of;
+    covers = covers_of;
+    closing = speed_of;
+  }
+  if (gravest == nullptr) return;
+  found.push_back(fmt::format(
+      "between two of the {} nodes of a plan, {} and the vehicle come {:.1f} m nearer at {:.3g} "
+      "m/s, "
+      "and {} with its margin is {:.1f} m across{}: a plan may pass through it unseen; more nodes "
+      "(planner.N: {}) or planner.between_nodes: refine help",
+      s.planner.N, gravest->name, step, closing, gravest->name, covers,
+      count > 1 ? fmt::format(" ({} more likewise)", count - 1) : "",
+      static_cast<int>(std::ceil(closing * horizon / covers))));
+}
+
+void goal_behind(const Scenario& s, std::vector<std::string>& found) {
+  if (verifies(s) || s.goal.contains(s.start[X], s.start[Y])) return;
+  const double bearing = std::atan2(s.goal.y - s.start[Y], s.goal.x - s.start[X]) - s.start[PSI];
+  const double off = std::fabs(std::remainder(bearing, 2 * std::numbers::pi));
+  if (off <= std::numbers::pi / 2) return;
+  found.push_back(fmt::format(
+      "the goal lies {:.0f} degrees off the vehicle's heading, behind it: planners of the method "
+      "receding_horizon keep to the line through the goal and may drive away from it; P_E turns "
+      "round",
+      off * 180 / std::numbers::pi));
+}
+
+void narrow_gaps(const Scenario& s, std::vector<std::string>& found) {
+  const double margin =
+      verifies(s) ? s.planner.verified_clearance : std::min(s.planner.sm_start, s.planner.sm_end);
+  int count = 0;
+  double narrowest = INFINITY;
+  std::string between;
+  for (std::size_t i = 0; i < s.obstacles.size(); ++i)
+    for (std::size_t j = i + 1; j < s.obstacles.size(); ++j) {
+      const auto &p = s.obstacles[i], &q = s.obstacles[j];
+      if (p.moves() || q.moves()) continue;
+      // From each centre to the other's edge along the line between them: exact for circles.
+      const double gap = world::distance(p, q.x, q.y, 0) + world::distance(q, p.x, p.y, 0) -
+                         std::hypot(p.x - q.x, p.y - q.y);
+      if (gap <= 0 || gap >= 2 * margin) continue;
+      ++count;
+      if (gap < narrowest) {
+        narrowest = gap;
+        between = fmt::format("{} and {}, {:.2f} m", p.name, q.name, gap);
+      }
+    }
+  if (count > 0)
+    found.push_back(fmt::format(
+        "{} narrower than twice the margin of {:g} m (the narrowest: {}): no plan leads through",
+        count == 1 ? "a gap between standing obstacles is"
+                   : fmt::format("{} gaps between standing obstacles are", count),
+        margin, between));
+}
+
+void no_way(const Scenario& s, std::vector<std::string>& found) {
+  world::PathSearch search;
+  search.clearance = verifies(s) ? s.planner.verified_clearance : s.planner.sm_start;
+  search.v_max = std::min(search.v_max, s.vehicle.ux_max);
+  search.t_max = s.loop.timeout;
+  if (world::path_exists(s, s.start, search)) return;
+  found.push_back(fmt::format(
+      "no way from start to goal was found that keeps {:g} m off all obstacles within {:g} s (a "
+      "search that may miss one)",
+      search.clearance, s.loop.timeout));
+}
+
+void loads(const Scenario& s, std::vector<std::string>& found) {
+  const double sum = s.vehicle.FzF0 + s.vehicle.FzR0, weight = s.vehicle.m * kGravity;
+  if (std::fabs(sum - weight) <= kLoadTolerance * weight) return;
+  found.push_back(fmt::format(
+      "the static loads FzF0 + FzR0 = {:.0f} N are not the weight m g = {:.0f} N", sum, weight));
+}
+
+}  // namespace
+
+std::vector<std::string> advice(const Scenario& scenario) {
+  std::vector<std::string> found;
+  passes_between(scenario, found);
+  goal_behind(scenario, found);
+  narrow_gaps(scenario, found);
+  no_way(scenario, found);
+  loads(scenario, found);
+  return found;
+}
+
+}  // namespace slalom::sim

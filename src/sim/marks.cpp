@@ -1,0 +1,179 @@
+#include "slalom/sim/marks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace slalom::sim {
+namespace {
+
+using namespace vehicle;
+
+// What is not worth a mark.
+constexpr double kDistance = 0.1;                    // [m]
+constexpr double kHeading = std::numbers::pi / 180;  // [rad]
+constexpr double kLoad = 100;                        // [N]
+constexpr double kSpeed = 0.1;                       // [m/s]
+constexpr double kAway = 10;                         // [s]
+
+/// Cases of one kind, and the gravest of them.
+template <class T>
+struct Cases {
+  std::vector<double> times;
+  double most = 0;
+  T gravest{};
+
+  void add(double t, double size, const T& one) {
+    times.push_back(t);
+    if (times.size() > 1 && size <= most) return;
+    most = size;
+    gravest = one;
+  }
+};
+
+std::string plans(std::size_t count, const char* one, const char* several) {
+  return count == 1 ? fmt::format("1 plan {}", one) : fmt::format("{} plans {}", count, several);
+}
+
+std::optional<Mark> passing(const Drive& drive) {
+  Cases<std::pair<int, planner::Passage>> cases;
+  for (const auto& cycle : drive.cycles) {
+    const auto& report = cycle.plan.report;
+    if (cycle.index > 0 && report.status == planner::PlanStatus::passes_through)
+      cases.add(cycle.t_swap, report.passage.depth, {cycle.index, report.passage});
+  }
+  if (cases.times.empty()) return std::nullopt;
+  const auto& [index, passage] = cases.gravest;
+  return Mark{
+      "passes_through",
+      fmt::format("{} through an obstacle between nodes, the deepest {:.2f} m into the margin of "
+                  "{} at {:.2f} s (cycle {}); planner.between_nodes: refine would solve again",
+                  plans(cases.times.size(), "goes", "go"), passage.depth, passage.obstacle,
+                  passage.t, index),
+      cases.times};
+}
+
+std::optional<Mark> beside(const Drive& drive) {
+  Cases<std::pair<int, StartSlack>> cases;
+  for (const auto& cycle : drive.cycles) {
+    const StartSlack slack = start_slack(cycle);
+    if (!cycle.used || (slack.distance <= kDistance && slack.heading <= kHeading)) continue;
+    cases.add(cycle.t_swap, std::max(slack.distance / kDistance, slack.heading / kHeading),
+              {cycle.index, slack});
+  }
+  if (cases.times.empty()) return std::nullopt;
+  const auto& [index, slack] = cases.gravest;
+  return Mark{"start_slack",
+              fmt::format("{} beside the vehicle, by up to {:.2f} m and {:.1f} degrees (cycle {})",
+                          plans(cases.times.size(), "begins", "begin"), slack.distance,
+                          slack.heading / kHeading, index),
+              cases.times};
+}
+
+/// A limit that the plant is beyond for a while, once for each while: `beyond` gives by how much,
+/// `text` says so of the sample where it is most.
+std::optional<Mark> broken(const Drive& drive, const char* kind, double slack,
+                           const std::function<double(const PlantSample&)>& beyond,
+                           const std::function<std::string(const PlantSample&)>& text) {
+  Cases<const PlantSample*> cases;
+  bool was = false;
+  for (const auto& sample : drive.plant) {
+    const double size = beyond(sample);
+    const bool is = size > slack;
+    if (is && !was)
+      cases.add(sample.t, size, &sample);
+    else if (is && size > cases.most) {
+      cases.most = size;
+      cases.gravest = &sample;
+    }
+    was = is;
+  }
+  if (cases.times.empty()) return std::nullopt;
+  return Mark{kind, text(*cases.gravest), cases.times};
+}
+
+std::optional<Mark> low_load(const Scenario& scenario, const Drive& drive) {
+  const double kept = scenario.planner.method == planner::Method::verified
+                          ? scenario.planner.verified_wheel_load
+                          : scenario.vehicle.Fz_min;
+  const auto least = [](const PlantSample& s) {
+    return std::min_element(s.wheel_loads.begin(), s.wheel_loads.end());
+  };
+  return broken(
+      drive, "wheel_load", kLoad, [&](const auto& s) { return kept - *least(s); },
+      [&](const auto& s) {
+        return fmt::format("the {} wheel's load fell to {:.0f} N at {:.2f} s; plans keep {:.0f} N",
+                           kWheelNames[static_cast<std::size_t>(least(s) - s.wheel_loads.begin())],
+                           *least(s), s.t, kept);
+      });
+}
+
+std::optional<Mark> speed(const Scenario& scenario, const Drive& drive) {
+  const double lo = scenario.vehicle.ux_min, hi = scenario.vehicle.ux_max;
+  return broken(
+      drive, "speed", kSpeed,
+      [&](const auto& s) { return std::max(lo - s.state[UX], s.state[UX] - hi); },
+      [&](const auto& s) {
+        return fmt::format("the speed came to {:.2f} m/s at {:.2f} s; plans keep {:g} to {:g} m/s",
+                           s.state[UX], s.t, lo, hi);
+      });
+}
+
+std::optional<Mark> outside(const Scenario& scenario, const Drive& drive) {
+  const auto& r = scenario.region;
+  const auto beyond = [&](const PlantSample& s) {
+    return std::max(
+        {r.x_min - s.state[X], s.state[X] - r.x_max, r.y_min - s.state[Y], s.state[Y] - r.y_max});
+  };
+  return broken(drive, "region", kDistance, beyond, [&](const auto& s) {
+    return fmt::format("the vehicle was {:.2f} m outside the region at {:.2f} s; plans stay within",
+                       beyond(s), s.t);
+  });
+}
+
+std::optional<Mark> away(const Scenario& scenario, const Drive& drive) {
+  const auto& goal = scenario.goal;
+  std::vector<double> times;
+  double since = 0, nearest = 0, last = INFINITY, grown = 0;
+  for (const auto& sample : drive.plant) {
+    const double d = std::hypot(sample.state[X] - goal.x, sample.state[Y] - goal.y);
+    if (!(d > last)) {
+      since = sample.t;
+      nearest = d;
+    } else if (sample.t - since >= kAway) {
+      if (times.empty() || times.back() != since) times.push_back(since);
+      grown = std::max(grown, d - nearest);
+    }
+    last = d;
+  }
+  if (times.empty()) return std::nullopt;
+  return Mark{"moves_away",
+              fmt::format("the vehicle moves away from the goal from {:.2f} s on for more than "
+                          "{:g} s, by {:.0f} m",
+                          times.front(), kAway, grown),
+              times};
+}
+
+}  // namespace
+
+StartSlack start_slack(const Cycle& cycle) {
+  if (cycle.plan.empty()) return {};
+  const State& at = cycle.plan.states.front();
+  return {std::hypot(at[X] - cycle.X0p[X], at[Y] - cycle.X0p[Y]),
+          std::fabs(at[PSI] - cycle.X0p[PSI])};
+}
+
+std::vector<Mark> marks(const Scenario& scenario, const Drive& drive) {
+  std::vector<Mark> result;
+  for (auto& mark : {passing(drive), beside(drive), low_load(scenario, drive),
+                     speed(scenario, drive), outside(scenario, drive), away(scenario, drive)})
+    if (mark) result.push_back(*mark);
+  return result;
+}
+
+}  // namespace slalom::sim

@@ -1,0 +1,81 @@
+#include "slalom/sim/advice.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/fakes.hpp"
+
+namespace slalom::sim {
+namespace {
+
+using testing::circle;
+
+Scenario field() {
+  auto s = testing::open_field();
+  s.goal = {0, 150, std::numbers::pi / 2, 10};
+  s.loop.timeout = 30;
+  return s;
+}
+
+std::string all(const Scenario& s) {
+  std::string text;
+  for (const auto& sentence : advice(s)) text += sentence + "\n";
+  return text;
+}
+
+bool says(const Scenario& s, const std::string& part) {
+  return all(s).find(part) != std::string::npos;
+}
+
+TEST(Advice, NothingForWhatIsWell) {
+  EXPECT_EQ(all(field()), "");
+}
+
+TEST(Advice, ObstaclesThatPassBetweenTwoNodes) {
+  auto s = field();
+  s.obstacles = {circle("lorry", 20, 140, 1, 0, -30)};
+  EXPECT_TRUE(says(s, "lorry and the vehicle come")) << all(s);
+  auto finer = s;
+  finer.planner.N = 40;
+  EXPECT_FALSE(says(finer, "lorry"));
+  finer = s;
+  finer.planner.between_nodes = planner::BetweenNodes::refine;
+  EXPECT_FALSE(says(finer, "lorry"));
+  s.obstacles[0].a = s.obstacles[0].b = 10;
+  EXPECT_FALSE(says(s, "lorry"));
+}
+
+TEST(Advice, AGoalBehindTheVehicle) {
+  auto s = field();
+  s.goal = {80, -10, 0, 10};
+  EXPECT_TRUE(says(s, "97 degrees off the vehicle's heading")) << all(s);
+  s.goal.y = 10;
+  EXPECT_FALSE(says(s, "off the vehicle's heading"));
+  s.goal = {80, -10, 0, 10};
+  s.start[vehicle::PSI] -= 4 * std::numbers::pi + 0.2;
+  EXPECT_FALSE(says(s, "off the vehicle's heading"));
+}
+
+TEST(Advice, GapsThatAreTooNarrow) {
+  auto s = field();
+  s.obstacles = {circle("left", -5, 60, 3), circle("right", 4.5, 60, 3)};  // 3.5 m apart
+  EXPECT_TRUE(says(s, "twice the margin of 2.5 m (the narrowest: left and right, 3.50 m)"))
+      << all(s);
+  s.obstacles[1].x = 6.1;
+  EXPECT_FALSE(says(s, "gap"));
+}
+
+TEST(Advice, AGoalWithoutAWay) {
+  auto s = field();
+  s.region = {-10, 10, -20, 300};
+  s.obstacles = {circle("left", -6, 60, 5), circle("right", 6, 60, 5)};
+  EXPECT_TRUE(says(s, "no way from start to goal")) << all(s);
+}
+
+TEST(Advice, LoadsThatAreNotTheWeight) {
+  auto s = field();
+  s.vehicle.m = 1350;
+  EXPECT_TRUE(says(s, "are not the weight m g = 13239 N")) << all(s);
+}
+
+}  // namespace
+}  // namespace slalom::sim
