@@ -8,9 +8,9 @@
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/sweep/study.hpp"
+#include "store_reader.hpp"
 #include "sweep_folder.hpp"
 #include "trial_message.hpp"
-#include "trial_store.hpp"
 
 namespace slalom::sweep {
 namespace fs = std::filesystem;
@@ -37,7 +37,13 @@ std::string resolved(const Found& found, const report::SweepTable& study) {
   const auto& record = found.record;
   const auto base =
       io::parse_scenario(stored_base(found.store, record.trial), found.store.string());
-  auto text = io::to_yaml(resolve_trial(base, study.columns, record.values, record.trial));
+  std::string text;
+  try {
+    text = io::to_yaml(resolve_trial(base, study.columns, record.values, record.trial));
+  } catch (const InvalidValue& error) {
+    throw InvalidValue(found.store.string() + ": damaged: " + error.where(), error.found(),
+                       error.expected());
+  }
   if (trial_identity(text, study.kernels, record.repeat) != record.identity)
     throw Error(fmt::format("{}: trial {} was recorded by another version of Slalom",
                             found.store.string(), record.trial));

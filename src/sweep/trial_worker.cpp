@@ -45,9 +45,9 @@ TrialAnswer run_trial(const TrialOrder& order) {
 }
 
 void serve_trials() {
-  // Ctrl-C reaches the whole group; when to end is the supervisor's to say. SIGTERM ends it.
-  for (const int signal : {SIGINT, SIGHUP}) std::signal(signal, SIG_IGN);
-  std::signal(SIGTERM, SIG_DFL);
+  // Ctrl-C and a batch system's SIGTERM reach the whole group; when to end is the supervisor's to
+  // say, with whom a worker ends.
+  for (const int signal : {SIGINT, SIGHUP, SIGTERM}) std::signal(signal, SIG_IGN);
   // What a library prints must not be taken for an answer.
   const int answers = ::dup(STDOUT_FILENO);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
