@@ -61,7 +61,8 @@ bool alike(const report::TrialRecord& a, const report::TrialRecord& b) {
 
 }  // namespace
 
-TrialDrive trial_drive(const fs::path& folder, std::int64_t number) {
+TrialDrive trial_drive(const fs::path& folder, std::int64_t number,
+                       const std::function<bool()>& interrupted) {
   const auto study = study_of(folder);
   TrialDrive result{drive_folder(folder, number)};
   const auto found = find(folder, study, number);
@@ -70,9 +71,11 @@ TrialDrive trial_drive(const fs::path& folder, std::int64_t number) {
   if (found.record.outcome == "invalid")
     throw InvalidValue(folder.string(), fmt::format("trial {}, which is invalid", number),
                        "one that could be driven: " + found.record.message);
-  const auto answer = run_trial({resolved(found, study), study.kernels, result.folder.string()});
+  const auto answer =
+      run_trial({resolved(found, study), study.kernels, result.folder.string()}, interrupted);
   if (!answer.not_written.empty()) throw Error(answer.not_written);
   result.again = true;
+  result.interrupted = answer.record.outcome == sim::to_string(sim::Outcome::interrupted);
   result.as_recorded = found.record.outcome == "failed" || alike(answer.record, found.record);
   return result;
 }

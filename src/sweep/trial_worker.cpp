@@ -28,13 +28,15 @@ void write_line(int descriptor, std::string line) {
 
 }  // namespace
 
-TrialAnswer run_trial(const TrialOrder& order) {
+TrialAnswer run_trial(const TrialOrder& order, const std::function<bool()>& interrupted) {
   select_kernels(kernel_set(order.kernels));
   const auto scenario = io::parse_scenario(order.resolved, "trial");
-  const auto drive = sim::drive(scenario);
+  sim::LoopHooks hooks;
+  hooks.interrupted = interrupted;
+  const auto drive = sim::drive(scenario, hooks);
   TrialAnswer answer;
   answer.record = record_of(drive);
-  if (order.folder.empty()) return answer;
+  if (order.folder.empty() || drive.outcome == sim::Outcome::interrupted) return answer;
   try {
     io::prepare_folder(order.folder, true);
     io::write_drive(order.folder, scenario, drive);
