@@ -22,7 +22,6 @@ nlohmann-json3-dev  | run   | inc:nlohmann/json.hpp     | writes results as JSON
 libboost-dev        | run   | inc:boost/numeric/odeint.hpp | integrates the plant (headers alone)
 coinor-libipopt-dev | run   | pc:ipopt                  | solves the nonlinear programs
 libsqlite3-dev      | run   | inc:sqlite3.h             | keeps the results of sweeps
-libcpp-httplib-dev  | run   | inc:httplib.h             | shows the page of a sweep
 libsleef-dev        | run   | inc:sleef.h               | elementary functions on vectors
 libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests
 libamplsolver-dev   | test  | inc:ampl-netlib-solvers/asl_pfgh.h | reads .nl files, in the tests' own solver

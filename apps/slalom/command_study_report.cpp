@@ -27,7 +27,8 @@ struct ReportOptions {
 int study_report(const ReportOptions& options) {
   for (const auto trial : options.trials) {
     if (interrupted()) return kInterrupted;
-    const auto drive = sweep::trial_drive(options.folder, trial);
+    const auto drive = sweep::trial_drive(options.folder, trial, interrupted);
+    if (drive.interrupted) return kInterrupted;
     const char* how = !drive.again        ? "kept"
                       : drive.as_recorded ? "driven again, as recorded"
                                           : "driven again, and NOT as recorded";

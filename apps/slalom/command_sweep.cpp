@@ -23,6 +23,7 @@ struct SweepOptions {
   int jobs = 0;  ///< 0: one a processor
   std::int64_t limit = -1;
   bool resume = false, force = false, json = false, quiet = false;
+  std::string again;  ///< outcome of trials that are run again
 };
 
 /// i and n of "i/n".
@@ -46,6 +47,7 @@ sweep::SweepRequest request_of(const SweepOptions& options) {
   std::tie(request.shard, request.shards) = parse_shard(options.shard);
   request.resume = options.resume;
   request.force = options.force;
+  request.again_failed = !options.again.empty();
   // This very program, also when its file has been replaced meanwhile.
   request.worker = {"/proc/self/exe", "sweep-worker"};
   return request;
@@ -83,6 +85,8 @@ std::string end_text(const SweepOptions& options, const sweep::SweepSummary& s) 
   if (s.before > 0) text += fmt::format(", {} found done", s.before);
   if (s.failed > 0) text += fmt::format(", {} failed (see the column message)", s.failed);
   if (s.pending > 0) text += fmt::format(", {} left", s.pending);
+  if (s.killed > 0)
+    text += fmt::format(" ({} of them since their processes were killed)", s.killed);
   text += fmt::format("\nwritten to {}/trials.csv\n", options.out);
   if (s.pending > 0) text += "run the same command again to go on\n";
   return text;
@@ -109,10 +113,11 @@ int sweep(const SweepOptions& options) {
                    {"found_done", summary.before},
                    {"run", summary.done},
                    {"failed", summary.failed},
-                   {"left", summary.pending}}));
+                   {"left", summary.pending},
+                   {"killed", summary.killed}}));
   else if (!options.quiet)
     print(end_text(options, summary));
-  return summary.interrupted ? kInterrupted : kOk;
+  return summary.interrupted || summary.killed > 0 ? kInterrupted : kOk;
 }
 
 void add_worker(CLI::App& app, Command& run) {
@@ -154,13 +159,21 @@ void add_sweep(CLI::App& app, Command& run) {
       ->type_name("KEY.PATH=VALUE");
   auto* resume = command->add_flag("--resume", options->resume,
                                    "Refuse to begin anew: DIR must hold this study already");
-  command->add_flag("--force", options->force, "Replace what another sweep left in DIR")
-      ->excludes(resume);
+  auto* force =
+      command->add_flag("--force", options->force, "Replace what another sweep left in DIR");
+  force->excludes(resume);
+  command
+      ->add_option("--again", options->again,
+                   "Run the trials again that DIR holds as failed; the others stay")
+      ->type_name("failed")
+      ->check(CLI::IsMember({"failed"}))
+      ->excludes(force);
   auto* json = command->add_flag("--json", options->json, "Print each event as a line of JSON");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
   command->footer(
       std::string("Trials that DIR holds already are not run again. A trial whose process dies or\n"
-                  "hangs is tried again and at last recorded as failed.\n"
+                  "hangs is tried again and at last recorded as failed; one whose process others\n"
+                  "kill is left to the next run.\n"
                   "Example: slalom sweep paper --out sweeps/paper\n\n") +
       kExitCodeHelp);
   command->callback([options, &run] { run = [options] { return sweep(*options); }; });

@@ -1,13 +1,18 @@
 #include "sweep_server.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <httplib.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
-#include <mutex>
+#include <future>
+#include <map>
 #include <string>
-#include <thread>
+#include <vector>
 
+#include "http_server.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "slalom/base/error.hpp"
@@ -16,70 +21,184 @@
 namespace slalom::app {
 namespace {
 
-constexpr const char* kHost = "127.0.0.1";
+/// Digits that no other program can guess.
+std::string random_token() {
+  unsigned char bytes[16];
+  if (::getrandom(bytes, sizeof bytes, 0) != sizeof bytes) throw Error("no random numbers");
+  std::string token;
+  for (const auto byte : bytes) token += fmt::format("{:02x}", byte);
+  return token;
+}
+
+/// The parts of "drives/000123/report.html".
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path)
+    if (c == '/')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+/// Types by extension of what a sweep and its drives leave to be looked at.
+const std::map<std::string, std::string>& types() {
+  static const std::map<std::string, std::string> all = {{".html", "text/html; charset=utf-8"},
+                                                         {".csv", "text/csv; charset=utf-8"},
+                                                         {".svg", "image/svg+xml"},
+                                                         {".json", "application/json"},
+                                                         {".yaml", "text/plain; charset=utf-8"}};
+  return all;
+}
+
+std::string extension_of(const std::string& name) {
+  const auto dot = name.rfind('.');
+  return dot == std::string::npos ? "" : name.substr(dot);
+}
+
+bool is_among(const std::string& name, std::initializer_list<const char*> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Of a trial's folder, 000123, the 123; 0 for other names.
+std::int64_t trial_of(const std::string& name) {
+  const bool digits = name.find_first_not_of("0123456789") == std::string::npos;
+  return digits && !name.empty() && name.size() <= 9 ? std::stoll(name) : 0;
+}
+
+/// Whether these parts name something that `slalom` leaves in a sweep's folder, to be shown.
+bool is_known(const std::vector<std::string>& parts) {
+  const auto is_figure = [](const std::string& folder, const std::string& name) {
+    return folder == "figures" && !name.starts_with('.') && extension_of(name) == ".svg";
+  };
+  const auto& last = parts.back();
+  if (parts.size() == 1) return is_among(last, {"index.html", "trials.csv"});
+  if (parts.size() == 2) return is_figure(parts[0], last);
+  if (parts[0] != "drives" || trial_of(parts[1]) == 0) return false;
+  if (parts.size() == 3)
+    return is_among(last, {"report.html", "plant.csv", "plans.csv", "cycles.csv", "summary.json",
+                           "resolved.yaml"});
+  return parts.size() == 4 && is_figure(parts[2], last);
+}
+
+/// Opens a regular file below a folder, by way of no link; none where there is none.
+Descriptor open_below(const std::filesystem::path& folder, const std::vector<std::string>& parts) {
+  Descriptor at(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  for (std::size_t i = 0; i < parts.size() && at.number() >= 0; ++i) {
+    const int kind = i + 1 < parts.size() ? O_DIRECTORY : O_NONBLOCK;
+    at = Descriptor(
+        ::openat(at.number(), parts[i].c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | kind));
+  }
+  struct stat facts {};
+  if (at.number() >= 0 && (::fstat(at.number(), &facts) != 0 || !S_ISREG(facts.st_mode)))
+    return Descriptor();
+  return at;
+}
 
 /// Drives what was not kept, one at a time: the instruction set is the process's.
 class Drives {
  public:
   explicit Drives(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Before the files themselves are looked for.
-  httplib::Server::HandlerResponse make(const std::string& number, httplib::Response& response) {
-    const std::lock_guard lock(mutex_);
-    try {
-      (void)sweep::trial_drive(folder_, std::stoll(number));
-      return httplib::Server::HandlerResponse::Unhandled;
-    } catch (const InvalidValue& error) {
-      response.status = 404;
-      response.set_content(error.what(), "text/plain; charset=utf-8");
-    } catch (const Error& error) {
-      response.status = 500;
-      response.set_content(error.what(), "text/plain; charset=utf-8");
+  /// What came of the trial's drive; nothing while it, or another one, is at work.
+  std::optional<HttpAnswer> make(std::int64_t trial) {
+    if (at_work_.valid()) {
+      if (at_work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
+      auto answer = at_work_.get();
+      if (trial_ == trial) return answer;
     }
-    return httplib::Server::HandlerResponse::Handled;
+    trial_ = trial;
+    at_work_ = std::async(std::launch::async, [this, trial] { return drive(trial); });
+    return {};
   }
 
  private:
+  HttpAnswer drive(std::int64_t trial) const {
+    try {
+      (void)sweep::trial_drive(folder_, trial, interrupted);
+      return {};
+    } catch (const InvalidValue& error) {
+      return {404, {}, error.what()};
+    } catch (const std::exception& error) {
+      return {500, {}, error.what()};
+    }
+  }
+
   const std::filesystem::path folder_;
-  std::mutex mutex_;
+  std::int64_t trial_ = 0;
+  std::future<HttpAnswer> at_work_;  // last: it ends first
 };
 
-/// Of /drives/000123/report.html the 123; empty for other paths.
-std::string trial_of(const std::string& path) {
-  const std::string begin = "/drives/", end = "/report.html";
-  if (!path.starts_with(begin) || !path.ends_with(end) || path.size() <= begin.size() + end.size())
-    return "";
-  auto number = path.substr(begin.size(), path.size() - begin.size() - end.size());
-  const bool digits = number.find_first_not_of("0123456789") == std::string::npos;
-  return digits && number.size() <= 9 ? number : "";
-}
+/// Who may ask, and what is answered.
+class Pages {
+ public:
+  Pages(const std::filesystem::path& folder, int port)
+      : folder_(folder), port_(port), root_("/" + random_token() + "/"), drives_(folder) {}
+
+  std::string address() const {
+    return fmt::format("http://localhost:{}{}index.html", port_, root_);
+  }
+
+  std::optional<HttpAnswer> answer(const HttpRequest& request) {
+    if (!is_own(request))
+      return HttpAnswer{403, {}, "only this page's own requests are answered\n"};
+    if (!is_among(request.method, {"GET", "HEAD"}))
+      return HttpAnswer{405, {}, "only GET and HEAD are answered\n"};
+    auto path = request.target.substr(0, request.target.find_first_of("?#"));
+    if (!path.starts_with(root_))
+      return HttpAnswer{403, {}, "the address is the one that 'slalom study-report' printed\n"};
+    const auto parts = parts_of(path.substr(root_.size()));
+    if (!is_known(parts)) return HttpAnswer{404, {}, "no such page\n"};
+    if (auto file = found(parts)) return file;
+    if (parts.back() != "report.html" || !may_drive(request))
+      return HttpAnswer{404, {}, "no such page\n"};
+    auto made = drives_.make(trial_of(parts[1]));
+    if (!made || made->status != 200) return made;
+    if (auto file = found(parts)) return file;
+    return HttpAnswer{404, {}, "the drive did not come to its end\n"};
+  }
+
+ private:
+  std::optional<HttpAnswer> found(const std::vector<std::string>& parts) const {
+    HttpAnswer answer;
+    answer.file = open_below(folder_, parts);
+    if (answer.file.number() < 0) return {};
+    answer.type = types().at(extension_of(parts.back()));
+    return answer;
+  }
+
+  /// Not of a page elsewhere, whose name leads here (DNS rebinding) or which asks across origins.
+  bool is_own(const HttpRequest& request) const {
+    const auto host = request.header("host"), origin = request.header("origin");
+    bool known_host = false, known_origin = origin.empty();
+    for (const std::string name : {"localhost", "127.0.0.1"}) {
+      const auto full = fmt::format("{}:{}", name, port_);
+      known_host |= host == full || host == name;
+      known_origin |= origin == "http://" + full;
+    }
+    return known_host && known_origin &&
+           is_among(request.header("sec-fetch-site"), {"", "none", "same-origin"});
+  }
+
+  /// A look, or what a browser fetches in case it is needed, must not set a drive going.
+  static bool may_drive(const HttpRequest& request) {
+    return request.method == "GET" && request.header("sec-purpose").empty() &&
+           request.header("purpose").empty();
+  }
+
+  const std::filesystem::path folder_;
+  const int port_;
+  const std::string root_;
+  Drives drives_;
+};
 
 }  // namespace
 
 void serve_sweep(const std::filesystem::path& folder, int port) {
-  httplib::Server server;
-  server.set_socket_options([](socket_t socket) {
-    const int yes = 1;  // and not SO_REUSEPORT, by which two servers would share a port
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  });
-  Drives drives(folder);
-  server.set_pre_routing_handler([&](const httplib::Request& request, httplib::Response& response) {
-    const auto trial = trial_of(request.path);
-    return trial.empty() ? httplib::Server::HandlerResponse::Unhandled
-                         : drives.make(trial, response);
-  });
-  server.set_mount_point("/", folder.string());
-  const int bound = port == 0                          ? server.bind_to_any_port(kHost)
-                    : server.bind_to_port(kHost, port) ? port
-                                                       : -1;
-  if (bound < 0) throw Error(fmt::format("port {}: is taken; --serve 0 finds a free one", port));
-  print(fmt::format("http://localhost:{}/index.html (Ctrl-C ends)\n", bound));
-  std::jthread watch([&](const std::stop_token& stop) {
-    while (!interrupted() && !stop.stop_requested())
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    server.stop();
-  });
-  server.listen_after_bind();
+  HttpServer server(port);
+  Pages pages(folder, server.port());
+  print(fmt::format("{} (Ctrl-C ends)\n", pages.address()));
+  server.run([&](const HttpRequest& request) { return pages.answer(request); }, interrupted);
 }
 
 }  // namespace slalom::app

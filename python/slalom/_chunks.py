@@ -49,7 +49,8 @@ class Chunk:
 
 class ChunkedSweep:
     """Runs what waits of a sweep on a cluster. A lost chunk is halved, down to the trial that loses its
-    workers: after `retries` more attempts this one is recorded as failed."""
+    workers: after `retries` more attempts this one is left to the next sweep, for others took the
+    workers away (memory, a batch system, a broken node)."""
 
     def __init__(self, sweep: OpenSweep, cluster: Cluster, chunk_seconds: float) -> None:
         self._sweep, self._cluster, self._seconds = sweep, cluster, chunk_seconds
@@ -57,6 +58,8 @@ class ChunkedSweep:
         self._running: dict[Hashable, Chunk] = {}
         self._mean: float | None = None  # [s] of one trial, as measured
         self._losses = 0  # in a row
+        self.left = 0
+        """Trials that lost every worker they had."""
 
     def run(self, tick: Callable[[], None] = lambda: None) -> None:
         """Returns when no trial waits; calls `tick` now and then. Raises Error when nothing but losses
@@ -99,6 +102,9 @@ class ChunkedSweep:
         except Lost as lost:
             self._lose(chunk, str(lost))
             return
+        if not results:
+            self._lose(chunk, "the processes of its trials were killed")
+            return
         self._losses = 0
         for trial, answer, reason in results:
             if answer is None:
@@ -124,4 +130,4 @@ class ChunkedSweep:
         if chunk.losses <= self._sweep.retries:
             self._again.appendleft(chunk)
             return
-        self._sweep.record_failed(chunk.orders[0][0], f"{chunk.losses} attempts; the last: {reason}")
+        self.left += 1

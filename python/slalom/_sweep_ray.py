@@ -128,6 +128,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     begin = parser.add_mutually_exclusive_group()
     begin.add_argument("--resume", action="store_true", help="refuse to begin anew: DIR must hold this study already")
     begin.add_argument("--force", action="store_true", help="replace what another sweep left in DIR")
+    begin.add_argument("--again", choices=["failed"], help="run the trials again that DIR holds as failed")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     return parser.parse_args(arguments)
 
@@ -151,7 +152,8 @@ def _require_reachable(address: str | None) -> None:
 
 def _sweep(ray: Any, given: argparse.Namespace) -> int:
     sweep = _core.OpenSweep(given.study, given.out, set=given.set, limit=given.limit,
-                            resume=given.resume, force=given.force)
+                            resume=given.resume, force=given.force,
+                            again_failed=given.again == "failed")
     code = OK
     progress = Progress(sweep, given.quiet)
     begun_here = not ray.is_initialized()
@@ -159,7 +161,10 @@ def _sweep(ray: Any, given: argparse.Namespace) -> int:
         if begun_here:
             _require_reachable(given.address)
             ray.init(address=given.address, log_to_driver=False, logging_level="ERROR")
-        ChunkedSweep(sweep, RayCluster(ray, sweep), given.chunk_seconds).run(progress.tick)
+        chunks = ChunkedSweep(sweep, RayCluster(ray, sweep), given.chunk_seconds)
+        chunks.run(progress.tick)
+        if chunks.left > 0:
+            code = INTERRUPTED
     except KeyboardInterrupt:
         code = INTERRUPTED
     finally:

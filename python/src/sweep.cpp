@@ -25,13 +25,14 @@ using Path = std::filesystem::path;
 class Sweep {
  public:
   Sweep(const std::string& study, const Path& out, const std::vector<std::string>& set,
-        std::optional<std::int64_t> limit, bool resume, bool force)
+        std::optional<std::int64_t> limit, bool resume, bool force, bool again_failed)
       : study_(sweep::load_study(study, set)) {
     sweep::SweepRequest request;
     request.out = std::filesystem::absolute(out);  // also where other machines keep drives
     request.limit = limit;
     request.resume = resume;
     request.force = force;
+    request.again_failed = again_failed;
     sweep_ = std::make_unique<sweep::OpenSweep>(study_, request);
   }
 
@@ -83,9 +84,9 @@ void require_kernels(const std::string& name) {
 void bind_open_sweep(nb::module_& module) {
   nb::class_<Sweep>(module, "OpenSweep", doc::sweep_OpenSweep)
       .def(nb::init<const std::string&, const Path&, const std::vector<std::string>&,
-                    std::optional<std::int64_t>, bool, bool>(),
+                    std::optional<std::int64_t>, bool, bool, bool>(),
            "study"_a, "out"_a, nb::kw_only(), "set"_a = std::vector<std::string>(),
-           "limit"_a = nb::none(), "resume"_a = false, "force"_a = false)
+           "limit"_a = nb::none(), "resume"_a = false, "force"_a = false, "again_failed"_a = false)
       .def_prop_ro("name", [](const Sweep& s) { return s.study().name; })
       .def_prop_ro("kernels", [](const Sweep& s) { return s.study().kernels; })
       .def_prop_ro("retries", [](const Sweep& s) { return s.study().settings.retries; })
@@ -139,8 +140,9 @@ void bind_sweep(nb::module_& module) {
   module.def(
       "run_trials", &run_trials, "orders"_a, "worker"_a, "retries"_a, "time_limit"_a, "seconds"_a,
       "Runs trials one after the other on a worker process, whose command is given: one that "
-      "calls\nserve_trials. Trials that have not begun after so many seconds are left out. "
-      "Returns of each trial\nits answer, or None and why it failed.");
+      "calls\nserve_trials. Trials that have not begun after so many seconds are left out, and "
+      "those whose processes\nothers kill. Returns of each trial its answer, or None and why it "
+      "failed.");
   module.def(
       "serve_trials",
       [] {

@@ -18,7 +18,10 @@ FileLock::FileLock(const std::filesystem::path& file, Wait wait) {
     if (descriptor_ >= 0) ::close(descriptor_);
     throw Error(fmt::format("{}: cannot be {} ({})", file.string(), what, std::strerror(reason)));
   };
-  descriptor_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  std::error_code error;
+  const int flags = std::filesystem::is_directory(file, error) ? O_RDONLY | O_DIRECTORY
+                                                               : O_RDWR | O_CREAT | O_NOFOLLOW;
+  descriptor_ = ::open(file.c_str(), flags | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail("written");
   int code = 0;
   do code = ::flock(descriptor_, wait == Wait::yes ? LOCK_EX : LOCK_EX | LOCK_NB);

@@ -4,8 +4,8 @@
 
 namespace slalom::io {
 
-/// Keeps other processes out of something while it lives, also when this process is killed. The
-/// file it is held by stays.
+/// Keeps other processes out of something while it lives, also when this process is killed. What it
+/// is held by stays: a file, which is made if need be, or a folder that is there.
 class FileLock {
  public:
   enum class Wait { no, yes };  ///< for another process that holds it

@@ -2,11 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/random.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <cstdint>
 #include <cstring>
-#include <set>
+#include <thread>
 #include <utility>
 
 #include "slalom/base/error.hpp"
@@ -57,7 +61,65 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+/// Whether create_aside made a file of this name, or a version before it did.
+bool is_aside(const std::string& name) {
+  const std::string end = ".aside";
+  if (!name.starts_with('.') || !name.ends_with(end)) return false;
+  const auto stem = name.substr(0, name.size() - end.size());
+  const auto dot = stem.rfind('.');
+  return dot > 0 && dot + 1 < stem.size() &&
+         stem.find_first_not_of("0123456789abcdef", dot + 1) == std::string::npos;
+}
+
+void remove_asides(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (is_aside(it->path().filename().string()) && !it->is_symlink() && it->is_regular_file(error))
+      left.push_back(it->path());
+  for (const auto& file : left) ::unlink(file.c_str());
+}
+
+/// A new file beside `path` and its descriptor, -1 with errno where there can be none. Nobody can
+/// have put a link, or a file, there beforehand.
+std::pair<fs::path, int> create_aside(const fs::path& path) {
+  constexpr std::size_t kMostOfName = 150;  // so that names of any length have room
+  for (;;) {
+    std::uint64_t digits = 0;
+    if (::getrandom(&digits, sizeof digits, 0) != sizeof digits) return {{}, -1};
+    auto aside =
+        folder_of(path) /
+        fmt::format(".{}.{:016x}.aside", path.filename().string().substr(0, kMostOfName), digits);
+    const int descriptor =
+        ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return {std::move(aside), descriptor};
+  }
+}
+
 }  // namespace
+
+/// A folder in which files stand aside: locked, so that nobody takes them for leftovers. Where
+/// there are no locks, leftovers stay.
+class FileSet::Folder {
+ public:
+  explicit Folder(const fs::path& folder)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) remove_asides(folder);
+    // Not for long: who locks the folder for other reasons than ours looks for no leftovers.
+    for (int i = 0; i < 20 && ::flock(descriptor_, LOCK_SH | LOCK_NB) != 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ~Folder() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+FileSet::FileSet() = default;
 
 FileSet::~FileSet() {
   for (const auto& file : pending_) ::unlink(file.aside.c_str());
@@ -79,10 +141,14 @@ void FileSet::add(const fs::path& path, const std::function<std::string()>& next
     made_folders_.push_back(folder);
   }
   if (fs::is_directory(path, error)) fail(path, EISDIR);
+  if (const int problem = write_aside(path, next_part)) fail(path, problem);
+}
 
-  const auto aside = folder / fmt::format(".{}.{}.aside", path.filename().string(), ::getpid());
-  const int descriptor = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(path, errno);
+int FileSet::write_aside(const fs::path& path, const std::function<std::string()>& next_part) {
+  const auto folder = folder_of(path);
+  folders_.try_emplace(folder, folder);
+  const auto [aside, descriptor] = create_aside(path);
+  if (descriptor < 0) return errno;
   pending_.push_back({aside, path});
   int problem = 0;
   try {
@@ -92,17 +158,23 @@ void FileSet::add(const fs::path& path, const std::function<std::string()>& next
     ::close(descriptor);
     throw;
   }
-  problem = flush_and_close(descriptor, problem);
-  if (problem != 0) fail(path, problem);
+  return flush_and_close(descriptor, problem);
+}
+
+int FileSet::probe(const fs::path& folder) {
+  FileSet files;
+  bool written = false;
+  return files.write_aside(folder / "slalom", [&] {
+    return std::exchange(written, true) ? std::string() : std::string("probe\n");
+  });
 }
 
 void FileSet::commit() {
   for (const auto& file : pending_)
     if (::rename(file.aside.c_str(), file.path.c_str()) != 0) fail(file.path, errno);
-  std::set<fs::path> folders;
-  for (const auto& file : pending_) folders.insert(folder_of(file.path));
-  for (const auto& folder : folders) flush_folder(folder);
+  for (const auto& folder : folders_) flush_folder(folder.first);
   pending_.clear();
+  folders_.clear();
   made_folders_.clear();
 }
 
@@ -128,13 +200,7 @@ void prepare_folder(const fs::path& folder, bool force) {
   if (error) fail(folder, error.value());
 
   // Better to learn now than after minutes of solving.
-  const auto probe = folder / fmt::format(".slalom.{}.aside", ::getpid());
-  const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  int problem = descriptor < 0 ? errno : write_all(descriptor, "probe\n");
-  if (descriptor >= 0) {
-    problem = flush_and_close(descriptor, problem);
-    ::unlink(probe.c_str());
-  }
+  const int problem = FileSet::probe(folder);
   if (problem == 0) return;
   if (!existed) fs::remove(folder, error);
   fail(folder, problem);

@@ -2,16 +2,18 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace slalom::io {
 
-/// Files that appear together or not at all: each is written aside in its own folder and flushed;
-/// commit() renames them into place. What was not committed is removed.
+/// Files that appear together or not at all: each is written aside in its own folder, under a name
+/// that nobody can foresee, and flushed; commit() renames them into place. What was not committed
+/// is removed; what a killed process left aside is removed by the next to write in that folder.
 class FileSet {
  public:
-  FileSet() = default;
+  FileSet();
   FileSet(const FileSet&) = delete;
   FileSet& operator=(const FileSet&) = delete;
   ~FileSet();
@@ -24,11 +26,21 @@ class FileSet {
   /// Puts all files in place, in the order of add(). Throws Error when a name cannot be taken.
   void commit();
 
+  /// 0 where a file can be written in a folder, which is there, or the errno of what stands in the
+  /// way. It leaves nothing but what killed runs had left, which is gone.
+  static int probe(const std::filesystem::path& folder);
+
  private:
+  class Folder;
   struct Pending {
     std::filesystem::path aside, path;
   };
+
+  /// 0 or the errno of what went wrong.
+  int write_aside(const std::filesystem::path& path, const std::function<std::string()>& next_part);
+
   std::vector<Pending> pending_;
+  std::map<std::filesystem::path, Folder> folders_;  ///< with a file aside
   std::vector<std::filesystem::path> made_folders_;
 };
 

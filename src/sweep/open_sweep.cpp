@@ -6,9 +6,9 @@
 
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
+#include "store_reader.hpp"
 #include "sweep_folder.hpp"
 #include "trial_message.hpp"
-#include "trial_store.hpp"
 
 namespace slalom::sweep {
 namespace fs = std::filesystem;
@@ -33,18 +33,6 @@ Stated stated(const Study& study) {
   table.repeats = study.settings.repeats;
   table.size = study.size();
   return result;
-}
-
-/// The folder, made ready for a study.
-fs::path prepared(const SweepRequest& request, const report::SweepTable& table) {
-  prepare_sweep_folder(request.out, table, request.resume, request.force);
-  return store_file(request.out, request.shard, request.shards);
-}
-
-/// What other sweeps left, gone if that is wished; only with the lock held.
-fs::path cleared(const SweepRequest& request, const fs::path& store) {
-  if (request.force) clear_sweep_folder(request.out);
-  return store;
 }
 
 }  // namespace
@@ -107,7 +95,7 @@ class OpenSweep::Impl {
   }
 
   void finish() {
-    store_.checkpoint();
+    held_.store->checkpoint();
     export_sweep(request_.out);
   }
 
@@ -117,11 +105,8 @@ class OpenSweep::Impl {
       : study_(study),
         request_(request),
         on_event_(std::move(on_event)),
-        file_(prepared(request, stated.table)),
-        lock_(file_),
-        store_(cleared(request, file_), stated.table),
+        held_(open_store(request, stated.table, stated.bases)),
         next_(request.shard) {
-    store_.keep_bases(stated.bases);
     find_done();
     report({});
   }
@@ -146,7 +131,7 @@ class OpenSweep::Impl {
     record.values = trial.values;
     record.repeat = trial.repeat;
     if (auto known = identities_.extract(number)) record.identity = std::move(known.mapped());
-    store_.add(record);
+    held_.store->add(record);
     ++summary_.done;
     summary_.failed += record.outcome == "failed" || record.outcome == "invalid";
     SweepEvent event;
@@ -166,9 +151,7 @@ class OpenSweep::Impl {
   const Study& study_;
   const SweepRequest request_;
   std::function<void(const SweepEvent&)> on_event_;
-  fs::path file_;
-  SweepLock lock_;
-  TrialStore store_;
+  HeldStore held_;
   std::vector<bool> done_;  ///< by trial number, as it was at the begin
   std::unordered_map<std::int64_t, std::string> identities_;  ///< of trials that are being run
   std::int64_t next_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,7 +53,10 @@ void Database::checkpoint() {
 }
 
 void Database::fail(int code) const {
-  const auto* reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
+  std::string reason = handle_ != nullptr ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
+  // It quotes a damaged file's bytes.
+  std::replace_if(
+      reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   throw Error(fmt::format("{}: {}", name_, reason));
 }
 
@@ -95,6 +99,14 @@ void Statement::run() {
   while (step()) {
   }
   check(sqlite3_reset(statement_));
+}
+
+int Statement::type(int column) const {
+  return sqlite3_column_type(statement_, column);
+}
+
+std::string Statement::name(int column) const {
+  return sqlite3_column_name(statement_, column);
 }
 
 std::int64_t Statement::integer(int column) const {

@@ -47,6 +47,8 @@ class Statement {
   /// Runs to the end and makes the statement ready for other values.
   void run();
 
+  int type(int column) const;  ///< SQLITE_INTEGER, SQLITE_TEXT, ...
+  std::string name(int column) const;
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string text(int column) const;

@@ -50,10 +50,13 @@ SweepSummary run_sweep(const Study& study, const SweepRequest& request, const Sw
     event.done = summary.done;
     if (hooks.on_event) hooks.on_event(event);
   };
-  const bool ended =
-      run_pool({request.worker, request.jobs, study.settings.retries, study.settings.time_limit},
-               pool_hooks(sweep, hooks, report));
+  std::int64_t left = 0;
+  auto pool = pool_hooks(sweep, hooks, report);
+  pool.left = [&left](std::int64_t) { ++left; };
+  const bool ended = run_pool(
+      {request.worker, request.jobs, study.settings.retries, study.settings.time_limit}, pool);
   auto summary = sweep.summary();
+  summary.killed = left;
   summary.interrupted = !ended;
   sweep.finish();
   return summary;

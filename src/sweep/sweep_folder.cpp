@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
 #include <utility>
 
 #include "../io/file_set.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/drive_files.hpp"
-#include "trial_store.hpp"
+#include "store_reader.hpp"
 #include "trials_csv.hpp"
 
 namespace slalom::sweep {
@@ -17,7 +20,13 @@ namespace {
 
 constexpr std::size_t kPart = 1 << 16;  ///< bytes of a table written at once
 
-/// The identity of the study whose results stand in a folder; empty if there are none.
+/// Two stores of one study state the same trials.
+bool stated_alike(const report::SweepTable& a, const report::SweepTable& b) {
+  return a.kernels == b.kernels && a.scenarios == b.scenarios && a.planners == b.planners &&
+         a.columns == b.columns && a.repeats == b.repeats && a.size == b.size;
+}
+
+/// The study whose results stand in a folder; its identity is empty if there are none.
 report::SweepTable study_in(const fs::path& folder) {
   report::SweepTable found;
   for (const auto& file : store_files(folder)) {
@@ -26,6 +35,9 @@ report::SweepTable study_in(const fs::path& folder) {
     if (!found.identity.empty() && found.identity != study.identity)
       throw Error(fmt::format("{}: holds the results of two studies, '{}' and '{}'",
                               folder.string(), found.name, study.name));
+    if (!found.identity.empty() && !stated_alike(found, study))
+      throw Error(fmt::format("{}: damaged: states another study than the stores beside it",
+                              file.string()));
     found = std::move(study);
   }
   return found;
@@ -65,6 +77,11 @@ void check_sweep_folder(const fs::path& folder, const report::SweepTable& study,
         "{}: holds results of {}; take another folder, or --force to replace them", folder.string(),
         found.name == study.name ? fmt::format("study '{}' as it was before it changed", found.name)
                                  : fmt::format("another study, '{}'", found.name)));
+  if (same && !found.identity.empty() && !stated_alike(found, study))
+    throw Error(
+        fmt::format("{}: damaged: does not state the trials of study '{}'; take another "
+                    "folder, or --force to replace what is there",
+                    folder.string(), study.name));
   if (!found.identity.empty()) return;
   if (const auto name = foreign_entry(folder); !name.empty())
     throw Error(
@@ -72,14 +89,22 @@ void check_sweep_folder(const fs::path& folder, const report::SweepTable& study,
                     folder.string(), name));
 }
 
-/// The one study of several folders.
+/// The one study of several folders, of which some may hold nothing but a store that was killed as
+/// it was made.
 report::SweepTable common_study(const std::vector<fs::path>& folders) {
-  const auto first = study_of(folders.front());
-  for (const auto& folder : folders)
-    if (const auto study = study_of(folder); study.identity != first.identity)
-      throw Error(fmt::format("{}: holds another study ('{}') than {} ('{}')", folder.string(),
-                              study.name, folders.front().string(), first.name));
-  return first;
+  const auto is_empty = [](const fs::path& folder) {
+    return !store_files(folder).empty() && study_in(folder).identity.empty();
+  };
+  const auto first = std::find_if_not(folders.begin(), folders.end(), is_empty);
+  if (first == folders.end()) return study_of(folders.front());
+  const auto common = study_of(*first);
+  for (auto folder = first + 1; folder != folders.end(); ++folder) {
+    if (is_empty(*folder)) continue;
+    if (const auto study = study_of(*folder); study.identity != common.identity)
+      throw Error(fmt::format("{}: holds another study ('{}') than {} ('{}')", folder->string(),
+                              study.name, first->string(), common.name));
+  }
+  return common;
 }
 
 /// Copies the kept drives that `out` does not have.
@@ -91,28 +116,107 @@ void copy_drives(const fs::path& folder, const fs::path& out) {
   if (error) throw Error(fmt::format("{}: {}", (out / "drives").string(), error.message()));
 }
 
-}  // namespace
-
-void prepare_sweep_folder(const fs::path& folder, const report::SweepTable& study, bool resume,
-                          bool force) {
-  if (!force) check_sweep_folder(folder, study, resume);
-  io::prepare_folder(folder, true);
+void remove_tree(const fs::path& path) {
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) throw Error(fmt::format("{}: {}", path.string(), error.message()));
 }
 
+fs::path lock_file(const fs::path& store) {
+  return store.parent_path() / ("." + store.stem().string() + ".lock");
+}
+
+/// The shard i/n whose store is locked by `.trials-i-of-n.lock`, 1/1 for `.trials.lock`; 0/0 for
+/// other files.
+std::pair<int, int> shard_of(const fs::path& lock) {
+  const auto name = lock.filename().string();
+  int shard = 0, shards = 0;
+  if (name == ".trials.lock") return {1, 1};
+  if (std::sscanf(name.c_str(), ".trials-%9d-of-%9d", &shard, &shards) != 2 || shards < 1)
+    return {0, 0};
+  return {shard, shards};
+}
+
+/// Shards of a folder at which another process is at work.
+using Shards = std::vector<std::pair<int, int>>;
+
+Shards at_work(const fs::path& folder) {
+  Shards found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto shard = shard_of(entry.path());
+    if (shard.second != 0 && !io::FileLock(entry.path(), io::FileLock::Wait::no).held())
+      found.push_back(shard);
+  }
+  return found;
+}
+
+/// Throws Error when one of the shards has a trial of this sweep's, or is of another study.
+void check_apart(const Shards& shards, const SweepRequest& request,
+                 const report::SweepTable& study) {
+  for (const auto& [shard, count] : shards) {
+    const bool shares = (shard - request.shard) % std::gcd(count, request.shards) == 0;
+    const auto store = store_file(request.out, shard, count);
+    if (shares || stored_study(store).identity != study.identity)
+      throw Error(fmt::format("{}: another sweep is at work on it", store.string()));
+  }
+}
+
+/// Removes what sweeps left in the folder, nothing else.
 void clear_sweep_folder(const fs::path& folder) {
   std::vector<fs::path> ours;
   for (const auto& entry : fs::directory_iterator(folder))
     if (is_ours(entry.path()) && entry.path().extension() != ".lock") ours.push_back(entry.path());
-  for (const auto& path : ours) {
-    std::error_code error;
-    fs::remove_all(path, error);
-    if (error) throw Error(fmt::format("{}: {}", path.string(), error.message()));
-  }
+  for (const auto& path : ours) remove_tree(path);
 }
 
-SweepLock::SweepLock(const fs::path& store)
-    : lock_(store.parent_path() / ("." + store.stem().string() + ".lock"), io::FileLock::Wait::no) {
-  if (!lock_.held()) throw Error(fmt::format("{}: another sweep is at work on it", store.string()));
+/// Removes what is there of the trials of one shard, for other shards are at work.
+void clear_shard(const fs::path& folder, int shard, int shards) {
+  for (const auto& store : store_files(folder)) forget_trials(store, shard, shards);
+  std::vector<fs::path> ours;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder / "drives", error))
+    if ((std::atoll(entry.path().filename().c_str()) - shard) % shards == 0)
+      ours.push_back(entry.path());
+  for (const auto& path : ours) remove_tree(path);
+}
+
+/// What the stores of several folders keep of their study's scenarios: a store that was killed as
+/// it was made has none.
+std::vector<std::string> bases_in(const std::vector<fs::path>& folders) {
+  for (const auto& folder : folders)
+    for (const auto& file : store_files(folder))
+      if (auto bases = stored_bases(file); !bases.empty()) return bases;
+  return {};
+}
+
+}  // namespace
+
+HeldStore open_store(const SweepRequest& request, const report::SweepTable& study,
+                     const std::vector<std::string>& bases) {
+  const auto& folder = request.out;
+  std::error_code error;
+  if (request.resume && !fs::exists(folder, error)) check_sweep_folder(folder, study, true);
+  io::prepare_folder(folder, true);
+  const io::FileLock beginning(folder, io::FileLock::Wait::yes);
+  const auto working = at_work(folder);
+  check_apart(working, request, study);
+  const bool anew = request.force && working.empty();
+  if (!anew) check_sweep_folder(folder, study, request.resume);
+  const auto file = store_file(folder, request.shard, request.shards);
+  HeldStore held;
+  held.lock = std::make_unique<io::FileLock>(lock_file(file), io::FileLock::Wait::no);
+  if (!held.lock->held())
+    throw Error(fmt::format("{}: another sweep is at work on it", file.string()));
+  if (anew)
+    clear_sweep_folder(folder);
+  else if (request.force)
+    clear_shard(folder, request.shard, request.shards);
+  held.store = std::make_unique<TrialStore>(file, study, bases);
+  if (request.again_failed)
+    for (const auto& store : store_files(folder))
+      forget_trials(store, request.shard, request.shards, "failed");
+  return held;
 }
 
 report::SweepTable study_of(const fs::path& folder) {
@@ -169,19 +273,15 @@ SweepContent merge_sweeps(const std::vector<fs::path>& from, const fs::path& out
     std::error_code error;
     return fs::equivalent(folder, out, error);
   });
-  prepare_sweep_folder(out, study, false, force && !into_one_of_them);
-  const auto file = store_file(out, 1, 1);
-  const SweepLock lock(file);
-  if (force && !into_one_of_them) clear_sweep_folder(out);
-  {
-    TrialStore store(file, study);
-    store.keep_bases(stored_bases(store_files(from.front()).front()));
-    for (const auto& folder : from) {
-      TrialStream trials(store_files(folder));
-      store.add_all(trials);
-    }
-    store.checkpoint();
+  SweepRequest request;
+  request.out = out;
+  request.force = force && !into_one_of_them;
+  const auto held = open_store(request, study, bases_in(from));
+  for (const auto& folder : from) {
+    TrialStream trials(store_files(folder));
+    held.store->add_all(trials);
   }
+  held.store->checkpoint();
   for (const auto& folder : from) copy_drives(folder, out);
   return export_sweep(out);
 }

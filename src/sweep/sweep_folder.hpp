@@ -1,30 +1,30 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "../io/file_lock.hpp"
 #include "slalom/sweep/sweep.hpp"
+#include "trial_store.hpp"
 
 namespace slalom::sweep {
 
-/// Sees to it that `folder` may take results of `study`: it is new, empty, or holds the same study.
-/// `force` lets anything stand there. Throws Error otherwise, or when `resume` demands results that
-/// are not there.
-void prepare_sweep_folder(const std::filesystem::path& folder, const report::SweepTable& study,
-                          bool resume, bool force);
-
-/// Removes what a sweep left in the folder, nothing else.
-void clear_sweep_folder(const std::filesystem::path& folder);
-
-/// Keeps other sweeps out of a store while it lives, also when this process is killed.
-class SweepLock {
- public:
-  /// Throws Error when another process holds it.
-  explicit SweepLock(const std::filesystem::path& store);
-
- private:
-  io::FileLock lock_;
+/// A store that this process alone writes while this lives, also when it is killed.
+struct HeldStore {
+  std::unique_ptr<io::FileLock> lock;
+  std::unique_ptr<TrialStore> store;
 };
+
+/// Opens the store of `request.out` and the shard, for `study` and its `bases`. The folder is new,
+/// empty or holds the same study; with `force` what other sweeps left there is removed, or, while
+/// other shards are at work, what they left of this one's trials. One process at a time begins in a
+/// folder. Throws Error, and leaves the folder as it was, when it holds something else, when a
+/// sweep is at work there on another study or on trials of this one, or when `resume` demands
+/// results that are not there.
+HeldStore open_store(const SweepRequest& request, const report::SweepTable& study,
+                     const std::vector<std::string>& bases);
 
 /// The study whose results stand in a folder, without its trials; throws Error when there is none.
 report::SweepTable study_of(const std::filesystem::path& folder);

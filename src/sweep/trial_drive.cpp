@@ -8,9 +8,9 @@
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/sweep/study.hpp"
+#include "store_reader.hpp"
 #include "sweep_folder.hpp"
 #include "trial_message.hpp"
-#include "trial_store.hpp"
 
 namespace slalom::sweep {
 namespace fs = std::filesystem;
@@ -37,7 +37,13 @@ std::string resolved(const Found& found, const report::SweepTable& study) {
   const auto& record = found.record;
   const auto base =
       io::parse_scenario(stored_base(found.store, record.trial), found.store.string());
-  auto text = io::to_yaml(resolve_trial(base, study.columns, record.values, record.trial));
+  std::string text;
+  try {
+    text = io::to_yaml(resolve_trial(base, study.columns, record.values, record.trial));
+  } catch (const InvalidValue& error) {
+    throw InvalidValue(found.store.string() + ": damaged: " + error.where(), error.found(),
+                       error.expected());
+  }
   if (trial_identity(text, study.kernels, record.repeat) != record.identity)
     throw Error(fmt::format("{}: trial {} was recorded by another version of Slalom",
                             found.store.string(), record.trial));
@@ -55,7 +61,8 @@ bool alike(const report::TrialRecord& a, const report::TrialRecord& b) {
 
 }  // namespace
 
-TrialDrive trial_drive(const fs::path& folder, std::int64_t number) {
+TrialDrive trial_drive(const fs::path& folder, std::int64_t number,
+                       const std::function<bool()>& interrupted) {
   const auto study = study_of(folder);
   TrialDrive result{drive_folder(folder, number)};
   const auto found = find(folder, study, number);
@@ -64,9 +71,11 @@ TrialDrive trial_drive(const fs::path& folder, std::int64_t number) {
   if (found.record.outcome == "invalid")
     throw InvalidValue(folder.string(), fmt::format("trial {}, which is invalid", number),
                        "one that could be driven: " + found.record.message);
-  const auto answer = run_trial({resolved(found, study), study.kernels, result.folder.string()});
+  const auto answer =
+      run_trial({resolved(found, study), study.kernels, result.folder.string()}, interrupted);
   if (!answer.not_written.empty()) throw Error(answer.not_written);
   result.again = true;
+  result.interrupted = answer.record.outcome == sim::to_string(sim::Outcome::interrupted);
   result.as_recorded = found.record.outcome == "failed" || alike(answer.record, found.record);
   return result;
 }

@@ -1,8 +1,11 @@
 #include "trial_message.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "slalom/base/error.hpp"
 #include "slalom/sim/solve_times.hpp"
 #include "slalom/sim/verification.hpp"
 
@@ -52,9 +55,26 @@ void from_json_value(const Json& json, double& value) {
   else
     value = json.is_null() ? TrialRecord::kNone : json.get<double>();
 }
-template <class T>
-void from_json_value(const Json& json, T& value) {
+void from_json_value(const Json& json, int& value) {
+  if (!json.is_number_unsigned() || json > std::numeric_limits<int>::max())
+    throw InvalidValue("a count", json.dump(), "a whole number from 0 on");
   json.get_to(value);
+}
+void from_json_value(const Json& json, std::string& value) {
+  json.get_to(value);
+}
+
+/// What `read` makes of a line of JSON. Throws InvalidValue for a line that is none of `content`.
+template <class F>
+auto parsed(const std::string& line, const std::string& content, const F& read) {
+  constexpr std::size_t kShown = 80;
+  try {
+    return read(Json::parse(line));
+  } catch (const Json::exception&) {
+  } catch (const InvalidValue&) {
+  }
+  throw InvalidValue("a line between a sweep and its worker", "'" + line.substr(0, kShown) + "'",
+                     content);
 }
 
 std::string dump(const Json& json) {
@@ -68,8 +88,9 @@ std::string to_line(const TrialOrder& order) {
 }
 
 TrialOrder parse_order(const std::string& line) {
-  const auto json = Json::parse(line);
-  return {json.at("resolved"), json.at("kernels"), json.at("folder")};
+  return parsed(line, "a trial's order", [](const Json& json) {
+    return TrialOrder{json.at("resolved"), json.at("kernels"), json.at("folder")};
+  });
 }
 
 std::string to_line(const TrialAnswer& answer) {
@@ -80,12 +101,17 @@ std::string to_line(const TrialAnswer& answer) {
 }
 
 TrialAnswer parse_answer(const std::string& line) {
-  const auto json = Json::parse(line);
-  TrialAnswer answer;
-  answer.not_written = json.at("not_written");
-  for_each_figure(answer.record,
-                  [&](const char* name, auto& value) { from_json_value(json.at(name), value); });
-  return answer;
+  return parsed(line, "the figures of a drive", [](const Json& json) {
+    TrialAnswer answer;
+    answer.not_written = json.at("not_written");
+    for_each_figure(answer.record,
+                    [&](const char* name, auto& value) { from_json_value(json.at(name), value); });
+    if (const auto& known = sim::outcome_names();
+        answer.not_written.empty() &&
+        std::find(known.begin(), known.end(), answer.record.outcome) == known.end())
+      throw InvalidValue("outcome", answer.record.outcome, "a known one");
+    return answer;
+  });
 }
 
 TrialRecord record_of(const sim::Drive& drive) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "slalom/report/sweep_table.hpp"
@@ -24,8 +25,9 @@ struct TrialAnswer {
 std::string to_line(const TrialAnswer& answer);
 TrialAnswer parse_answer(const std::string& line);
 
-/// Drives a trial, on its instruction set, which stays selected.
-TrialAnswer run_trial(const TrialOrder& order);
+/// Drives a trial, on its instruction set, which stays selected. A drive that is interrupted leaves
+/// no files.
+TrialAnswer run_trial(const TrialOrder& order, const std::function<bool()>& interrupted = {});
 
 /// The figures of a drive.
 report::TrialRecord record_of(const sim::Drive& drive);

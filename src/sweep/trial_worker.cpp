@@ -28,13 +28,15 @@ void write_line(int descriptor, std::string line) {
 
 }  // namespace
 
-TrialAnswer run_trial(const TrialOrder& order) {
+TrialAnswer run_trial(const TrialOrder& order, const std::function<bool()>& interrupted) {
   select_kernels(kernel_set(order.kernels));
   const auto scenario = io::parse_scenario(order.resolved, "trial");
-  const auto drive = sim::drive(scenario);
+  sim::LoopHooks hooks;
+  hooks.interrupted = interrupted;
+  const auto drive = sim::drive(scenario, hooks);
   TrialAnswer answer;
   answer.record = record_of(drive);
-  if (order.folder.empty()) return answer;
+  if (order.folder.empty() || drive.outcome == sim::Outcome::interrupted) return answer;
   try {
     io::prepare_folder(order.folder, true);
     io::write_drive(order.folder, scenario, drive);
@@ -45,9 +47,9 @@ TrialAnswer run_trial(const TrialOrder& order) {
 }
 
 void serve_trials() {
-  // Ctrl-C reaches the whole group; when to end is the supervisor's to say. SIGTERM ends it.
-  for (const int signal : {SIGINT, SIGHUP}) std::signal(signal, SIG_IGN);
-  std::signal(SIGTERM, SIG_DFL);
+  // Ctrl-C and a batch system's SIGTERM reach the whole group; when to end is the supervisor's to
+  // say, with whom a worker ends.
+  for (const int signal : {SIGINT, SIGHUP, SIGTERM}) std::signal(signal, SIG_IGN);
   // What a library prints must not be taken for an answer.
   const int answers = ::dup(STDOUT_FILENO);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);

@@ -134,22 +134,24 @@ class Pool {
     const double limit = seat.ready ? settings_.time_limit : kStartLimit;
     if (seconds_since(seat.since) <= limit) return;
     (void)seat.worker->finish();
-    lose(seat, fmt::format("no answer within {:g} s", limit));
+    lose(seat, {fmt::format("no answer within {:g} s", limit), false});
   }
 
-  /// The seat's worker is gone; its job is tried again or has failed.
-  void lose(Seat& seat, const std::string& reason) {
+  /// The seat's worker is gone; its job is tried again, is left, or has failed.
+  void lose(Seat& seat, const WorkerEnd& end) {
     seat.worker.reset();
     if (!seat.ready && ++failed_starts_ >= kMaxFailedStarts)
-      throw Error(fmt::format("workers do not start: {}", reason));
+      throw Error(fmt::format("workers do not start: {}", end.text));
     if (!seat.attempt) return;
     auto attempt = std::move(*seat.attempt);
-    if (hooks_.retried) hooks_.retried(attempt.job.id, reason);
-    if (attempt.tries <= settings_.retries) {
+    if (hooks_.retried) hooks_.retried(attempt.job.id, end.text);
+    if (attempt.tries <= settings_.retries)
       waiting_.push_front(std::move(attempt));
-      return;
-    }
-    hooks_.failed(attempt.job.id, fmt::format("{} attempts; the last: {}", attempt.tries, reason));
+    else if (!end.killed)
+      hooks_.failed(attempt.job.id,
+                    fmt::format("{} attempts; the last: {}", attempt.tries, end.text));
+    else if (hooks_.left)
+      hooks_.left(attempt.job.id);
   }
 
   const PoolSettings& settings_;

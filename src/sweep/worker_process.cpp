@@ -159,19 +159,21 @@ std::optional<std::string> WorkerProcess::take_line() {
   return line;
 }
 
-std::string WorkerProcess::finish() {
+WorkerEnd WorkerProcess::finish() {
   int status = 0;
   ::kill(process_, SIGKILL);  // no effect on one that has ended: it is still to be waited for
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
   receive_messages();
-  auto text = WIFSIGNALED(status)
-                  ? fmt::format("the worker was killed by signal {} ({})", WTERMSIG(status),
-                                strsignal(WTERMSIG(status)))
-                  : fmt::format("the worker ended with exit code {}", WEXITSTATUS(status));
-  if (const auto words = last_line(last_words_); !words.empty()) text += ": " + words;
-  return text;
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  WorkerEnd end;
+  end.text = signal != 0
+                 ? fmt::format("the worker was killed by signal {} ({})", signal, strsignal(signal))
+                 : fmt::format("the worker ended with exit code {}", WEXITSTATUS(status));
+  if (const auto words = last_line(last_words_); !words.empty()) end.text += ": " + words;
+  for (const int sent : {SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT}) end.killed |= signal == sent;
+  return end;
 }
 
 }  // namespace slalom::sweep

@@ -8,6 +8,14 @@
 
 namespace slalom::sweep {
 
+/// How a worker ended.
+struct WorkerEnd {
+  /// "the worker was killed by signal 11 (Segmentation fault)", "the worker ended with exit code
+  /// 4", and its last words.
+  std::string text;
+  bool killed = false;  ///< by a signal that others send: SIGKILL, SIGTERM, SIGINT, SIGHUP, SIGQUIT
+};
+
 /// A child process that talks in lines over a socket as its standard input and output. It is killed
 /// when this object or this process ends.
 class WorkerProcess {
@@ -34,10 +42,8 @@ class WorkerProcess {
   /// The next whole line that has come, if any.
   std::optional<std::string> take_line();
 
-  /// Kills the process if it still runs, waits for it, and says how it ended: "the worker was
-  /// killed by signal 11 (Segmentation fault)", "the worker ended with exit code 4", and its last
-  /// words.
-  std::string finish();
+  /// Kills the process if it still runs, waits for it, and says how it ended.
+  WorkerEnd finish();
 
  private:
   void close_all();

@@ -10,8 +10,6 @@ import sqlite3
 import subprocess
 import time
 import unittest
-import urllib.error
-import urllib.request
 import xml.etree.ElementTree
 
 from program import PROGRAM, interrupt, run, start
@@ -157,31 +155,6 @@ class Report(SweepTest):
         self.assertEqual(run("merge", self.folder / "one", self.folder / "two", "--out",
                              self.folder / "all").code, 0)
         self.assertIn("as recorded", run("study-report", self.folder / "all", "--trial", "4").out)
-
-    def test_a_served_page_drives_what_is_asked_for(self):
-        self.sweep("out", "--limit", "1")
-        process = start("study-report", self.folder / "out", "--serve", "0")
-        try:
-            address = ""
-            while not address.startswith("http"):
-                address = process.stdout.readline().split(" ")[0]
-            base = address.rsplit("/", 1)[0]
-            self.assertIn(b"Click on a trial", urllib.request.urlopen(address, timeout=20).read())
-            self.assertFalse((self.folder / "out/drives").exists())
-            drive = urllib.request.urlopen(f"{base}/drives/000001/report.html", timeout=60).read()
-            self.assertEqual(drive, (self.folder / "out/drives/000001/report.html").read_bytes())
-            for number, said in (("000002", b"has not run yet"), ("000099", b"from 1 to 12")):
-                with self.assertRaises(urllib.error.HTTPError) as refused:
-                    urllib.request.urlopen(f"{base}/drives/{number}/report.html", timeout=20)
-                self.assertEqual(refused.exception.code, 404)
-                self.assertIn(said, refused.exception.read())
-                refused.exception.close()
-            taken = run("study-report", self.folder / "out", "--serve", base.rsplit(":", 1)[1])
-            self.assertEqual(taken.code, 3)
-            self.assertIn("is taken", taken.err)
-        finally:
-            interrupt(process)
-        self.assertEqual(process.wait(20), 0)
 
     def test_a_folder_without_a_sweep_is_refused(self):
         self.assert_refused(run("study-report", self.folder), 3, "holds no results of a sweep")

@@ -198,12 +198,46 @@ TEST_F(FakeSolver, NoOrDamagedAnswersAreFailuresWithAReason) {
   expect("printf 'hm\\n\\nOptions\\n0\\n2\\n2\\n3\\n3\\n' > problem.sol", "3 rows, as the .nl");
   expect("printf 'hm\\n\\nOptions\\n0\\n3\\n0\\n3\\n3\\n1\\n2\\n' > problem.sol",
          "the end of the file, expected a variable's value");
+  expect("printf 'hm\\n\\nOptions\\n0\\n3\\n0\\n3\\n0\\nobjno 0 0\\n' > problem.sol", "no values");
+}
+
+TEST_F(FakeSolver, ANumberIsFiniteAndTheWholeOfItsLine) {
+  const std::string head = "printf 'hm\\n\\nOptions\\n1\\n1\\n3\\n3\\n3\\n3\\n";
+  const std::string numbers = "1\\n2\\n3\\n4\\n5\\n6\\n", last = "objno 0 0\\n";
+  const std::string suffix = "suffix 4 1 13 0 0\\nipopt_zL_out\\n1 0.25\\n";
+  const auto status = [&](const std::string& text) {
+    return run(head + text + "' > problem.sol").status;
+  };
+  EXPECT_EQ(status(numbers + last + suffix), Status::solved);
+  EXPECT_EQ(status(" +1e0 \\n2\\n3\\n4\\n5\\n6\\r\\n objno 0 0\\n" + last), Status::solved);
+  for (const std::string bad : {"nan", "1e400junk", "1e400", "-inf", "Infinity", "1 2", "1,5",
+                                "0x1p3", "1.5.", "", "--1", "1e"}) {
+    EXPECT_EQ(status(bad + "\\n2\\n3\\n4\\n5\\n6\\n" + last), Status::numerical_failure) << bad;
+    EXPECT_EQ(status("1\\n2\\n3\\n4\\n5\\n" + bad + "\\n" + last), Status::numerical_failure)
+        << bad;
+    EXPECT_EQ(status(numbers + last + "suffix 4 1 13 0 0\\nipopt_zL_out\\n1 " + bad + "\\n"),
+              Status::numerical_failure)
+        << bad;
+  }
+  for (const std::string bad : {"objno 0 0junk", "objno 0", "objno x 0", "objno 0 0 0",
+                                "objno 0 0.5", "objno 0 99999999999"})
+    EXPECT_EQ(status(numbers + bad + "\\n"), Status::numerical_failure) << bad;
+  for (const std::string bad : {"-1", "1.5", "1x", "99999999999999999999"}) {
+    EXPECT_EQ(run("printf 'hm\\n\\nOptions\\n" + bad + "\\n' > problem.sol").status,
+              Status::numerical_failure);
+    EXPECT_EQ(status(numbers + last + "suffix 4 " + bad + " 13 0 0\\nipopt_zL_out\\n1 0.25\\n"),
+              Status::numerical_failure)
+        << bad;
+  }
 }
 
 TEST_F(FakeSolver, StopsAtTheDeadlineAndWhenAsked) {
   Options options;
   options.time_limit = 0.1;
   EXPECT_EQ(run("while :; do :; done", options).status, Status::time_limit);
+  const auto asleep = run("exec sleep 100", options);
+  EXPECT_EQ(asleep.status, Status::time_limit);
+  EXPECT_LT(asleep.wall_s, 10);
   Options asked;
   asked.stop = [](void*) { return true; };
   const auto answer = run("sleep 100", asked);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "../../src/sweep/trial_message.hpp"
 #include "io/files.hpp"
 #include "slalom/base/error.hpp"
 
@@ -107,7 +108,14 @@ TEST(OpenSweep, WhatIsNoAnswerIsNotRecorded) {
   const auto study = six_trials();
   OpenSweep sweep(study, request_for(folder));
   const auto job = sweep.next();
-  EXPECT_ANY_THROW(sweep.record(job->trial, "no answer at all"));
+  auto figures = to_line(TrialAnswer{});
+  for (const std::string& line : {std::string(), std::string("no answer at all"), std::string("{}"),
+                                  std::string("[1]"), std::string("{\"not_written\": 1}"), figures})
+    EXPECT_THROW(sweep.record(job->trial, line), Error) << line;
+  TrialAnswer negative;
+  negative.record.outcome = "goal";
+  negative.record.cycles = -1;
+  EXPECT_THROW(sweep.record(job->trial, to_line(negative)), Error);
   EXPECT_EQ(sweep.summary().done, 0);
 }
 

@@ -16,6 +16,7 @@ PoolSettings shell(int workers) {
   settings.command = {"/bin/sh", "-c",
                       "echo ready; while read -r line; do case \"$line\" in "
                       "crash) echo oh dear >&2; kill -SEGV $$;; hang) sleep 1000;; "
+                      "KILL|TERM|INT|HUP|QUIT) kill -s $line $$; sleep 1000;; "
                       "leave) echo enough >&2; exit 7;; *) echo \"ok $line\";; esac; done"};
   settings.workers = workers;
   settings.retries = 1;
@@ -27,6 +28,7 @@ PoolSettings shell(int workers) {
 struct PoolRun {
   std::map<std::int64_t, std::string> done, failed;
   std::map<std::int64_t, int> attempts;
+  std::set<std::int64_t> left;
   std::set<int> processes;
   bool finished = false;
 
@@ -49,6 +51,7 @@ struct PoolRun {
     hooks.failed = [&](std::int64_t id, const std::string& reason) {
       EXPECT_TRUE(failed.emplace(id, reason).second) << "failed twice";
     };
+    hooks.left = [&](std::int64_t id) { EXPECT_TRUE(left.insert(id).second) << "left twice"; };
     if (interrupted) hooks.interrupted = [&, interrupted] { return interrupted(*this); };
     finished = run_pool(settings, hooks);
   }
@@ -91,6 +94,15 @@ TEST(WorkerPool, AWorkerThatDiesOrHangsCostsItsJobOnly) {
   EXPECT_EQ(run.failed.at(3), "2 attempts; the last: no answer within 0.5 s");
   EXPECT_EQ(run.failed.at(5), "2 attempts; the last: the worker ended with exit code 7: enough");
   for (const std::int64_t id : {1, 3, 5}) EXPECT_EQ(run.attempts.at(id), 2);
+}
+
+TEST(WorkerPool, AKillByOthersIsNoFailure) {
+  const PoolRun run(shell(2), {"a", "KILL", "b", "TERM", "INT", "HUP", "QUIT", "c"});
+  EXPECT_TRUE(run.finished);
+  EXPECT_EQ(run.done.size(), 3U);
+  EXPECT_TRUE(run.failed.empty());
+  EXPECT_EQ(run.left, (std::set<std::int64_t>{1, 3, 4, 5, 6}));
+  for (const std::int64_t id : run.left) EXPECT_EQ(run.attempts.at(id), 2);
 }
 
 TEST(WorkerPool, LongLinesPassWhole) {

@@ -20,6 +20,7 @@ struct SweepRequest {
   int shard = 1, shards = 1;          ///< trials shard, shard + shards, shard + 2 shards, ...
   bool resume = false;                ///< demand that `out` holds this study already
   bool force = false;                 ///< replace what another sweep left in `out`
+  bool again_failed = false;          ///< run trials again that stand there as failed
   std::vector<std::string> worker;    ///< command of a worker process, one that runs serve_trials()
 };
 
@@ -46,7 +47,8 @@ struct SweepSummary {
   std::int64_t before = 0;   ///< found done
   std::int64_t done = 0;     ///< run and recorded now
   std::int64_t failed = 0;   ///< of these, failed or invalid
-  std::int64_t pending = 0;  ///< left: the limit, or an interruption
+  std::int64_t pending = 0;  ///< left: the limit, an interruption, or killed workers
+  std::int64_t killed = 0;   ///< of these, left because others killed their workers
   bool interrupted = false;
 };
 

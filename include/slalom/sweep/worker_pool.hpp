@@ -29,17 +29,20 @@ struct PoolHooks {
   std::function<std::optional<PoolJob>()> next;  ///< the next job; nothing: there is none left
   std::function<void(std::int64_t id, int process, int attempt)> started;
   std::function<void(std::int64_t id, const std::string& answer)> done;
-  /// An attempt that came to nothing; the last one of a job is followed by `failed`.
+  /// An attempt that came to nothing; the last one of a job is followed by `failed` or `left`.
   std::function<void(std::int64_t id, const std::string& reason)> retried;
   std::function<void(std::int64_t id, const std::string& reason)> failed;
+  /// The worker of the last attempt was killed by others (out of memory, a batch system, a person),
+  /// which says nothing of the job.
+  std::function<void(std::int64_t id)> left;
   std::function<void()> tick;         ///< several times a second
   std::function<bool()> interrupted;  ///< polled; true ends the run at once
 };
 
 /// Runs all jobs on worker processes. A worker that dies or hangs costs its own attempt only: it is
-/// replaced and the job tried again, at last reported as failed. Workers end with the caller, by
-/// whatever it ends. Returns false when interrupted. Throws Error when workers cannot be started or
-/// never get ready.
+/// replaced and the job tried again, at last reported as failed, or as left. Workers end with the
+/// caller, by whatever it ends. Returns false when interrupted. Throws Error when workers cannot be
+/// started or never get ready.
 bool run_pool(const PoolSettings& settings, const PoolHooks& hooks);
 
 }  // namespace slalom::sweep

@@ -129,7 +129,7 @@ class NlSolver final : public Solver {
     write_text(folder.path() / "problem.nl", file.text);
     std::vector<std::string> command{executable.string(), "problem.nl", "-AMPL"};
     command.insert(command.end(), words.begin(), words.end());
-    const auto end = run(command, folder.path(), options, answer);
+    const auto end = run(command, folder.path(), options, timer, answer);
     if (!end.stopped) read(problem, file, folder.path(), end, answer);
     note_objective(problem, answer);
     answer.cpu_s = timer.cpu() + end.cpu_s;
@@ -138,9 +138,10 @@ class NlSolver final : public Solver {
 
  private:
   static ProcessEnd run(const std::vector<std::string>& command, const fs::path& folder,
-                        const Options& options, Answer& answer) {
+                        const Options& options, const Timer& timer, Answer& answer) {
+    // By the clock too: a solver that waits for something would never end by its processor time.
     const auto stop = [&](double cpu_s) {
-      if (cpu_s > options.time_limit)
+      if (std::max(cpu_s, timer.wall()) > options.time_limit)
         answer.status = Status::time_limit;
       else if (options.stop != nullptr && options.stop(options.stop_data))
         answer.status = Status::interrupted;
@@ -169,6 +170,10 @@ class NlSolver final : public Solver {
     }
     answer.message = sol.message;
     answer.status = status_of(sol.result);
+    if (sol.x.empty() && answer.status == Status::solved) {
+      answer.status = Status::numerical_failure;
+      answer.message = "solved by its own account, but problem.sol has no values";
+    }
     put_back(sol.x, file.variables, 1, answer.point.x);
     put_back(sol.y, file.rows, -1, answer.point.y);
     settle_sign(problem, answer.point);

@@ -1,12 +1,35 @@
 #include "sol_file.hpp"
 
-#include <cstdlib>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "slalom/base/error.hpp"
 
 namespace slalom::nlp {
 namespace {
+
+/// The number that a text is, but for spaces around it; whatever the locale.
+template <class T>
+std::optional<T> whole(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return std::nullopt;
+  text = text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+  if (text.front() == '+') text.remove_prefix(1);
+  T value{};
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The words of a line.
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line);
+  return {std::istream_iterator<std::string>(in), {}};
+}
 
 class Reader {
  public:
@@ -26,17 +49,15 @@ class Reader {
   }
   std::size_t count(const char* what) {
     if (!next()) fail(what);
-    char* end = nullptr;
-    const long value = std::strtol(line_.c_str(), &end, 10);
-    if (end == line_.c_str() || value < 0) fail(what);
-    return static_cast<std::size_t>(value);
+    const auto value = whole<std::size_t>(line_);
+    if (!value) fail(what);
+    return *value;
   }
   double real(const char* what) {
     if (!next()) fail(what);
-    char* end = nullptr;
-    const double value = std::strtod(line_.c_str(), &end);
-    if (end == line_.c_str()) fail(what);
-    return value;
+    const auto value = whole<double>(line_);
+    if (!value || !std::isfinite(*value)) fail(what);
+    return *value;
   }
 
  private:
@@ -70,11 +91,15 @@ std::vector<double> read_numbers(Reader& reader, std::size_t count, const char* 
 
 /// suffix KIND COUNT NAME_LENGTH TABLE_LENGTH TABLE_LINES; of variables (kind 0) and real (4).
 void read_suffix(Reader& reader, std::size_t variables, SolFile& sol) {
-  std::istringstream head(reader.line());
-  std::string word;
-  std::size_t kind = 0, count = 0, name_length = 0, table_length = 0, table_lines = 0;
-  if (!(head >> word >> kind >> count >> name_length >> table_length >> table_lines))
-    reader.fail("five numbers after 'suffix'");
+  const auto head = words_of(reader.line());
+  std::size_t numbers[5] = {};  // kind, count, length of the name, of the table, its lines
+  if (head.size() != 6) reader.fail("five numbers after 'suffix'");
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto number = whole<std::size_t>(head[i + 1]);
+    if (!number) reader.fail("five numbers after 'suffix'");
+    numbers[i] = *number;
+  }
+  const auto [kind, count, name_length, table_length, table_lines] = numbers;
   if (!reader.next()) reader.fail("a suffix's name");
   const std::string name = reader.line();
   for (std::size_t i = 0; i < table_lines; ++i)
@@ -83,14 +108,15 @@ void read_suffix(Reader& reader, std::size_t variables, SolFile& sol) {
   auto& list = wanted ? sol.variable_suffixes[name] : sol.variable_suffixes[""];
   if (wanted) list.assign(variables, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    std::size_t index = 0;
-    double value = 0;
     if (!reader.next()) reader.fail("an index and a number");
-    std::istringstream pair(reader.line());
-    if (!(pair >> index >> value)) reader.fail("an index and a number");
+    const auto pair = words_of(reader.line());
+    if (pair.size() != 2) reader.fail("an index and a number");
+    const auto index = whole<std::size_t>(pair[0]);
+    const auto value = whole<double>(pair[1]);
+    if (!index || !value || !std::isfinite(*value)) reader.fail("an index and a finite number");
     if (!wanted) continue;
-    if (index >= variables) reader.fail("the index of a variable");
-    list[index] = value;
+    if (*index >= variables) reader.fail("the index of a variable");
+    list[*index] = *value;
   }
 }
 
@@ -114,10 +140,10 @@ SolFile read_sol(const std::string& text, std::size_t variables, std::size_t row
   sol.x = read_numbers(reader, primals, "a variable's value");
   while (reader.next()) {
     if (reader.line().rfind("objno", 0) == 0) {
-      std::istringstream line(reader.line());
-      std::string word;
-      int objective = 0;
-      if (!(line >> word >> objective >> sol.result)) sol.result = -1;
+      const auto line = words_of(reader.line());
+      if (line.size() != 3 || !whole<int>(line[1]) || !whole<int>(line[2]))
+        reader.fail("two integers after 'objno'");
+      sol.result = *whole<int>(line[2]);
     } else if (reader.line().rfind("suffix", 0) == 0) {
       read_suffix(reader, variables, sol);
     }
