@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors solver-profile docs-measured wheel docs sweep-scale format clean build
+.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -149,6 +149,11 @@ ablation: ## P_E with one part of it left out at a time, into docs/measured/abla
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
 	python3 tools/planner_ablation.py --program build/slalom
+
+any-scenario: ## random valid scenarios with random options, and what is at fault, into docs/measured/any-scenario.md (takes an hour)
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build
+	python3 tools/any_scenario.py --program build/slalom
 
 belief-errors: ## P_E with plant and sensors not as believed, 10,000 drives, into docs/measured/belief-errors.md (takes hours)
 	tools/setup.sh results

@@ -56,6 +56,7 @@ PAGES = (
     Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),
     Page("perturbed", "perturbed", PLANNER),
     Page("peers", "peers", SOLVER + ("python/src", "benchmarks/ocp")),
+    Page("any-scenario", "any-scenario", DRIVE + modules("sweep")),
     Page("belief-errors", "belief-errors", DRIVE + modules("sweep")),
     Page("benchmarks", "bench", PLANNER),
 )

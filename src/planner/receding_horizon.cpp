@@ -231,7 +231,7 @@ RecedingHorizon::Attempt RecedingHorizon::read(const Cycle& cycle, int intervals
     std::copy_n(trajectory.controls[k].begin(), kControls, plan.controls[k].begin());
   }
   plan.report = report(cycle.request, form.transcription, options);
-  if (settings_.between_nodes != BetweenNodes::ignore) look_between(plan);
+  if (settings_.between_nodes != BetweenNodes::ignore) look_between(cycle, plan);
   if (!plan.report.solved) plan.report.blocks = what_blocks(plan);
   return attempt;
 }
@@ -289,11 +289,13 @@ SolveReport RecedingHorizon::report(const Request& request, ocp::Transcription& 
   return report;
 }
 
-/// Notes how deep a plan goes into an obstacle between its nodes.
-void RecedingHorizon::look_between(Plan& plan) const {
+/// Notes how deep a plan goes into an obstacle between its nodes, also into one that the OCP leaves
+/// out.
+void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
   if (settings_.obstacle_constraint == ObstacleConstraint::soft) return;
   SolveReport& report = plan.report;
-  report.passage = deepest_passage(plan, chosen_, std::min(settings_.sm_start, settings_.sm_end),
+  const auto& known = cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles;
+  report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
                                    task_.vehicle.la);
   if (report.status != PlanStatus::solved || report.passage.depth <= settings_.passage_depth)
     return;

@@ -64,7 +64,7 @@ class RecedingHorizon final : public PlanningMethod {
   SolveReport report(const Request& request, ocp::Transcription& transcription,
                      const nlp::Options& options) const;
   std::string what_blocks(const Plan& plan) const;
-  void look_between(Plan& plan) const;
+  void look_between(const Cycle& cycle, Plan& plan) const;
   void try_sides(const Cycle& cycle, const ocp::Trajectory& guess, Attempt& best);
   void refine(const Cycle& cycle, Attempt& best);
   void keep(const Cycle& cycle, Attempt& attempt);

@@ -29,7 +29,7 @@ std::string facts(const sim::Scenario& scenario, const sim::Drive& drive) {
   html +=
       fact("Least clearance", number(drive.least_clearance, 2) + " m",
            std::isfinite(drive.least_clearance)
-               ? fmt::format("beyond the {:g} m of a crash, to {} at {} s", scenario.loop.sm_crash,
+               ? fmt::format("beyond {:g} m, to {} at {} s", scenario.loop.sm_crash,
                              drive.least_clearance_obstacle, number(drive.least_clearance_t, 2))
                : "no obstacle");
   html += fact("Mean speed", number(mean_speed(drive), 1) + " m/s");

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""What any_scenario.py makes of a scenario, and how it finds what is at fault."""
+
+import math
+import pathlib
+import re
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from any_scenario import depth, moved, page, unexplained  # noqa: E402
+
+TEXT = """name: "made"
+start: {x: 0, y: 10, v: 0, r: 0, psi: 1.5, sa: 0, ux: 17, ax: 0}
+goal: {x: 5, y: 200, psi: 1.5, sigma: 15}
+region: {x_min: -12, x_max: 24}
+obstacles:
+  - {name: "O 1", x: 3, y: 100, a: 2, b: 1, vx: 4, vy: -1e-3}
+loop:
+  tex: 0.5
+"""
+
+
+def numbers(text, section):
+    line = next(line for line in text.splitlines() if line.strip().startswith(section))
+    return {k: float(v) for k, v in re.findall(r"(\w+): ([-+.\d][-+.\deE]*)", line)}
+
+
+class Moved(unittest.TestCase):
+    def test_a_quarter_turn_and_a_move(self):
+        text = moved(TEXT, 1, 2, 1000, -50)
+        start, goal, region, obstacle = (numbers(text, s) for s in ("start", "goal", "region", "- {"))
+        self.assertEqual((start["x"], start["y"]), (990, -50))
+        self.assertAlmostEqual(start["psi"], 1.5 + math.pi / 2 + 4 * math.pi)
+        self.assertEqual((goal["x"], goal["y"]), (800, -45))
+        self.assertEqual(region, {"y_min": -62, "y_max": -26})
+        self.assertEqual((obstacle["x"], obstacle["y"]), (900, -47))
+        self.assertEqual((obstacle["a"], obstacle["b"], obstacle["vx"], obstacle["vy"]), (1, 2, 1e-3, 4))
+        self.assertIn('name: "O 1"', text)
+        self.assertIn("  tex: 0.5\n", text)
+
+    def test_four_quarters_are_none(self):
+        self.assertEqual(numbers(moved(TEXT, 4, 0, 0, 0), "region"), numbers(TEXT, "region"))
+        self.assertEqual(numbers(moved(TEXT, 2, 0, 0, 0), "region"), {"x_min": -24, "x_max": 12})
+
+
+class Faults(unittest.TestCase):
+    def test_a_plan_between_its_nodes(self):
+        def node(t, x):
+            return {"t": t, "x": x, "y": 0.0, "psi": 0.0, "v": 0.0, "r": 0.0, "ux": 20.0}
+        o = {"x": 40.0, "y": 3.0, "a": 2.0, "b": 1.0, "vx": -20.0, "vy": 0.0}
+        nodes = [node(0.0, 0.0), node(2.0, 40.0)]  # they meet at 1 s
+        self.assertAlmostEqual(depth(nodes, o, None, 1.5), 2.0)
+        self.assertAlmostEqual(depth(nodes, o, 0.0, 1.5), 2.0)  # held: passed at 2 s
+        self.assertAlmostEqual(depth(nodes[:1], o, None, 1.5), math.inf)
+
+    def test_a_drive_without_a_plan_says_why(self):
+        def ended(message):
+            return unexplained({"outcome": "not_optimal", "message": message})
+        self.assertEqual(ended("the NLP of cycle 2 was not solved: infeasible; O1 in the way: node 3"), [])
+        self.assertEqual(len(ended("the NLP of cycle 2 was not solved: infeasible")), 1)
+
+    def test_the_page_counts_and_names_them(self):
+        text = page([("0-gates-0001", "P_A", {}, "goal", []), ("0-gates-0002", "P_A", {"loop.tex": 1}, "hangs", ["late"])],
+                    "A stamp.\n")
+        self.assertIn("| P_A | 2 | 1 | 1 | 1 |", text)
+        self.assertIn("- 0-gates-0002, P_A, hangs: late (loop.tex=1)", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
