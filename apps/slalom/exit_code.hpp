@@ -21,9 +21,7 @@ inline constexpr const char* kExitCodeHelp =
     "  2    bad input or usage: the message says where, what was found and what was expected\n"
     "  3    output could not be written, or stands already and --force is not given\n"
     "  4    internal error\n"
-    "  130  interrupted by Ctrl-C or SIGTERM, or a sweep's processes were killed; what was driven "
-    "is\n"
-    "       written and valid\n"
+    "  130  interrupted, or a sweep's processes were killed; what was driven is written and valid\n"
     "Without --expect, a drive that ends in a crash is a result like any other: 0.\n";
 
 /// Output that could not be written; ends the program with kNotWritten.

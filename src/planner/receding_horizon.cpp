@@ -154,7 +154,7 @@ void RecedingHorizon::choose(const Request& request) {
       settings_, request,
       request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles);
   for (auto& [key, form] : forms_)
-    if (key.obstacles == chosen_.size()) form.problem.set_obstacles(chosen_);
+    if (std::get<1>(key) == chosen_.size()) form.problem.set_obstacles(chosen_);
 }
 
 /// One solve without an iteration of either form, so that all memory is there before the first

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -35,12 +36,8 @@ class RecedingHorizon final : public PlanningMethod {
     Form(TrajectoryProblem p, const Settings& settings, int intervals);
     void update(const Request& request);
   };
-  struct FormKey {
-    bool in_range;
-    std::size_t obstacles;
-    int intervals;
-    auto operator<=>(const FormKey&) const = default;
-  };
+  /// Whether the goal is in range, and the numbers of obstacles and of mesh intervals.
+  using FormKey = std::tuple<bool, std::size_t, int>;
   /// One solve of a cycle.
   struct Attempt {
     Plan plan;

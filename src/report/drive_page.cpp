@@ -26,12 +26,11 @@ std::string facts(const sim::Scenario& scenario, const sim::Drive& drive) {
   std::string html;
   html += fact("Driven", number(drive.time, 2) + " s",
                drive.goal_time ? "goal entered at " + number(*drive.goal_time, 2) : "");
-  html +=
-      fact("Least clearance", number(drive.least_clearance, 2) + " m",
-           std::isfinite(drive.least_clearance)
-               ? fmt::format("beyond {:g} m, to {} at {} s", scenario.loop.sm_crash,
-                             drive.least_clearance_obstacle, number(drive.least_clearance_t, 2))
-               : "no obstacle");
+  html += fact("Least clearance", number(drive.least_clearance, 2) + " m",
+               std::isfinite(drive.least_clearance)
+                   ? fmt::format("beyond {:g} m, to {} at {} s", scenario.loop.sm_crash,
+                                 drive.least_clearance_obstacle, number(drive.least_clearance_t, 2))
+                   : "no obstacle");
   html += fact("Mean speed", number(mean_speed(drive), 1) + " m/s");
   html += fact("Least wheel load",
                number(drive.plant.empty() ? NAN : drive.least_wheel_load, 0) + " N");
