@@ -50,8 +50,7 @@ VerifiedPlanner::VerifiedPlanner(const Task& task)
 }
 
 void VerifiedPlanner::reset() {
-  last_.reset();
-  course_.reset();
+  last_ = before_ = {};
   errors_.clear();
   proposals_.turns().cancel();
 }
@@ -82,6 +81,7 @@ Request VerifiedPlanner::possible(Request request) const {
 
 Plan VerifiedPlanner::plan(const Request& as_told) {
   const Request request = possible(as_told);
+  if (request.last_was_late) last_ = before_;
   Cycle cycle{
       .request = request, .obstacles = known(request), .verification = task_.planner.verification};
   if (task_.planner.fallback) {
@@ -163,7 +163,7 @@ Proposal VerifiedPlanner::judged(const Cycle& cycle, const std::string& name, Mo
 /// The rest of the last plan from the state predicted. Where state and obstacles are those that it
 /// was verified for, so it still is; else the plant drives it anew.
 void VerifiedPlanner::continue_last(Cycle& cycle) {
-  if (!last_) return;
+  if (!last_.option) return;
   const double t0 = cycle.t_start();
   Motion motion;
   try {
@@ -172,12 +172,12 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
     cycle.rest_unchanged = false;
   }
   // The loop looks for arrival at other moments when a plan was late.
-  cycle.rest_unchanged = cycle.rest_unchanged && same(cycle.obstacles, last_obstacles_) &&
-                         std::fabs(std::remainder(t0 - last_begin_, cycle.tex())) < kSameTime;
-  cycle.rest = Option{{"rest", std::move(motion), last_->proposal.verdict,
-                       last_->proposal.solved && cycle.rest_unchanged},
-                      last_->cost,
-                      course_};
+  cycle.rest_unchanged = cycle.rest_unchanged && same(cycle.obstacles, last_.obstacles) &&
+                         std::fabs(std::remainder(t0 - last_.begin, cycle.tex())) < kSameTime;
+  cycle.rest = Option{{"rest", std::move(motion), last_.option->proposal.verdict,
+                       last_.option->proposal.solved && cycle.rest_unchanged},
+                      last_.option->cost,
+                      last_.course};
   Proposal& rest = cycle.rest->proposal;
   if (!cycle.rest_unchanged) {
     const Settings& s = task_.planner;
@@ -195,7 +195,7 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
 Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   const double t0 = cycle.t_start();
   const State& X0p = cycle.request.X0p;
-  const Motion& old = last_->motion();
+  const Motion& old = last_.option->motion();
   Motion rest;
   if (t0 > old.end() - Tracker::kStep) {
     rest.add(t0, X0p, {});
@@ -206,7 +206,7 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
     if (cycle.rest_unchanged) {
       rest.states[0] = X0p;
     } else {  // The plan as it was made, for what tracks a tracked motion strays.
-      rest = part_from(made_, std::max(t0, made_.begin()), plant_);
+      rest = part_from(*last_.made, std::max(t0, last_.made->begin()), plant_);
       rest = tracker_.follow(rest, X0p, t0, rest.end());
     }
   }
@@ -228,9 +228,9 @@ Motion VerifiedPlanner::driven_on(Motion motion, double until) const {
 void VerifiedPlanner::note_error(const Cycle& cycle, double state_error) {
   const double t0 = cycle.t_start();
   double moved = 0;
-  if (cycle.obstacles.size() == last_obstacles_.size())
+  if (cycle.obstacles.size() == last_.obstacles.size())
     for (std::size_t k = 0; k < cycle.obstacles.size(); ++k) {
-      const auto &now = cycle.obstacles[k], &then = last_obstacles_[k];
+      const auto &now = cycle.obstacles[k], &then = last_.obstacles[k];
       moved =
           std::max(moved, std::hypot(now.x_at(t0) - then.x_at(t0), now.y_at(t0) - then.y_at(t0)));
     }
@@ -366,16 +366,13 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   plan.report.detail = plan.certificate.refused;
   plan.report.iterations = cycle.iterations;
   plan.report.cost = option->cost;
-  if (plan.rung != Rung::rest) {
-    made_ = motion;
-    course_ = option->course;
-  }
-  last_ = *option;
-  last_begin_ = cycle.t_start();
-  last_obstacles_ = cycle.obstacles;
+  const bool goes_on = plan.rung == Rung::rest;
+  Last next{*option, goes_on ? last_.made : std::make_shared<const Motion>(motion),
+            goes_on ? last_.course : option->course, cycle.obstacles, cycle.t_start()};
+  before_ = std::exchange(last_, std::move(next));
   plan.report.cpu_s = plan.report.planning_cpu_s = cycle.cpu_s();
   plan.report.wall_s = cycle.timer.wall();
-  record_plan(cycle, plan, *last_);
+  record_plan(cycle, plan, *last_.option);
   return plan;
 }
 

@@ -140,14 +140,18 @@ class VerifiedPlanner final : public PlanningMethod {
   Verifier verifier_;
   Proposals proposals_;
   std::optional<Recorder> recorder_;
-  std::optional<Option> last_;                    ///< what is driven
-  Motion made_;                                   ///< the same as it was when it was new
-  Course course_;                                 ///< of which it drives the beginning
-  std::vector<world::Obstacle> last_obstacles_;   ///< among which it was verified
+  /// A plan and what belongs to it.
+  struct Last {
+    std::optional<Option> option;            ///< what is driven
+    std::shared_ptr<const Motion> made;      ///< the same as it was when it was new
+    Course course;                           ///< of which it drives the beginning
+    std::vector<world::Obstacle> obstacles;  ///< among which it was verified
+    double begin = 0;                        ///< the moment from which it looked for arrival [s]
+  };
+  Last last_, before_;  ///< the last plan, and the one before, which goes on where that was late
   std::deque<std::pair<double, double>> errors_;  ///< of belief: when [s], and how great [m]
-  double last_begin_ = 0;             ///< the moment from which it looked for arrival [s]
-  double last_improved_ = 0;          ///< when a better plan was looked for [s]
-  double wait_ = 0;                   ///< until the next time [s]
+  double last_improved_ = 0;                      ///< when a better plan was looked for [s]
+  double wait_ = 0;                               ///< until the next time [s]
   double work_before_ = 0;            ///< of the turns before what is under way [places]
   double expected_work_ = 0;          ///< that the last thing looked for took [places]
   bool asked_while_leading_ = false;  ///< what is under way is to improve on what leads to the goal

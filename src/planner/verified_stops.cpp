@@ -88,8 +88,10 @@ void VerifiedPlanner::follow(Cycle& cycle, const Proposal& proposal) {
 /// The course from here, and a stop before what is wrong with it.
 void VerifiedPlanner::follow_course(Cycle& cycle) {
   const double t0 = cycle.t_start();
-  if (!course_ || t0 < course_->begin() - kSameTime || t0 >= course_->end() - kSameTime) return;
-  const Course course = course_;
+  if (!last_.course || t0 < last_.course->begin() - kSameTime ||
+      t0 >= last_.course->end() - kSameTime)
+    return;
+  const Course course = last_.course;
   const Motion reference = part_from(*course, std::max(t0, course->begin()), plant_);
   const Proposal whole = judged(
       cycle, "course", tracker_.follow(reference, cycle.request.X0p, t0, reference.end()), true);

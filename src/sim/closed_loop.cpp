@@ -56,7 +56,8 @@ class ClosedLoop {
   std::optional<End> turn(int index) {
     if (interrupted()) return End{Outcome::interrupted, "interrupted"};
     Cycle cycle = planning_.cycle(
-        index, timing_.next_cycle(), [this](double t) { return state_at(t); }, actuator_);
+        index, timing_.next_cycle(), [this](double t) { return state_at(t); }, actuator_,
+        !drive_.cycles.empty() && drive_.cycles.back().late);
     timing_.settle(cycle);
     auto end =
         interrupted() ? End{Outcome::interrupted, "interrupted while planning"} : carry_out(cycle);

@@ -42,8 +42,8 @@ vehicle::State Planning::predicted(const vehicle::State& measured, double t0,
   return state;
 }
 
-Cycle Planning::cycle(int index, double t0, const History& history,
-                      const Actuator& actuator) const {
+Cycle Planning::cycle(int index, double t0, const History& history, const Actuator& actuator,
+                      bool last_was_late) const {
   Cycle cycle;
   cycle.index = index;
   cycle.t0 = t0;
@@ -57,14 +57,14 @@ Cycle Planning::cycle(int index, double t0, const History& history,
     cycle.plan.report.detail = error.what();
     return cycle;
   }
-  const planner::Request request = this->request(cycle);
+  const planner::Request request = this->request(cycle, last_was_late);
   const Timer timer;
   cycle.plan = plan_(request);
   cycle.solve_time = std::max(timer.wall(), cycle.plan.report.wall_s);
   return cycle;
 }
 
-planner::Request Planning::request(const Cycle& cycle) const {
+planner::Request Planning::request(const Cycle& cycle, bool last_was_late) const {
   const LoopSettings& loop = scenario_.loop;
   planner::Request request;
   request.X0p = cycle.X0p;
@@ -74,6 +74,7 @@ planner::Request Planning::request(const Cycle& cycle) const {
   request.time_limit = timing_.time_limit();
   request.clock_limit = timing_.clock_limit();
   request.warm_up = cycle.index == 0;
+  request.last_was_late = last_was_late;
   if (loop.on_failure == OnFailure::best_iterate) request.best_iterate_tol = loop.best_iterate_tol;
   request.interrupted = interrupted_;
   return request;
@@ -82,7 +83,7 @@ planner::Request Planning::request(const Cycle& cycle) const {
 Cycle Planning::first_cycle(int index) const {
   const Actuator still(scenario_.plant.actuator_delay);
   return cycle(
-      index, 0, [this](double) { return scenario_.start; }, still);
+      index, 0, [this](double) { return scenario_.start; }, still, false);
 }
 
 std::optional<Cycle> Planning::warm_up() const {

@@ -27,7 +27,9 @@ class Planning {
 
   /// Cycle `index`, which begins at t0 [s] with what `actuator` was commanded under way. Its charge
   /// and its swap are left to Timing::settle.
-  Cycle cycle(int index, double t0, const History& history, const Actuator& actuator) const;
+  /// `last_was_late`: the plan of the cycle before.
+  Cycle cycle(int index, double t0, const History& history, const Actuator& actuator,
+              bool last_was_late) const;
   /// How long after it is commanded a plan acts, as far as the planner knows [s].
   double known_actuator_delay() const;
   /// The same from the scenario's start.
@@ -38,7 +40,7 @@ class Planning {
   bool interrupted() const { return interrupted_ && interrupted_(); }
 
  private:
-  planner::Request request(const Cycle& cycle) const;
+  planner::Request request(const Cycle& cycle, bool last_was_late) const;
   vehicle::State predicted(const vehicle::State& measured, double t0,
                            const Actuator& actuator) const;
 

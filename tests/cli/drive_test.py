@@ -202,8 +202,17 @@ class Variants(ProgramTest):
 
 
 class Others(ProgramTest):
+    def test_check_says_what_is_likely_to_go_wrong(self):
+        result = run("check", "E_C", "--set", "goal.y=-20")
+        self.assertEqual(result.code, 0)
+        notes = [line.removeprefix("slalom: note: ") for line in result.err.splitlines()]
+        self.assertIn("degrees off the vehicle's heading, behind it", result.err)
+        self.assertEqual(json.loads(run("check", "E_C", "--set", "goal.y=-20", "--json").out)["advice"], notes)
+        refused = run("check", "E_C", "--set", "goal.y=281", "--set", "goal.x=8")
+        self.assert_refused(refused, 2, "inside obstacle O1 grown by sm_end = 4 m")
+
     def test_check_prints_what_it_resolved(self):
-        result = run("check", "E_C", "--planner", "P_B", "--set", "planner.w_t=42")
+        result = run("check", "E_B", "--planner", "P_B", "--set", "planner.w_t=42")
         self.assertEqual((result.code, result.err), (0, ""))
         self.assertIn("\n  w_t: 42\n", result.out)
         self.assertIn('name: "P_B"', result.out)

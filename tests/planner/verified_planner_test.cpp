@@ -91,6 +91,24 @@ TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {
       EXPECT_NEAR(control_signal(rest).at(at)[c], control_signal(plan).at(at)[c], 1e-12);
 }
 
+TEST(VerifiedPlanner, WhereThePlanWasLateTheOneBeforeGoesOn) {
+  const Task t = task();
+  Planner planner(t);
+  const Plan plan = planner.plan(first());
+  Request elsewhere = next(t, first(), plan);
+  elsewhere.X0p[X] += 0.3;
+  elsewhere.time_limit = 0;
+  (void)planner.plan(elsewhere);  // is late, and not driven
+  Request request = next(t, first(), plan);
+  request.time_limit = 0;
+  request.last_was_late = true;
+  const Plan rest = planner.plan(request);
+  EXPECT_EQ(rest.rung, Rung::rest);
+  for (const double at : {1.2, 3.3})
+    for (std::size_t c = 0; c < kControls; ++c)
+      EXPECT_NEAR(control_signal(rest).at(at)[c], control_signal(plan).at(at)[c], 1e-12);
+}
+
 TEST(VerifiedPlanner, ARestFromAnotherStateIsDrivenAnewByThePlant) {
   const Task t = task();
   Planner planner(t);

@@ -20,6 +20,9 @@ struct Request {
   double time_limit = std::numeric_limits<double>::infinity();  ///< thread time of planning [s]
   /// By the wall clock [s]: the plan is of no use later. For planners that verify.
   double clock_limit = std::numeric_limits<double>::infinity();
+  /// The last plan was there too late, and is not driven: the one before it goes on. For planners
+  /// that verify.
+  bool last_was_late = false;
   /// Nothing is driven while it plans, so that a planner that shares its time out over cycles need
   /// not.
   bool warm_up = false;
