@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# setup.sh run|test|bench|results|wheel: sees to it that what `make run`, `make test`, `make bench` or
-# `make results` and `make robustness` need is there. What is missing is installed by apt, after
-# saying which package and why. Where apt cannot do it, this says what to install and goes on: the
-# build then tells whether it was there after all.
+# setup.sh run|test|bench|results|wheel|fuzz: sees to it that what `make run`, `make test`, `make bench`,
+# `make fuzz` or `make results` and `make robustness` need is there. What is missing is installed by
+# apt, after saying which package and why, and asking whoever sits at the terminal. Nobody is asked
+# where YES=1 or CI is set, or where there is no terminal; YES=0 says no. Where apt cannot do it, this
+# says what to install and goes on: the build then tells whether it was there after all.
 set -euo pipefail
 trap 'echo "setup: took $SECONDS s"' EXIT
 
@@ -37,6 +38,8 @@ python3-venv        | bench | py:ensurepip              | keeps the peers they c
 gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
 make                | bench | cmd:make                  | builds acados' generated solver
 linux-perf          | bench | cmd:perf                  | samples the profile of a solve
+clang               | fuzz  | cmd:clang++               | compiles the fuzzers
+libclang-rt-dev     | fuzz  | fuzzer:                   | libFuzzer, which runs them
 TABLE
 }
 
@@ -50,6 +53,11 @@ has_header() {
   fi
 }
 
+has_fuzzer() {
+  echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }' |
+    clang++ -fsanitize=fuzzer -x c++ - -o /dev/null 2>/dev/null
+}
+
 # Debian's own word first: it is quick; then the thing itself, which may come from elsewhere.
 is_there() {
   local package=$1 probe
@@ -61,6 +69,7 @@ is_there() {
     case $probe in
       cmd:*) command -v "${probe#cmd:}" >/dev/null && return 0 ;;
       inc:*) has_header "${probe#inc:}" && return 0 ;;
+      fuzzer:) has_fuzzer && return 0 ;;
       py:*) python3 -c "import ${probe#py:}" 2>/dev/null && return 0 ;;
       pc:*) command -v pkg-config >/dev/null && pkg-config --exists "${probe#pc:}" && return 0 ;;
     esac
@@ -75,6 +84,7 @@ wanted() { # needed for $1, when asked for $2
     wheel) [ "$1" = run ] || [ "$1" = wheel ] ;;
     bench) [ "$1" = run ] || [ "$1" = bench ] ;;
     results) [ "$1" = run ] || [ "$1" = results ] ;;
+    fuzz) [ "$1" = run ] || [ "$1" = fuzz ] ;;
   esac
 }
 
@@ -88,6 +98,19 @@ missing_for() {
   done < <(packages)
 }
 
+may_install() {
+  local answer=${YES:-}
+  if [ -z "$answer" ] && [ -z "${CI:-}" ] && [ -t 0 ]; then
+    read -r -p "setup: install them with apt? [y/N] " answer || answer=no
+    answer=${answer:-no}
+  fi
+  case $answer in
+    0 | [nN] | [nN][oO]) return 1 ;;
+    '' | 1 | [yY] | [yY][eE][sS]) return 0 ;;
+    *) return 1 ;;
+  esac
+}
+
 go_on() {
   echo "setup: $1"
   echo "setup: install the above by other means if the build misses them; going on."
@@ -96,9 +119,9 @@ go_on() {
 
 purpose=${1:-}
 case $purpose in
-  run | test | bench | results | wheel) ;;
+  run | test | bench | results | wheel | fuzz) ;;
   *)
-    echo "usage: tools/setup.sh run|test|bench|results|wheel" >&2
+    echo "usage: tools/setup.sh run|test|bench|results|wheel|fuzz" >&2
     exit 2
     ;;
 esac
@@ -113,6 +136,7 @@ echo "$missing"
 names=$(awk '{print $1}' <<<"$missing")
 
 command -v apt-get >/dev/null || go_on "there is no apt here to install them with."
+may_install || go_on "not installed."
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null || go_on "neither root nor sudo: apt cannot install them."

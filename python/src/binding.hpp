@@ -68,6 +68,7 @@ class Released {
 };
 
 void bind_expressions(nb::module_& module);
+void bind_pickles(nb::module_& module);
 void bind_problem(nb::module_& module);
 void bind_saved(nb::module_& module);
 void bind_solution(nb::module_& module);

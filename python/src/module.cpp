@@ -77,4 +77,5 @@ NB_MODULE(_core, module) {
   bind_planner(module);
   bind_drive(module);
   bind_sweep(module);
+  bind_pickles(module);
 }

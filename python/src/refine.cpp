@@ -32,6 +32,9 @@ const std::vector<std::string> kRules = {"tolerance",  "refinement", "max_meshes
 
 RefineRules rules_of(double tolerance, const std::string& refinement, int max_meshes, int max_size,
                      int min_points, int max_points, bool resolve_controls) {
+  check_at_most(max_meshes, 1000, "refine: max_meshes");
+  check_at_most(max_size, 1'000'000, "refine: max_size");
+  check_at_most(max_points, 100, "refine: max_points");
   RefineRules rules;
   rules.tolerance = tolerance;
   rules.resolve_controls = resolve_controls;

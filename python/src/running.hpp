@@ -14,20 +14,55 @@ inline void forget_stop(nlp::Options& options) {
   options.stop_data = nullptr;
 }
 
+/// What ends a solve from outside: Ctrl-C, or the clock, which counts from the call's begin on.
+class Ending {
+ public:
+  explicit Ending(nlp::Options& options) : limit_(options.time_limit) {
+    options.stop = [](void* data) { return static_cast<Ending*>(data)->asked(); };
+    options.stop_data = this;
+  }
+
+  double seconds() const { return timer_.wall(); }
+  void raise_if_interrupted() const { released_.raise_if_interrupted(); }
+  /// The solver says `interrupted` of both.
+  void tell(nlp::Status& status) const {
+    if (late_ && status == nlp::Status::interrupted) status = nlp::Status::time_limit;
+  }
+
+ private:
+  bool asked() {
+    late_ = late_ || timer_.wall() > limit_;
+    return late_ || released_.interrupted();
+  }
+
+  Released released_;
+  const Timer timer_;
+  const double limit_;  ///< [s]
+  bool late_ = false;
+};
+
+/// The status of an answer, or of the solution in it.
+template <class Answer>
+nlp::Status& status_of(Answer& answer) {
+  if constexpr (requires { answer.solution; })
+    return answer.solution.status;
+  else
+    return answer.status;
+}
+
 /// Calls `work` while other Python threads run; an interrupt stops the solver by `options`, and is
-/// raised then. Returns what it returned, and the seconds it took.
+/// raised then; so does `options.time_limit`, counted from now on, by the clock. Returns what it
+/// returned, and the seconds it took.
 template <class Work>
 auto run_released(nlp::Options& options, const Work& work) {
-  Released released;
-  options.stop = [](void* data) { return static_cast<Released*>(data)->interrupted(); };
-  options.stop_data = &released;
+  Ending ending(options);
   auto result = [&] {
     const nb::gil_scoped_release unlock;
-    const Timer timer;
     auto answer = work();
-    return std::pair(std::move(answer), timer.wall());
+    ending.tell(status_of(answer));
+    return std::pair(std::move(answer), ending.seconds());
   }();
-  released.raise_if_interrupted();
+  ending.raise_if_interrupted();
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "settings.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "slalom/base/error.hpp"
@@ -49,7 +50,42 @@ void check_alike(const ocp::Problem& problem, const ocp::Problem& earlier) {
     throw InvalidValue(problem.name() + ": warm_start", form(earlier), form(problem));
 }
 
+void check_at_most(std::int64_t value, std::int64_t most, const std::string& where) {
+  if (value > most)
+    throw InvalidValue(where, std::to_string(value), "at most " + std::to_string(most));
+}
+
+namespace {
+
+/// What is set up cannot be interrupted, so that its size is bounded.
+constexpr int kMostIntervals = 200'000, kMostPoints = 100;
+constexpr double kMostEntries = 4e6;  ///< of all intervals' differentiation matrices together
+
+void check_sizes(const GridChoice& choice, const std::string& where) {
+  const auto* count = std::get_if<int>(&choice.mesh);
+  const auto intervals =
+      count ? std::int64_t{*count}
+            : static_cast<std::int64_t>(std::get<std::vector<double>>(choice.mesh).size());
+  check_at_most(intervals, kMostIntervals, where + ": mesh");
+  double entries = 0;
+  const auto add = [&](int points, std::int64_t times) {
+    check_at_most(points, kMostPoints, where + ": points");
+    entries += static_cast<double>(times) * points * points;
+  };
+  if (const auto* one = std::get_if<int>(&choice.points))
+    add(*one, intervals);
+  else
+    for (const int points : std::get<std::vector<int>>(choice.points)) add(points, 1);
+  if (entries > kMostEntries)
+    throw InvalidValue(where + ": mesh, points",
+                       std::to_string(intervals) + " intervals of so many points",
+                       "intervals times the square of their points of at most 4e6");
+}
+
+}  // namespace
+
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where) {
+  check_sizes(choice, where);
   const auto* intervals = std::get_if<int>(&choice.mesh);
   const auto mesh = intervals ? ocp::Mesh::uniform(*intervals)
                               : ocp::Mesh(std::get<std::vector<double>>(choice.mesh));

@@ -2,6 +2,7 @@
 
 #include <nanobind/stl/variant.h>
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,6 +27,10 @@ struct GridChoice {
   SchemeChoice scheme = "hermite_simpson";
   PointsChoice points = 4;
 };
+
+/// Sizes that a caller gives are bounded, for what they make cannot be interrupted. Throws
+/// InvalidValue.
+void check_at_most(std::int64_t value, std::int64_t most, const std::string& where);
 
 /// Throws InvalidValue for lists that have not one entry an interval.
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "binding.hpp"
+#include "settings.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
 #include "slalom/ocp/simulate.hpp"
@@ -85,6 +86,7 @@ Controls controls_of(const Problem& problem, const nb::object& given) {
 Simulated simulate(const Problem& problem, const nb::object& x0, const nb::object& controls,
                    std::optional<double> t0, std::optional<double> tf, int steps,
                    double tolerance) {
+  check_at_most(steps, 1'000'000, problem.name() + ": simulate: steps");
   Simulated result;
   result.problem = std::make_shared<const Problem>(problem);
   result.answer = ocp::simulate(problem, begin_of(problem, x0), controls_of(problem, controls),

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "../io/config_dir.hpp"
 #include "../io/overrides.hpp"
 #include "../io/section.hpp"
 #include "../io/semantic_check.hpp"
+#include "axis_values.hpp"
 #include "digest.hpp"
 #include "slalom/base/kernels.hpp"
 #include "slalom/io/scenario_file.hpp"
@@ -69,7 +71,7 @@ class StudyLoader {
           throw InvalidValue(placed.keys[i].to_string(),
                              fmt::format("key '{}' a second time", placed.axis.keys[i]),
                              "each key on one axis");
-      check_size(placed.values.size());
+      check_size(placed.axis.points.size());
       try_values(placed);
       study_.axes.push_back(std::move(placed.axis));
     }
@@ -94,13 +96,30 @@ class StudyLoader {
   /// What a key takes is the same in every scenario; that they all have it is not.
   void try_values(const PlacedAxis& placed) const {
     for (const auto& base : bases_.all) {
-      const std::size_t points = &base == &bases_.all.front() ? placed.values.size() : 1;
-      for (std::size_t i = 0; i < placed.keys.size(); ++i) {
-        std::vector<const io::Value*> values;
-        for (std::size_t k = 0; k < points; ++k) values.push_back(&placed.values[k][i]);
-        apply_to(bases_, base,
-                 [&] { io::try_settings(placed.axis.keys[i], placed.keys[i], values, base); });
-      }
+      const bool is_first = &base == &bases_.all.front();
+      for (std::size_t i = 0; i < placed.keys.size(); ++i)
+        apply_to(bases_, base, [&] { try_values_of(placed, i, base, is_first); });
+    }
+  }
+
+  /// Of one key: all values, or the first.
+  static void try_values_of(const PlacedAxis& placed, std::size_t key, const sim::Scenario& base,
+                            bool all) {
+    const auto set = [&](const std::vector<const io::Value*>& values) {
+      io::try_settings(placed.axis.keys[key], placed.keys[key], values, base);
+    };
+    const auto& listed = placed.listed[key];
+    if (!listed.empty()) return set(all ? listed : std::vector{listed.front()});
+    constexpr std::size_t kAtOnce = 4096;  // values with their places take far more than numbers
+    const auto& numbers = placed.axis.points.numbers(key);
+    const auto count = all ? numbers.size() : 1;
+    for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
+      std::vector<io::Value> values;
+      std::vector<const io::Value*> list;
+      for (std::size_t k = begin; k < std::min(count, begin + kAtOnce); ++k)
+        values.push_back(scalar(numbers[k], placed.computed[key]));
+      for (const auto& value : values) list.push_back(&value);
+      set(list);
     }
   }
 
@@ -129,6 +148,40 @@ class StudyLoader {
 
 }  // namespace
 
+void AxisPoints::Column::add(const std::string& word) {
+  const auto [found, is_new] = index.emplace(word, static_cast<std::uint32_t>(words.size()));
+  if (is_new) words.push_back(word);
+  chosen.push_back(found->second);
+}
+
+AxisPoints::Column& AxisPoints::column(std::size_t key) {
+  if (columns_.size() <= key) columns_.resize(key + 1);
+  return columns_[key];
+}
+
+void AxisPoints::add(std::size_t key, double number) {
+  auto& values = column(key);
+  if (values.chosen.empty())
+    values.numbers.push_back(number);
+  else
+    values.add(fmt::format("{}", number));
+}
+
+void AxisPoints::add(std::size_t key, const std::string& word) {
+  auto& values = column(key);
+  for (const double number : std::exchange(values.numbers, {}))
+    values.add(fmt::format("{}", number));
+  values.add(word);
+}
+
+std::vector<std::string> AxisPoints::operator[](std::size_t point) const {
+  std::vector<std::string> texts;
+  for (const auto& values : columns_)
+    texts.push_back(values.numbers.empty() ? values.words[values.chosen[point]]
+                                           : fmt::format("{}", values.numbers[point]));
+  return texts;
+}
+
 std::int64_t Study::size() const {
   auto size = static_cast<std::int64_t>(bases.size()) * settings.repeats;
   for (const auto& axis : axes) size *= static_cast<std::int64_t>(axis.points.size());
@@ -156,14 +209,14 @@ Trial Study::trial(std::int64_t number) const {
   trial.repeat = static_cast<int>(rest % settings.repeats) + 1;
   rest /= settings.repeats;
   // The last axis varies fastest: take the axes apart from the back.
-  std::vector<const std::vector<std::string>*> points(axes.size());
+  std::vector<std::size_t> points(axes.size());
   for (std::size_t i = axes.size(); i-- > 0;) {
     const auto n = static_cast<std::int64_t>(axes[i].points.size());
-    points[i] = &axes[i].points[static_cast<std::size_t>(rest % n)];
+    points[i] = static_cast<std::size_t>(rest % n);
     rest /= n;
   }
-  for (const auto* point : points)
-    trial.values.insert(trial.values.end(), point->begin(), point->end());
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    for (auto& value : axes[i].points[points[i]]) trial.values.push_back(std::move(value));
   trial.base = static_cast<std::size_t>(rest);
   return trial;
 }
@@ -199,8 +252,8 @@ std::string Study::identity(const std::vector<std::string>& resolved) const {
   for (const auto& axis : axes) {
     digest.add("axis");
     for (const auto& key : axis.keys) digest.add(key);
-    for (const auto& point : axis.points)
-      for (const auto& value : point) digest.add(value);
+    for (std::size_t k = 0; k < axis.points.size(); ++k)
+      for (const auto& value : axis.points[k]) digest.add(value);
   }
   return digest.hex();
 }

@@ -22,17 +22,17 @@ int count_of(const io::Value& value, int least) {
   return static_cast<int>(*number);
 }
 
-/// A value as it stands in tables and identities: numbers in their shortest form.
-std::string text_of(const io::Value& value) {
+/// Adds a key's next value as it stands in tables and identities: numbers in their shortest form.
+void add_value(const io::Value& value, std::size_t key, AxisPoints& points) {
   if (value.kind == io::Value::Kind::scalar) {
-    const auto number = number_of(value);
-    return number ? fmt::format("{}", *number) : value.text;
+    if (const auto number = number_of(value)) return points.add(key, *number);
+    return points.add(key, value.text);
   }
   if (value.kind != io::Value::Kind::sequence)
     throw InvalidValue(value.place.to_string(), value.describe(), "a value, or a list of numbers");
   std::vector<std::string> items;
   for (const auto& item : value.items) items.push_back(fmt::format("{}", finite(item)));
-  return fmt::format("[{}]", fmt::join(items, ", "));
+  points.add(key, fmt::format("[{}]", fmt::join(items, ", ")));
 }
 
 /// {from, to, count}: evenly spaced, both ends included and met exactly.
@@ -45,8 +45,8 @@ void read_range(const io::Value& map, PlacedAxis& axis) {
     throw InvalidValue(map.place.to_string(), "a range of one value with two ends",
                        "count >= 2, or from = to");
   for (int k = 0; k < count; ++k)
-    axis.values.push_back(
-        {scalar(k == count - 1 ? to : from + (to - from) * k / (count - 1), map.place)});
+    axis.axis.points.add(0, k == count - 1 ? to : from + (to - from) * k / (count - 1));
+  axis.computed = {map.place};
 }
 
 Sampling read_sampling(const io::Value& map) {
@@ -67,36 +67,52 @@ void read_draw(const io::Value& map, int seed, std::size_t stream, PlacedAxis& a
   const int count = count_of(io::require_key(map, "a draw", "count"), 1);
   const auto& of =
       some_items(io::require_key(map, "a draw", "of"), "a list of keys and distributions");
-  std::vector<Quantile> quantiles;
+  if (std::int64_t{count} * static_cast<std::int64_t>(of.size()) > kMaxDrawn)
+    throw InvalidValue(map.place.to_string(), fmt::format("{} points of {} keys", count, of.size()),
+                       fmt::format("at most {} values in one draw", kMaxDrawn));
+  std::vector<Distribution> distributions;
   for (const auto& item : of) {
-    quantiles.push_back(read_distribution(item));
+    const auto& drawn = distributions.emplace_back(read_distribution(item));
     const io::Value& key = io::require_key(item, "a draw", "key");
     axis.axis.keys.push_back(io::to_text(key, "a key path"));
     axis.keys.push_back(key.place);
+    axis.listed.push_back(drawn.choices);
+    axis.computed.push_back(drawn.place);
   }
   const auto sampling = read_sampling(map);
   if (sampling == Sampling::sobol && of.size() > max_sobol_dimension())
     throw InvalidValue(map.place.to_string(), fmt::format("{} keys", of.size()),
                        fmt::format("at most {} for sobol", max_sobol_dimension()));
-  for (const auto& u : unit_points(sampling, count, of.size(), seed, stream)) {
-    auto& point = axis.values.emplace_back();
-    for (std::size_t i = 0; i < of.size(); ++i) point.push_back(quantiles[i](u[i]));
+  for (auto& u : unit_points(sampling, count, of.size(), seed, stream)) {
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const auto& drawn = distributions[i];
+      if (drawn.choices.empty())
+        axis.axis.points.add(i, drawn.quantile(u[i]));
+      else
+        add_value(drawn.chosen(u[i]), i, axis.axis.points);
+    }
+    u = {};  // its memory goes to the values
   }
 }
 
 /// values: one a key, or for several keys lists of one value each.
 void read_values(const io::Value& list, PlacedAxis& axis) {
   const auto n = axis.axis.keys.size();
+  axis.listed.resize(n);
+  const auto add = [&](const io::Value& value, std::size_t key) {
+    axis.listed[key].push_back(&value);
+    add_value(value, key, axis.axis.points);
+  };
   for (const auto& item : some_items(list, "a list of values")) {
     if (n == 1) {
-      axis.values.push_back({item});
+      add(item, 0);
       continue;
     }
     const auto content = fmt::format("a list of {} values, one a key", n);
     if (some_items(item, content).size() != n)
       throw InvalidValue(item.place.to_string(), fmt::format("{} values", item.items.size()),
                          content);
-    axis.values.push_back(item.items);
+    for (std::size_t i = 0; i < n; ++i) add(item.items[i], i);
   }
 }
 
@@ -131,10 +147,8 @@ PlacedAxis read_axis(const io::Value& map, int seed, std::size_t stream) {
   if (const io::Value* values = map.find("values")) read_values(*values, axis);
   if (const io::Value* range = map.find("range")) read_range(*range, axis);
   if (const io::Value* draw = map.find("draw")) read_draw(*draw, seed, stream, axis);
-  for (const auto& point : axis.values) {
-    auto& texts = axis.axis.points.emplace_back();
-    for (const auto& value : point) texts.push_back(text_of(value));
-  }
+  axis.listed.resize(axis.keys.size());
+  axis.computed.resize(axis.keys.size());
   return axis;
 }
 

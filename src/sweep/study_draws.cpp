@@ -82,29 +82,28 @@ void require(bool holds, const io::Value& item, const std::string& rule) {
   if (!holds) throw InvalidValue(item.place.to_string(), item.describe(), rule);
 }
 
-Quantile uniform(const io::Value& list) {
+Distribution uniform(const io::Value& list) {
   const auto p = parameters(list, 2, "[low, high]");
   require(p[0] < p[1], list.items[1], "low < high");
-  return [=](double u) { return scalar(p[0] + (p[1] - p[0]) * u, list.place); };
+  return {[=](double u) { return p[0] + (p[1] - p[0]) * u; }, {}, list.place};
 }
 
-Quantile normal(const io::Value& list) {
+Distribution normal(const io::Value& list) {
   const auto p = parameters(list, 2, "[mean, standard deviation]");
   require(p[1] > 0, list.items[1], "a standard deviation > 0");
-  return [=](double u) { return scalar(quantile(Normal(p[0], p[1]), u), list.place); };
+  return {[=](double u) { return quantile(Normal(p[0], p[1]), u); }, {}, list.place};
 }
 
-Quantile lognormal(const io::Value& list) {
+Distribution lognormal(const io::Value& list) {
   const auto p = parameters(list, 2, "[median, standard deviation of the logarithm]");
   require(p[0] > 0, list.items[0], "a median > 0");
   require(p[1] > 0, list.items[1], "a standard deviation > 0");
-  return
-      [=](double u) { return scalar(p[0] * std::exp(p[1] * quantile(Normal(), u)), list.place); };
+  return {[=](double u) { return p[0] * std::exp(p[1] * quantile(Normal(), u)); }, {}, list.place};
 }
 
 /// Inversion between the ends' probabilities, counted from the nearer tail, where they keep their
 /// digits (Devroye 1986, section II.2.1).
-Quantile truncated_normal(const io::Value& list) {
+Distribution truncated_normal(const io::Value& list) {
   const auto p = parameters(list, 4, "[mean, standard deviation, low, high]");
   require(p[1] > 0, list.items[1], "a standard deviation > 0");
   require(p[2] < p[3], list.items[3], "low < high");
@@ -114,23 +113,24 @@ Quantile truncated_normal(const io::Value& list) {
   const double high = upper ? cdf(complement(whole, p[2])) : cdf(whole, p[3]);
   require(low < high && high > 1e-280, list,
           "an interval of positive probability, within 35 standard deviations of the mean");
-  return [=](double u) {
+  const auto value = [=](double u) {
     const double at = low + (high - low) * (upper ? 1 - u : u);
     const double x = upper ? quantile(complement(whole, at)) : quantile(whole, at);
-    return scalar(std::clamp(x, p[2], p[3]), list.place);
+    return std::clamp(x, p[2], p[3]);
   };
+  return {value, {}, list.place};
 }
 
-Quantile choice(const io::Value& list) {
-  const auto items = some_items(list, "a list of values, each as likely as the others");
-  return [items](double u) {
-    return items[static_cast<std::size_t>(u * static_cast<double>(items.size()))];
-  };
+Distribution choice(const io::Value& list) {
+  Distribution drawn{{}, {}, list.place};
+  for (const auto& item : some_items(list, "a list of values, each as likely as the others"))
+    drawn.choices.push_back(&item);
+  return drawn;
 }
 
 struct Named {
   const char* name;
-  Quantile (*read)(const io::Value&);
+  Distribution (*read)(const io::Value&);
 };
 constexpr Named kDistributions[] = {{"uniform", uniform},
                                     {"normal", normal},
@@ -161,10 +161,10 @@ std::vector<std::vector<double>> unit_points(Sampling sampling, int count, std::
   return points;
 }
 
-Quantile read_distribution(const io::Value& map) {
+Distribution read_distribution(const io::Value& map) {
   std::vector<std::string> known = {"key"};
   const io::Value* parameters = nullptr;
-  Quantile (*read)(const io::Value&) = nullptr;
+  Distribution (*read)(const io::Value&) = nullptr;
   for (const auto& one : kDistributions) {
     known.emplace_back(one.name);
     const io::Value* found = map.kind == io::Value::Kind::map ? map.find(one.name) : nullptr;

@@ -26,11 +26,20 @@ std::size_t max_sobol_dimension();
 std::vector<std::vector<double>> unit_points(Sampling sampling, int count, std::size_t dimension,
                                              int seed, std::size_t stream);
 
-/// The value of a key at a coordinate u within (0, 1): the quantile function of a distribution.
-using Quantile = std::function<io::Value(double u)>;
+/// What a key is drawn from.
+struct Distribution {
+  std::function<double(double u)> quantile;  ///< its number at a coordinate u within (0, 1); or
+  std::vector<const io::Value*> choices;     ///< values, each as likely as the others
+  io::Place place;
 
-/// Reads the distribution of {key: ..., NAME: [...]}. Throws InvalidValue for none, two, or
-/// parameters that make none.
-Quantile read_distribution(const io::Value& map);
+  /// The choice at a coordinate.
+  const io::Value& chosen(double u) const {
+    return *choices[static_cast<std::size_t>(u * static_cast<double>(choices.size()))];
+  }
+};
+
+/// Reads the distribution of {key: ..., NAME: [...]}, which must outlive it. Throws InvalidValue
+/// for none, two, or parameters that make none.
+Distribution read_distribution(const io::Value& map);
 
 }  // namespace slalom::sweep

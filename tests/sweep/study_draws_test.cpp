@@ -6,6 +6,7 @@
 #include <boost/math/distributions/lognormal.hpp>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <set>
 
 #include "slalom/base/error.hpp"
@@ -15,13 +16,21 @@ namespace {
 
 using Points = std::vector<std::vector<double>>;
 
-Quantile distribution(const std::string& text) {
-  const auto map = io::parse_text(text, "draw.yaml", "a draw");
-  return read_distribution(map);
+/// A distribution with the text it refers to.
+struct Read {
+  std::unique_ptr<io::Value> map;
+  Distribution distribution;
+};
+
+Read distribution(const std::string& text) {
+  Read read;
+  read.map = std::make_unique<io::Value>(io::parse_text(text, "draw.yaml", "a draw"));
+  read.distribution = read_distribution(*read.map);
+  return read;
 }
 
-double number(const Quantile& quantile, double u) {
-  return std::stod(quantile(u).text);
+double number(const Read& read, double u) {
+  return read.distribution.quantile(u);
 }
 
 /// How often coordinate `i` falls into each of `n` equal intervals.
@@ -141,9 +150,9 @@ TEST(Distributions, ATruncatedNormalStaysWithinItsEndsAlsoFarOut) {
 
 TEST(Distributions, AChoiceTakesEachValueEquallyOften) {
   const auto choice = distribution("{key: a, choice: [trapezoidal, hermite_simpson, 3]}");
-  EXPECT_EQ(choice(1e-17).text, "trapezoidal");
-  EXPECT_EQ(choice(0.34).text, "hermite_simpson");
-  EXPECT_EQ(choice(1 - 0x1p-53).text, "3");
+  EXPECT_EQ(choice.distribution.chosen(1e-17).text, "trapezoidal");
+  EXPECT_EQ(choice.distribution.chosen(0.34).text, "hermite_simpson");
+  EXPECT_EQ(choice.distribution.chosen(1 - 0x1p-53).text, "3");
 }
 
 TEST(Distributions, RefuseWhatMakesNone) {

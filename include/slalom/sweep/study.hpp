@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "slalom/sim/scenario.hpp"
@@ -10,6 +11,8 @@ namespace slalom::sweep {
 
 /// Most trials a study may have, and points an axis: a larger one is more likely a slip.
 inline constexpr std::int64_t kMaxTrials = 1'000'000;
+/// Most values that one axis may draw, points times keys: they are kept in memory.
+inline constexpr std::int64_t kMaxDrawn = 20'000'000;
 
 /// What a sweep keeps of each trial: its row, or the whole folder of its drive too.
 enum class Keep { figures, drives };
@@ -29,10 +32,39 @@ struct StudySettings {
 /// The plain keys of a study file.
 const OptionTable<StudySettings>& study_options();
 
-/// One direction of the study's grid: key paths and the values they take together, as text.
+/// The values that keys take together along an axis. They are texts; numbers are kept as such, and
+/// each word once, since there may be millions.
+class AxisPoints {
+ public:
+  /// Adds a key's value at its next point; of all keys as many.
+  void add(std::size_t key, double number);
+  void add(std::size_t key, const std::string& word);
+
+  std::size_t size() const { return columns_.empty() ? 0 : columns_.front().size(); }
+  /// One value a key.
+  std::vector<std::string> operator[](std::size_t point) const;
+  /// A key's numbers; empty where some of its values are none.
+  const std::vector<double>& numbers(std::size_t key) const { return columns_[key].numbers; }
+
+ private:
+  struct Column {
+    std::vector<double> numbers;                           ///< one a point, while all are numbers
+    std::vector<std::string> words;                        ///< else what there is, each once,
+    std::vector<std::uint32_t> chosen;                     ///< and which of them each point has
+    std::unordered_map<std::string, std::uint32_t> index;  ///< of words
+
+    std::size_t size() const { return numbers.size() + chosen.size(); }
+    void add(const std::string& word);
+  };
+  Column& column(std::size_t key);
+
+  std::vector<Column> columns_;
+};
+
+/// One direction of the study's grid.
 struct Axis {
-  std::vector<std::string> keys;                 ///< as --set takes them
-  std::vector<std::vector<std::string>> points;  ///< one value a key, all of the same length
+  std::vector<std::string> keys;  ///< as --set takes them
+  AxisPoints points;
 };
 
 /// What tells one trial from the others.

@@ -1,0 +1,68 @@
+"""Sizes and times that a caller gives are kept to, and what cannot be pickled says what to do instead."""
+
+import copy
+import pickle
+import stat
+import time
+
+import pytest
+from problems import decay, swing
+
+import slalom
+
+
+def test_sizes_are_bounded_before_anything_is_made():
+    problem = decay()
+    begin = time.monotonic()
+    for wrong in ({"points": 100_000, "scheme": "lgr", "mesh": 1}, {"points": 101, "scheme": "lgl"},
+                  {"points": [4] * 39 + [10**6], "scheme": "lgr"}, {"mesh": 10**9},
+                  {"mesh": 100_000, "points": 100, "scheme": "lgr"}):
+        with pytest.raises(slalom.InvalidValue, match="at most"):
+            problem.solve(**wrong)
+        with pytest.raises(slalom.InvalidValue, match="at most"):
+            problem.refine(**wrong)
+        with pytest.raises(slalom.InvalidValue, match="at most"):
+            slalom.Mpc(problem, **wrong)
+    for wrong in ({"max_size": 10**9}, {"max_points": 1000}, {"max_meshes": 10**6}):
+        with pytest.raises(slalom.InvalidValue, match="at most"):
+            problem.refine(**wrong)
+    with pytest.raises(slalom.InvalidValue, match="at most"):
+        problem.simulate({"x": 1}, {"u": 0}, tf=1, steps=10**9)
+    assert time.monotonic() - begin < 2
+    assert problem.solve(mesh=1, points=100, scheme="lgr").solved
+
+
+def test_time_limit_is_of_the_whole_call():
+    begin = time.monotonic()
+    s = decay().solve(mesh=20_000, time_limit=0.01)
+    assert s.status == "time_limit"
+    assert time.monotonic() - begin < 5
+    assert decay().refine(mesh=20_000, time_limit=0.01).solution.status == "time_limit"
+
+
+def test_a_solver_that_sleeps_is_ended(tmp_path):
+    sleeper = tmp_path / "sleeper"
+    sleeper.write_text("#!/bin/sh\nexec sleep 100\n")
+    sleeper.chmod(sleeper.stat().st_mode | stat.S_IEXEC)
+    begin = time.monotonic()
+    s = decay().solve(backend="nl", nl_solver=str(sleeper), time_limit=0.5)
+    assert s.status == "time_limit"
+    assert time.monotonic() - begin < 10
+
+
+def test_scenarios_are_pickled_to_the_bit():
+    scenario = slalom.load_scenario("E_C", planner="P_D", set={"start.ux": 16.1, "loop.tex": 0.3})
+    for again in (pickle.loads(pickle.dumps(scenario)), copy.deepcopy(scenario), copy.copy(scenario)):
+        assert again.to_yaml() == scenario.to_yaml()
+        assert (again.name, again.title) == (scenario.name, scenario.title)
+
+
+@pytest.mark.parametrize(("make", "instead"), [
+    (lambda: decay().solve(), "save"), (decay, "function"), (lambda: decay().refine(), "arrays"),
+    (lambda: decay().simulate({"x": 1}, {"u": 0}, tf=1), "arrays"), (swing, "function"),
+    (lambda: slalom.simulate("E_A", set={"loop.timeout": 0.3}), "write"),
+    (lambda: slalom.Planner(slalom.load_scenario("E_A")), "each process"),
+])
+def test_what_cannot_be_pickled_says_what_to_do(make, instead):
+    with pytest.raises(TypeError, match=f"cannot be pickled.*{instead}"):
+        pickle.dumps(make())
