@@ -56,6 +56,11 @@ void SlackForm::refresh(Problem& problem) {
   const std::size_t n = variables();
   std::copy(limits.xl.begin(), limits.xl.end(), lower_.begin());
   std::copy(limits.xu.begin(), limits.xu.end(), upper_.begin());
+  for (std::size_t i = 0; room_ > 0 && i < n; ++i) {
+    if (fixed_[i]) continue;
+    lower_[i] -= room_ * std::max(1.0, std::fabs(lower_[i]));
+    upper_[i] += room_ * std::max(1.0, std::fabs(upper_[i]));
+  }
   for (std::size_t r = 0; r < rows(); ++r) {
     const double room = equation_[r] ? 0 : room_;
     lower_[n + r] = (limits.gl[r] - room) * row_scale_[r];
