@@ -187,9 +187,10 @@ TEST(SweepPage, CountsTheCyclesThatFailedByPlanner) {
   sweep.trials[0].new_plans = 3;
   sweep.trials[1].rests = 37;
   const auto page = sweep_page(sweep, {});
-  EXPECT_EQ(testing::count(page, "<td class=\"num\">7 of 200</td><td class=\"num\">2 of 5</td>"
-                                 "<td class=\"num\">3</td><td class=\"num\">37</td>"
-                                 "<td class=\"num\">0</td>"),
+  EXPECT_EQ(testing::count(page,
+                           "<td class=\"num\">7 of 200</td><td class=\"num\">2 of 5</td>"
+                           "<td class=\"num\">3</td><td class=\"num\">37</td>"
+                           "<td class=\"num\">0</td>"),
             1);
   EXPECT_EQ(testing::count(page, "<td class=\"num\">0 of 240</td><td class=\"num\">0 of 6</td>"),
             1);
