@@ -115,7 +115,8 @@ std::string failed_cycle_table(const SweepTable& sweep) {
   if (rows.empty()) return "";
   return "<h3>Cycles that failed</h3>\n<p class=\"remark\">Those without a solved plan; of a "
          "planner "
-         "that verifies its plans, those without a verified one, and beside them what was driven.</p>\n" +
+         "that verifies its plans, those without a verified one, and beside them what was "
+         "driven.</p>\n" +
          table(head_cells({"planner", "cycles that failed", "trials with one", "a new plan",
                            "the rest of the last", "the least bad"}),
                rows);
