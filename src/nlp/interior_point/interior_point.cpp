@@ -103,7 +103,7 @@ class Run final : public Restoration::Watch {
     }
   }
 
-  bool converged() const {
+  bool converged() {
     const Survey& s = descent_.survey();
     const double floor = options_->floor;
     if (floor > 0)
@@ -112,7 +112,16 @@ class Run final : public Restoration::Watch {
     const double unit = form_.objective_scale();  // the checker's terms
     return s.error(0) <= options_->tol && s.dual <= options_->dual_tol * unit &&
            s.complementarity(0) <= options_->dual_tol * unit &&
-           form_.violation(descent_.point().functions()) <= options_->constraint_tol;
+           s.mean_product * s.bounds <=
+               kMostGap * std::max(1.0, std::fabs(descent_.point().functions().objective)) &&
+           meets_rows();
+  }
+
+  /// To the tolerance, or as well as the rounding of the rows' own terms lets them be met.
+  bool meets_rows() {
+    const Evaluation& at = descent_.point().functions();
+    return form_.violation(at) <= options_->constraint_tol ||
+           form_.met_to_rounding(at, descent_.point().at().w, options_->constraint_tol);
   }
 
   /// Where an equation holds a variable at its bound, no slack stays: it falls by the fraction to
