@@ -19,3 +19,4 @@
 #include "slalom/ocp/simulate.hpp"
 #include "slalom/ocp/solve.hpp"
 #include "slalom/ocp/trajectory.hpp"
+#include "slalom/ocp/values.hpp"

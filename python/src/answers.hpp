@@ -49,6 +49,17 @@ void bind_verdict(nb::class_<Type>& type) {
           "worst_constraint", [](const Type& s) { return s.answer.residuals.worst_constraint; },
           "The row or bound with that violation, by name and point.")
       .def_prop_ro(
+          "conflicts",
+          [](const Type& s) {
+            std::vector<std::pair<std::string, double>> list;
+            for (const auto& each : s.answer.conflicts) list.emplace_back(each.name, each.change);
+            return list;
+          },
+          "Of an infeasible problem, pairs (name, change) of what stands against each other: by "
+          "how "
+          "much that\nconstraint's or bound's limit alone would have to move, to first order; what "
+          "would have to give\nleast first.")
+      .def_prop_ro(
           "stationarity", [](const Type& s) { return s.answer.residuals.stationarity; },
           doc::nlp_Residuals_stationarity)
       .def_prop_ro(

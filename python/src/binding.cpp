@@ -37,6 +37,10 @@ Matrix to_numpy(const std::vector<std::vector<double>>& rows, std::size_t column
   return Matrix(data, {rows.size(), columns}, owner);
 }
 
+void warn(const std::string& message) {
+  if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 1) != 0) throw nb::python_error();
+}
+
 Released::Released() : asked_(now()) {}
 
 bool Released::interrupted() {

@@ -52,6 +52,9 @@ T as(nb::handle given, const std::string& where, const char* expected) {
   return value;
 }
 
+/// A UserWarning, or the exception that the user makes of those.
+void warn(const std::string& message);
+
 /// Lets other Python threads run while it lives, and hears an interrupt (Ctrl-C) all the same.
 class Released {
  public:

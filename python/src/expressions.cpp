@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 #include "binding.hpp"
@@ -53,6 +54,7 @@ const std::map<std::string, std::function<Expr(const Expr&, const Expr&)>> kOper
     {"true_divide", [](const Expr& a, const Expr& b) { return a / b; }},
     {"float_power", [](const Expr& a, const Expr& b) { return pow(a, b); }},
     {"arctan2", expr::atan2},
+    {"hypot", [](const Expr& a, const Expr& b) { return sqrt(square(a) + square(b)); }},
     {"minimum", expr::min},
     {"maximum", expr::max},
     {"fmin", expr::min},
@@ -67,11 +69,27 @@ const std::map<std::string, std::function<Expr(const Expr&)>>& unary_by_numpy_na
     map["negative"] = [](const Expr& a) { return -a; };
     map["positive"] = [](const Expr& a) { return a; };
     map["reciprocal"] = [](const Expr& a) { return 1 / a; };
+    map["exp2"] = [](const Expr& a) { return pow(Expr(2.0), a); };
+    map["expm1"] = [](const Expr& a) { return exp(a) - 1; };
+    map["log1p"] = [](const Expr& a) { return log(1 + a); };
+    map["log2"] = [](const Expr& a) { return log(a) * (1 / M_LN2); };
+    map["log10"] = [](const Expr& a) { return log(a) * (1 / M_LN10); };
+    map["cbrt"] = [](const Expr& a) { return sign(a) * pow(abs(a), Expr(1.0 / 3)); };
     map["deg2rad"] = map["radians"] = [](const Expr& a) { return a * (M_PI / 180); };
     map["rad2deg"] = map["degrees"] = [](const Expr& a) { return a * (180 / M_PI); };
     return map;
   }();
   return names;
+}
+
+const std::set<std::string> kComparisons = {"less",          "less_equal", "greater",
+                                            "greater_equal", "equal",      "not_equal"};
+
+bool refuse_order(const Expr&, nb::handle) {
+  throw nb::type_error(
+      "an expression is not compared: a row is path(name, x, upper=2) or boundary(name, x, "
+      "equal=2), a bound state(name, upper=2), a choice slalom.select(x - 2, if_positive, "
+      "otherwise)");
 }
 
 bool is_array(nb::handle value) {
@@ -81,6 +99,12 @@ bool is_array(nb::handle value) {
 Expr to_expr(nb::handle value) {
   if (nb::isinstance<Expr>(value)) return nb::cast<Expr>(value);
   return Expr(nb::cast<double>(nb::float_(nb::borrow(value))));
+}
+
+Expr clip(Expr value, nb::handle lower, nb::handle upper) {
+  if (lower.is_valid() && !lower.is_none()) value = max(value, to_expr(lower));
+  if (upper.is_valid() && !upper.is_none()) value = min(value, to_expr(upper));
+  return value;
 }
 
 /// NumPy's function of one Expr and numbers; of arrays, element by element, an array of objects.
@@ -103,14 +127,22 @@ nb::object ufunc(const std::string& name, const nb::args& inputs) {
     const auto found = kOperators.find(name);
     if (found != kOperators.end())
       return nb::cast(found->second(to_expr(inputs[0]), to_expr(inputs[1])));
+  } else if (name == "clip" && inputs.size() == 3) {
+    return nb::cast(clip(to_expr(inputs[0]), inputs[1], inputs[2]));
   }
-  return nb::steal(Py_NewRef(Py_NotImplemented));
+  if (kComparisons.contains(name)) refuse_order({}, {});
+  throw nb::type_error(("numpy." + name +
+                        " is not known of expressions; what is: arithmetic, the elementary "
+                        "functions (sqrt, exp, sin, ...), arctan2, hypot, minimum, maximum, clip; "
+                        "slalom.select chooses by a condition")
+                           .c_str());
 }
 
 nb::object array_ufunc(const Expr&, nb::handle function, const std::string& method,
                        const nb::args& inputs, const nb::kwargs& options) {
+  const auto name = nb::cast<std::string>(function.attr("__name__"));
   if (method != "__call__" || options.size() != 0) return nb::steal(Py_NewRef(Py_NotImplemented));
-  return ufunc(nb::cast<std::string>(function.attr("__name__")), inputs);
+  return ufunc(name, inputs);
 }
 
 std::string text(const Expr& e) {
@@ -168,8 +200,27 @@ void bind_expressions(nb::module_& module) {
           "__abs__", [](const Expr& a) { return abs(a); }, doc::expr_abs)
       .def("__bool__",
            [](const Expr&) -> bool {
-             throw nb::type_error("an expression has no truth value; slalom.select chooses by one");
+             throw nb::type_error(
+                 "an expression has no truth value; slalom.select(condition, if_positive, "
+                 "otherwise) chooses by one");
            })
+      .def("__float__",
+           [](const Expr&) -> double {
+             throw nb::type_error(
+                 "an expression is no number: numpy's functions take it (numpy.sin), math's do "
+                 "not; slalom.cubic_spline goes through a table");
+           })
+      .def(
+          "clip",
+          [](const Expr& a, nb::handle lower, nb::handle upper, const nb::kwargs&) {
+            return clip(a, lower, upper);
+          },
+          "min"_a = nb::none(), "max"_a = nb::none(), "options"_a,
+          "numpy.clip of an expression, by minimum and maximum.")
+      .def("__lt__", &refuse_order)
+      .def("__le__", &refuse_order)
+      .def("__gt__", &refuse_order)
+      .def("__ge__", &refuse_order)
       .def("__array_ufunc__", &array_ufunc, "function"_a, "method"_a, "inputs"_a, "options"_a);
   nb::implicitly_convertible<double, Expr>();
   nb::implicitly_convertible<int, Expr>();

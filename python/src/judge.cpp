@@ -27,6 +27,12 @@ void bind_estimates(nb::module_& module) {
       .def_ro("worst", &ErrorEstimate::worst, doc::ocp_ErrorEstimate_worst)
       .def_ro("horizon", &ErrorEstimate::horizon, doc::ocp_ErrorEstimate_horizon)
       .def_ro("amplification", &ErrorEstimate::amplification, doc::ocp_ErrorEstimate_amplification)
+      .def_ro("objective", &ErrorEstimate::objective, doc::ocp_ErrorEstimate_objective)
+      .def_prop_ro(
+          "objective_share", [](const ErrorEstimate& e) { return to_numpy(e.objective_share); },
+          nb::rv_policy::move, doc::ocp_ErrorEstimate_objective_share)
+      .def_ro("objective_size", &ErrorEstimate::objective_size,
+              doc::ocp_ErrorEstimate_objective_size)
       .def("__repr__", [](const ErrorEstimate& e) {
         return "<ErrorEstimate: " + nb::cast<std::string>(nb::repr(nb::float_(e.largest))) +
                " in interval " + std::to_string(e.worst) + ">";

@@ -246,9 +246,9 @@ void bind_mpc(nb::module_& module) {
   }();
   nb::class_<Loop>(module, "Mpc", doc::ocp_Mpc)
       .def("__init__", &make, "problem"_a, nb::kw_only(), "mesh"_a = 40,
-           "scheme"_a = "hermite_simpson", "points"_a = 4, "backend"_a = "", "guess"_a = nb::none(),
-           "goal"_a = std::map<std::string, std::pair<double, double>>(), "plant"_a = nb::none(),
-           "start_tolerance"_a = std::map<std::string, double>(),
+           "scheme"_a = "hermite_simpson", "points"_a = nb::none(), "backend"_a = "",
+           "guess"_a = nb::none(), "goal"_a = std::map<std::string, std::pair<double, double>>(),
+           "plant"_a = nb::none(), "start_tolerance"_a = std::map<std::string, double>(),
            "first_controls"_a = std::vector<double>(), "update"_a = nb::none(),
            "check"_a = nb::none(), "options"_a, keywords.c_str())
       .def("run", &Loop::run, "x0"_a, "t0"_a = 0.0, doc::ocp_Mpc_run)

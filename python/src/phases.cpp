@@ -1,7 +1,11 @@
 #include "slalom/ocp/phases.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
+
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/shared_ptr.h>
 
 #include "answers.hpp"
 #include "binding.hpp"
@@ -35,6 +39,13 @@ std::size_t phase_number(const PhasedProblem& problem, const std::string& name) 
 template <class T>
 T choice(const nb::dict& of_phase, const char* key, const T& otherwise) {
   return of_phase.contains(key) ? as<T>(of_phase[key], key, "what solve takes") : otherwise;
+}
+
+/// Those for all are for the phases whose scheme has a choice.
+PointsChoice points_of(const nb::dict& of_phase, const GridChoice& all) {
+  if (of_phase.contains("points") || !of_phase.contains("scheme"))
+    return choice(of_phase, "points", all.points);
+  return std::nullopt;
 }
 
 void check_keys(const nb::dict& of_phase, const std::string& phase) {
@@ -101,7 +112,7 @@ PhasedStart start_of(const PhasedProblem& problem, const GridChoice& all, const 
     const Problem& phase = problem.phases()[p];
     start.settings.grids.push_back(
         grid_of({choice(own[p], "mesh", all.mesh), choice(own[p], "scheme", all.scheme),
-                 choice(own[p], "points", all.points)},
+                 points_of(own[p], all)},
                 problem.name() + ": phase " + phase.name()));
     const nb::object given = own[p].contains("guess") ? nb::object(own[p]["guess"])
                              : guess != nullptr       ? nb::cast(guess->phases[p])
@@ -133,48 +144,61 @@ PhasedSolution PhasedSolved::whole() const {
 
 namespace {
 
-PhasedSolved solve(const PhasedProblem& problem, const MeshChoice& mesh, const SchemeChoice& scheme,
+PhasedSolved solve(const Phases& phases_now, const MeshChoice& mesh, const SchemeChoice& scheme,
                    const PointsChoice& points, const ByName<nb::any>& phases,
                    const std::string& backend, const PhasedSolved* guess,
                    const PhasedSolved* warm_start, const nb::kwargs& options) {
-  auto start =
-      start_of(problem, {mesh, scheme, points}, phases, backend, guess, warm_start, options);
-  const PhasedProblem copy = problem;
+  const PhasedProblem copy = phases_now.now();
+  auto start = start_of(copy, {mesh, scheme, points}, phases, backend, guess, warm_start, options);
   auto [answer, elapsed] =
       run_released(start.settings.options, [&] { return ocp::solve(copy, start.settings); });
   return {copy, std::move(answer), elapsed};
 }
 
 void bind_problem_of_phases(nb::module_& module) {
-  nb::class_<PhasedProblem>(module, "PhasedProblem", doc::ocp_PhasedProblem)
+  static const std::string connect_doc =
+      std::string(doc::ocp_PhasedProblem_connect) +
+      "\n\n`without` has names of states (or \"time\") that are left alone; `jumps` by state how "
+      "much higher it\nis at the begin of the later phase, such as {\"m\": -1000} of a mass that "
+      "is dropped.";
+  nb::class_<Phases>(module, "PhasedProblem", doc::ocp_PhasedProblem)
       .def(nb::init<std::string>(), "name"_a)
-      .def_prop_ro("name", &PhasedProblem::name)
-      .def("add", &PhasedProblem::add, "phase"_a,
-           "Appends a copy of a phase, as it is now; their names must differ. Returns its number, "
-           "from 0.")
+      .def_prop_ro("name", [](const Phases& p) { return p.name(); })
+      .def(
+          "add", &Phases::add_live, "phase"_a,
+          "Appends a phase; their names must differ. What is added to it later counts too. Returns "
+          "its number,\nfrom 0.")
       .def(
           "replace",
-          [](PhasedProblem& p, const std::variant<std::size_t, std::string>& which,
-             const Problem& phase) {
+          [](Phases& p, const std::variant<std::size_t, std::string>& which,
+             std::shared_ptr<Problem> phase) {
             const auto* number = std::get_if<std::size_t>(&which);
-            p.replace(number ? *number : phase_number(p, std::get<std::string>(which)), phase);
+            p.replace_live(number ? *number : phase_number(p, std::get<std::string>(which)),
+                           std::move(phase));
           },
           "phase"_a, "problem"_a, doc::ocp_PhasedProblem_replace)
       .def(
           "link",
-          [](PhasedProblem& p, const std::string& name, const ocp::Expr& value, Limit lower,
-             Limit upper, Limit equal) {
+          [](Phases& p, const std::string& name, const ocp::Expr& value, Limit lower, Limit upper,
+             Limit equal) {
             const bool none = !lower && !upper && !equal;
             p.link(name, value, none ? ocp::Bounds::equal(0) : bounds(lower, upper, equal));
           },
           "name"_a, "value"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
           "equal"_a = nb::none(),
           (std::string(doc::ocp_PhasedProblem_link) + "\nWithout bounds it equals 0.").c_str())
-      .def("connect", &PhasedProblem::connect, "from_phase"_a, "to_phase"_a,
-           doc::ocp_PhasedProblem_connect)
+      .def(
+          "connect",
+          [](Phases& p, std::size_t from, std::size_t to, const std::vector<std::string>& without,
+             const std::map<std::string, ocp::Expr>& jumps) {
+            p.take_over();
+            p.connect(from, to, {without, {jumps.begin(), jumps.end()}});
+          },
+          "from_phase"_a, "to_phase"_a, nb::kw_only(), "without"_a = std::vector<std::string>(),
+          "jumps"_a = std::map<std::string, ocp::Expr>(), connect_doc.c_str())
       .def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
-           "points"_a = 4, "phases"_a = nb::dict(), "backend"_a = "", "guess"_a = nb::none(),
-           "warm_start"_a = nb::none(), "options"_a,
+           "points"_a = nb::none(), "phases"_a = nb::dict(), "backend"_a = "",
+           "guess"_a = nb::none(), "warm_start"_a = nb::none(), "options"_a,
            "Transcribes, solves and checks all phases as one problem. The keywords are those of "
            "Problem.solve;\n`phases` has by phase a dict of those that differ there: mesh, scheme, "
            "points, guess. `guess` and\n`warm_start` are earlier PhasedSolutions.");

@@ -217,9 +217,19 @@ void bind_constraints(nb::class_<Problem>& type) {
 }
 
 void bind_terms(nb::class_<Problem>& type) {
+  static const std::string maximised =
+      "\nWith `maximise` it is to be large: it counts with a minus, in the objective too.";
+  using Add = void (Problem::*)(const std::string&, const Expr&);
+  const auto term = [](Add add) {
+    return [add](Problem& p, const std::string& name, const Expr& value, bool maximise) {
+      (p.*add)(name, maximise ? -value : value);
+    };
+  };
   type.def("dynamics", &Problem::dynamics, "state"_a, "rate"_a, doc::ocp_Problem_dynamics)
-      .def("mayer", &Problem::mayer, "name"_a, "term"_a, doc::ocp_Problem_mayer)
-      .def("lagrange", &Problem::lagrange, "name"_a, "integrand"_a, doc::ocp_Problem_lagrange);
+      .def("mayer", term(&Problem::mayer), "name"_a, "term"_a, nb::kw_only(), "maximise"_a = false,
+           (std::string(doc::ocp_Problem_mayer) + maximised).c_str())
+      .def("lagrange", term(&Problem::lagrange), "name"_a, "integrand"_a, nb::kw_only(),
+           "maximise"_a = false, (std::string(doc::ocp_Problem_lagrange) + maximised).c_str());
 }
 
 void bind_ends(nb::class_<Problem>& type) {

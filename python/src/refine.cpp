@@ -25,7 +25,7 @@ struct RefinedAnswer {
   Solution solution;
 };
 using OnePhase = RefinedAnswer<ocp::Refined, Solved>;
-using Phases = RefinedAnswer<ocp::PhasedRefined, PhasedSolved>;
+using PhasedAnswer = RefinedAnswer<ocp::PhasedRefined, PhasedSolved>;
 
 const std::vector<std::string> kRules = {"tolerance",  "refinement", "max_meshes",      "max_size",
                                          "min_points", "max_points", "resolve_controls"};
@@ -69,17 +69,18 @@ OnePhase refine(const Problem& problem, double tolerance, const std::string& ref
   return refined;
 }
 
-Phases refine_phases(const PhasedProblem& problem, double tolerance, const std::string& refinement,
-                     int max_meshes, int max_size, int min_points, int max_points,
-                     bool resolve_controls, const MeshChoice& mesh, const SchemeChoice& scheme,
-                     const PointsChoice& points, const ByName<nb::any>& phases,
-                     const std::string& backend, const PhasedSolved* guess,
-                     const PhasedSolved* warm_start, const nb::kwargs& options) {
-  auto start = start_of(problem, {mesh, scheme, points}, phases, backend, guess, warm_start,
-                        options, kRules);
+PhasedAnswer refine_phases(const Phases& problem, double tolerance, const std::string& refinement,
+                           int max_meshes, int max_size, int min_points, int max_points,
+                           bool resolve_controls, const MeshChoice& mesh,
+                           const SchemeChoice& scheme, const PointsChoice& points,
+                           const ByName<nb::any>& phases, const std::string& backend,
+                           const PhasedSolved* guess, const PhasedSolved* warm_start,
+                           const nb::kwargs& options) {
+  const PhasedProblem copy = problem.now();
+  auto start =
+      start_of(copy, {mesh, scheme, points}, phases, backend, guess, warm_start, options, kRules);
   const auto rules = rules_of(tolerance, refinement, max_meshes, max_size, min_points, max_points,
                               resolve_controls);
-  const PhasedProblem copy = problem;
   auto [answer, elapsed] = run_released(start.settings.options,
                                         [&] { return ocp::refine(copy, start.settings, rules); });
   PhasedSolved solution(copy, std::move(answer.solution), elapsed);
@@ -96,6 +97,7 @@ void bind_record(nb::module_& module) {
       .def_ro("wall_s", &MeshRecord::wall_s, doc::ocp_MeshRecord_wall_s)
       .def_ro("objective", &MeshRecord::objective)
       .def_ro("largest_error", &MeshRecord::largest_error, doc::ocp_MeshRecord_largest_error)
+      .def_ro("objective_error", &MeshRecord::objective_error, doc::ocp_MeshRecord_objective_error)
       .def_ro("unresolved", &MeshRecord::unresolved, doc::ocp_MeshRecord_unresolved)
       .def_ro("worst_phase", &MeshRecord::worst_phase, doc::ocp_MeshRecord_worst_phase)
       .def_ro("worst_interval", &MeshRecord::worst_interval);
@@ -134,7 +136,7 @@ void def_refine(nb::class_<Type>& type, const Function& function, const Keywords
            "refinement"_a = "h", "max_meshes"_a = defaults.max_meshes,
            "max_size"_a = defaults.max_size, "min_points"_a = defaults.min_points,
            "max_points"_a = defaults.max_points, "resolve_controls"_a = defaults.resolve_controls,
-           "mesh"_a = 40, "scheme"_a = "hermite_simpson", "points"_a = 4, keywords...,
+           "mesh"_a = 40, "scheme"_a = "hermite_simpson", "points"_a = nb::none(), keywords...,
            "backend"_a = "", "guess"_a = nb::none(), "warm_start"_a = nb::none(), "options"_a,
            "Solves on one mesh after another, each from the last one's polynomials and "
            "multipliers, until\nevery interval's error, found by re-integration, is within "
@@ -162,15 +164,15 @@ void bind_refine(nb::module_& module) {
       },
       "The re-integrated errors of that solution; None where no mesh was solved.");
   auto several =
-      bind_refined<Phases>(module, "PhasedRefined",
-                           "What PhasedProblem.refine comes to: the last mesh's answer, and "
-                           "every mesh's record.");
+      bind_refined<PhasedAnswer>(module, "PhasedRefined",
+                                 "What PhasedProblem.refine comes to: the last mesh's answer, and "
+                                 "every mesh's record.");
   several.def_prop_ro(
-      "errors", [](const Phases& r) { return r.answer.errors; },
+      "errors", [](const PhasedAnswer& r) { return r.answer.errors; },
       "The re-integrated errors of each phase; empty where no mesh was solved.");
   auto problem = nb::borrow<nb::class_<Problem>>(module.attr("Problem"));
   def_refine(problem, &refine);
-  auto phased = nb::borrow<nb::class_<PhasedProblem>>(module.attr("PhasedProblem"));
+  auto phased = nb::borrow<nb::class_<Phases>>(module.attr("PhasedProblem"));
   def_refine(phased, &refine_phases, "phases"_a = nb::dict());
 }
 

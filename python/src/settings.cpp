@@ -24,6 +24,21 @@ void check_length(const std::variant<T, std::vector<T>>& choice, std::size_t int
                        std::to_string(intervals) + ", one an interval, or one for all");
 }
 
+/// Of an interval, where the scheme has a choice and the user made none.
+constexpr int kPoints = 4;
+
+/// Warns of points for schemes that all have a number of their own.
+void warn_of_unused_points(const SchemeChoice& choice, const std::string& where) {
+  const auto has_choice = [](const std::string& name) {
+    return ocp::scheme(name, 2).points != ocp::scheme(name, 3).points;
+  };
+  const auto* one = std::get_if<std::string>(&choice);
+  const auto names = one ? std::vector{*one} : std::get<std::vector<std::string>>(choice);
+  if (std::any_of(names.begin(), names.end(), has_choice)) return;
+  warn(where + ": points do nothing with " + names.front() +
+       ", which has its own; lgr, lgr_differential and lgl have a choice");
+}
+
 template <class List>
 std::string names_of(const List& list) {
   std::string names;
@@ -90,12 +105,14 @@ ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::stri
   const auto mesh = intervals ? ocp::Mesh::uniform(*intervals)
                               : ocp::Mesh(std::get<std::vector<double>>(choice.mesh));
   check_length(choice.scheme, mesh.intervals(), where + ": scheme");
-  check_length(choice.points, mesh.intervals(), where + ": points");
-  if (choice.scheme.index() == 0 && choice.points.index() == 0)
-    return {mesh, ocp::scheme(std::get<0>(choice.scheme), std::get<0>(choice.points))};
+  const auto points = choice.points.value_or(kPoints);
+  check_length(points, mesh.intervals(), where + ": points");
+  if (choice.points) warn_of_unused_points(choice.scheme, where);
+  if (choice.scheme.index() == 0 && points.index() == 0)
+    return {mesh, ocp::scheme(std::get<0>(choice.scheme), std::get<0>(points))};
   std::vector<ocp::Scheme> schemes;
   for (std::size_t k = 0; k < mesh.intervals(); ++k)
-    schemes.push_back(ocp::scheme(entry(choice.scheme, k), entry(choice.points, k)));
+    schemes.push_back(ocp::scheme(entry(choice.scheme, k), entry(points, k)));
   return {mesh, ocp::Schemes(std::move(schemes))};
 }
 

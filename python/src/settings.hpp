@@ -3,6 +3,7 @@
 #include <nanobind/stl/variant.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,21 +19,23 @@ namespace slalom::python {
 
 using MeshChoice = std::variant<int, std::vector<double>>;
 using SchemeChoice = std::variant<std::string, std::vector<std::string>>;
-using PointsChoice = std::variant<int, std::vector<int>>;
+/// None: 4 where the scheme has a choice.
+using PointsChoice = std::optional<std::variant<int, std::vector<int>>>;
 
 /// How Python says a grid: a number of intervals or breakpoints; a scheme and its points, each one
 /// for all intervals or one an interval.
 struct GridChoice {
   MeshChoice mesh = 40;
   SchemeChoice scheme = "hermite_simpson";
-  PointsChoice points = 4;
+  PointsChoice points = std::nullopt;
 };
 
 /// Sizes that a caller gives are bounded, for what they make cannot be interrupted. Throws
 /// InvalidValue.
 void check_at_most(std::int64_t value, std::int64_t most, const std::string& where);
 
-/// Throws InvalidValue for lists that have not one entry an interval.
+/// Throws InvalidValue for lists that have not one entry an interval; warns of points for schemes
+/// that all have a number of their own.
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where);
 
 /// An option's value as Python gave it; a TypeError that names it for another type.

@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "answers.hpp"
 #include "binding.hpp"
 #include "slalom/base/options.hpp"
 #include "slalom/ocp/solve.hpp"
+#include "slalom/ocp/values.hpp"
 #include "solved.hpp"
 
 namespace slalom::python {
@@ -16,6 +19,10 @@ ByName<Vector> columns(const std::vector<std::string>& names, const Solved& s,
   nb::dict result;
   for (const auto& name : names) result[name.c_str()] = to_numpy((s.answer.*get)(name));
   return result;
+}
+
+std::string number(double value) {
+  return nb::cast<std::string>(nb::repr(nb::float_(value)));
 }
 
 std::string text(const Solved& s) {
@@ -99,20 +106,63 @@ void put(const std::vector<std::string>& names, const std::vector<std::vector<do
   }
 }
 
-/// States and controls at the times `t`, a number or an array of any shape.
-ByName<nb::any> at(const Solved& s, const nb::object& t) {
+/// Times as an array of any shape, and in a row.
+struct Times {
+  nb::object shape;
+  std::vector<double> values;
+};
+
+/// Of what the user gave. Warns of those beyond t0 ... tf by more than rounding, unless `hold`.
+Times times_of(const Solved& s, const nb::object& t, bool hold) {
   const nb::module_ numpy = nb::module_::import_("numpy");
   const nb::object array = numpy.attr("asarray")(t, "dtype"_a = "float64");
-  const auto times = nb::cast<std::vector<double>>(array.attr("ravel")());
+  Times times{array.attr("shape"), nb::cast<std::vector<double>>(array.attr("ravel")())};
+  const auto& at = s.answer.trajectory;
+  const double room =
+      1e-9 * std::max({std::fabs(at.t0), std::fabs(at.tf), std::fabs(at.tf - at.t0)});
+  bool beyond = false;
+  for (const double time : times.values) {
+    if (std::isnan(time)) throw InvalidValue("solution", "the time NaN", "numbers");
+    beyond = beyond || time < at.t0 - room || time > at.tf + room;
+  }
+  if (beyond && !hold)
+    warn("times beyond " + number(at.t0) + " to " + number(at.tf) +
+         " have the nearer end's values; hold=True says that this is meant");
+  return times;
+}
+
+/// What an expression comes to.
+nb::any value(const Solved& s, const ocp::Expr& expression, const std::optional<nb::object>& t,
+              bool hold) {
+  if (!t || t->is_none()) {
+    const auto list = ocp::values(*s.problem, s.answer, expression);
+    if (ocp::changes_over_time(*s.problem, expression))
+      return nb::borrow<nb::any>(nb::cast(to_numpy(list)));
+    return nb::borrow<nb::any>(nb::float_(list.front()));
+  }
+  const auto times = times_of(s, *t, hold);
+  const auto list = ocp::values(*s.problem, s.answer, expression, times.values);
+  if (nb::len(times.shape) == 0) return nb::borrow<nb::any>(nb::float_(list.front()));
+  return nb::borrow<nb::any>(nb::cast(to_numpy(list)).attr("reshape")(times.shape));
+}
+
+ByName<double> scales(const Solved& s) {
+  nb::dict result;
+  for (const auto& [name, scale] : s.answer.scales) result[name.c_str()] = scale;
+  return result;
+}
+
+/// States and controls at the times `t`, a number or an array of any shape.
+ByName<nb::any> at(const Solved& s, const nb::object& t, bool hold) {
+  const auto [shape, times] = times_of(s, t, hold);
   std::vector<std::vector<double>> states, controls;
   for (const double time : times) {
-    if (std::isnan(time)) throw InvalidValue("solution", "the time NaN", "numbers");
     states.push_back(s.between().states(time));
     controls.push_back(s.between().controls(time));
   }
   nb::dict result;
-  put(s.answer.state_names, states, array.attr("shape"), result);
-  put(s.answer.control_names, controls, array.attr("shape"), result);
+  put(s.answer.state_names, states, shape, result);
+  put(s.answer.control_names, controls, shape, result);
   return result;
 }
 
@@ -139,9 +189,13 @@ void bind_trajectory(nb::class_<Solved>& type) {
       .def_prop_ro(
           "nodes", [](const Solved& s) { return to_numpy(nodes(s)); }, nb::rv_policy::move,
           "Times of the mesh nodes, where costates and the Hamiltonian stand.")
-      .def("__call__", &at, "t"_a,
+      .def("__call__", &at, "t"_a, nb::kw_only(), "hold"_a = false,
            "States and controls at any time or array of times by name, on the scheme's own "
-           "polynomials; the\nnearer end's values beyond t0 ... tf.")
+           "polynomials;\nbeyond t0 ... tf the nearer end's values, with a warning unless `hold`.")
+      .def("value", &value, "expression"_a, "t"_a = nb::none(), nb::kw_only(), "hold"_a = false,
+           "What an expression of the problem's symbols comes to: one number a point of `t`, or at "
+           "the times\ngiven; of ends, times and parameters alone, a number.")
+      .def_prop_ro("scales", &scales, doc::ocp_Solution_scales)
       .def_prop_ro(
           "t", [](const Solved& s) { return to_numpy(s.answer.time()); }, nb::rv_policy::move,
           doc::ocp_Solution_time)

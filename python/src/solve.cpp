@@ -49,21 +49,22 @@ nb::typed<nb::list, ByName<nb::any>> option_rows() {
 
 void bind_solve(nb::module_& module) {
   auto type = nb::borrow<nb::class_<Problem>>(module.attr("Problem"));
-  type.def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
-           "points"_a = 4, "backend"_a = "", "guess"_a = nb::none(), "warm_start"_a = nb::none(),
-           "options"_a,
-           "Transcribes, solves and checks.\n\n"
-           "`mesh` is a number of intervals, or breakpoints from 0 to 1; `scheme` one of "
-           "scheme_names(), with\n`points` an interval where it has a choice, each one for all or "
-           "a list of one an interval.\n\n"
-           "`guess` is an earlier Solution on whatever mesh, or a Simulation, by name; or a dict "
-           "over straight\nlines: by name a number, numbers from t0 to tf (two make a line; at the "
-           "times \"t\" if these are\ngiven) or a function of an array of times, and \"t0\", "
-           "\"tf\". `warm_start` is an earlier Solution on\nwhatever mesh, whose multipliers are "
-           "used too; it beats the guess.\n\n"
-           "Other keywords are the solver's options, such as tol and max_iterations: "
-           "solver_options().\nRaises InvalidValue for set-up errors; how the solve ended is in "
-           "the Solution.");
+  type.def(
+      "solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
+      "points"_a = nb::none(), "backend"_a = "", "guess"_a = nb::none(),
+      "warm_start"_a = nb::none(), "options"_a,
+      "Transcribes, solves and checks.\n\n"
+      "`mesh` is a number of intervals, or breakpoints from 0 to 1; `scheme` one of "
+      "scheme_names(), with\n`points` an interval where it has a choice (4 if not given), each one "
+      "for all or a list of one an\ninterval.\n\n"
+      "`guess` is an earlier Solution on whatever mesh, or a Simulation, by name; or a dict "
+      "over straight\nlines: by name a number, numbers from t0 to tf (two make a line; at the "
+      "times \"t\" if these are\ngiven) or a function of an array of times, and \"t0\", "
+      "\"tf\". `warm_start` is an earlier Solution on\nwhatever mesh, whose multipliers are "
+      "used too; it beats the guess.\n\n"
+      "Other keywords are the solver's options, such as tol and max_iterations: "
+      "solver_options().\nRaises InvalidValue for set-up errors; how the solve ended is in "
+      "the Solution.");
   module.def(
       "scheme_names", [] { return ocp::scheme_names(); }, doc::ocp_scheme_names);
   module.def("backends", &nlp::backends, doc::nlp_backends);

@@ -1,5 +1,7 @@
 """Answers judged and interpolated from Python: closed forms, and what names them."""
 
+import math
+
 import numpy as np
 import pytest
 from problems import bryson_denham, decay, decay_at, swing
@@ -22,7 +24,7 @@ def test_interpolation_has_the_shape_of_its_times():
     assert isinstance(s(0.5)["x"], float)
     assert s(1)["x"] == s([1.0])["x"][0]
     assert s([[0, 1, 2], [2, 1, 0]])["u"].shape == (2, 3)
-    assert s(-1)["x"] == s(0)["x"] and s(9)["x"] == s(2)["x"]
+    assert s(-1, hold=True)["x"] == s(0)["x"] and s(9, hold=True)["x"] == s(2)["x"]
     assert s(np.array([]))["x"].shape == (0,)
     with pytest.raises(slalom.InvalidValue, match="NaN"):
         s(float("nan"))
@@ -101,7 +103,8 @@ def test_hamiltonian_is_constant():
 
 @pytest.mark.parametrize("refinement, scheme", [("h", "hermite_simpson"), ("hp", "lgr")])
 def test_refinement(refinement, scheme):
-    r = decay().refine(tolerance=1e-9, refinement=refinement, mesh=4, scheme=scheme, points=3)
+    points = 3 if scheme == "lgr" else None
+    r = decay().refine(tolerance=1e-9, refinement=refinement, mesh=4, scheme=scheme, points=points)
     assert r.converged and r.status == "converged"
     assert 0 < r.errors.largest <= 1e-9
     assert len(r.meshes) > 1 and r.meshes[0].intervals == 4
@@ -306,3 +309,52 @@ def test_states_that_are_lost_end_a_simulation():
     p.dynamics(x, x**2 + p.control("u"))
     s = p.simulate([1], [0], tf=2)
     assert not s.complete and s.t[-1] < 1.01 and s.message
+
+
+def test_value_of_an_expression():
+    p = slalom.Problem("line")
+    x, u = p.state("x", initial=0, final=2), p.control("u")
+    p.dynamics(x, u)
+    p.lagrange("effort", u**2)
+    p.final_time(equal=4)
+    s = p.solve(mesh=5)
+    np.testing.assert_allclose(s.value(x + u * p.time), s.t, atol=1e-9)
+    assert s.value(np.sin(x), 2.0) == pytest.approx(math.sin(1))
+    assert s.value(x, [[1, 2], [3, 4]]) == pytest.approx(np.array([[0.5, 1], [1.5, 2]]))
+    assert s.value(p.final(x) * p.tf) == pytest.approx(8)
+    with pytest.raises(slalom.InvalidValue, match="foreign"):
+        s.value(x * slalom.Expr.symbol("foreign"))
+
+
+def test_times_beyond_the_end_are_warned_of():
+    s = decay().solve(mesh=5)
+    for t in (-0.1, 2.1, [1, 3]):
+        with pytest.warns(UserWarning, match="hold=True"):
+            s(t)
+        with pytest.warns(UserWarning, match="hold=True"):
+            s.value(slalom.Expr(1), t)
+    assert s(2.1, hold=True) == s(2) and s(s.t[-1] + 1e-12) == s(2)
+
+
+def test_scales_can_be_seen():
+    p = slalom.Problem("line")
+    x, u = p.state("x", initial=0, final=200), p.control("u", lower=-7, upper=7)
+    p.dynamics(x, u)
+    p.path("slow", 3 * u, upper=20)
+    p.final_time(lower=1, upper=100, guess=40)
+    p.mayer("duration", p.tf)
+    s = p.solve(mesh=5)
+    assert s.scales == {"x": 200, "u": 7, "t0": 40, "tf": 40, "slow": 20}
+    p.set_scale(x, 30)
+    assert p.solve(mesh=5).scales["x"] == 30
+
+
+def test_conflicts_say_what_would_have_to_give():
+    p = slalom.Problem("line")
+    x, u = p.state("x", initial=0, final=5), p.control("u", lower=-1, upper=1)
+    p.dynamics(x, u)
+    s = p.solve(mesh=5)
+    assert s.status == "infeasible"
+    assert dict(s.conflicts)["final x"] == pytest.approx(-4, abs=0.01)
+    assert dict(s.conflicts)["u"] == pytest.approx(4, abs=0.01)
+    assert decay().solve(mesh=5).conflicts == []

@@ -9,8 +9,9 @@ import slalom
 
 X, Y = slalom.Expr.symbol("x"), slalom.Expr.symbol("y")
 UNARY = ["square", "sqrt", "exp", "log", "sin", "cos", "tan", "arcsin", "arccos", "arctan", "sinh",
-         "cosh", "tanh", "absolute", "sign", "negative", "reciprocal", "radians"]
-BINARY = ["add", "subtract", "multiply", "divide", "arctan2", "minimum", "maximum", "power"]
+         "cosh", "tanh", "absolute", "sign", "negative", "reciprocal", "radians", "exp2", "expm1", "log1p", "log2",
+         "log10", "cbrt"]
+BINARY = ["hypot", "add", "subtract", "multiply", "divide", "arctan2", "minimum", "maximum", "power"]
 
 
 def value(expression, x=0.3, y=0.7):
@@ -53,13 +54,27 @@ def test_select_takes_the_branch():
     assert value(slalom.select(X - 0.5, X, Y)) == 0.7
 
 
+def test_clip():
+    for x in (-1.0, 0.3, 2.0):
+        assert value(np.clip(X, 0, 1), x) == np.clip(x, 0, 1)
+        assert value(np.clip(X, None, 1), x) == min(x, 1)
+
+
 def test_what_makes_no_sense_is_a_type_error():
     with pytest.raises(TypeError, match="select"):
         bool(X)
-    with pytest.raises(TypeError):
-        X < Y
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match="select"):
+        np.where(X, 1, 2)
+    for compare in (lambda: X < Y, lambda: X <= 2, lambda: 2 >= X, lambda: np.float64(2) > X,
+                    lambda: np.less(X, 2), lambda: np.where(X > 0, 1, 2)):
+        with pytest.raises(TypeError, match="path.*upper=2"):
+            compare()
+    with pytest.raises(TypeError, match="floor.*is not known"):
         np.floor(X)
+    with pytest.raises(TypeError, match="numpy's functions take it"):
+        math.sin(X)
+    with pytest.raises(TypeError, match="cubic_spline"):
+        np.interp(X, [0, 1], [2, 3])
     with pytest.raises(TypeError):
         X + "1"
 

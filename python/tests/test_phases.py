@@ -95,3 +95,45 @@ def test_refinement():
     assert warm.solved
     with pytest.raises(slalom.InvalidValue, match="max_meshes"):
         two_legs().refine(max_mesh=2)
+
+
+def test_rows_added_to_a_phase_after_add_count():
+    p = slalom.PhasedProblem("single")
+    leg = slalom.Problem("leg")
+    x, u = leg.state("x", initial=0, final=1), leg.control("u")
+    p.add(leg)
+    leg.dynamics(x, u)
+    leg.lagrange("effort", u**2)
+    leg.path("least", u, lower=0.5)
+    leg.path("most", x, upper=2)
+    s = p.solve(mesh=4)
+    assert s.solved and s.objective == pytest.approx(1)
+    leg.final_time(equal=2)
+    leg.path("fast", u, lower=0.6)
+    assert p.solve(mesh=4).conflicts
+    assert p.refine(mesh=4).status == "not_solved"
+
+
+def test_gaps_of_connected_phases():
+    p = slalom.PhasedProblem("stages")
+    masses = []
+    for k in range(2):
+        leg = slalom.Problem(f"{k}")
+        x, m, u = leg.state("x", initial=0 if k == 0 else None), leg.state("m"), leg.control("u")
+        leg.dynamics(x, u)
+        leg.dynamics(m, -1)
+        leg.lagrange("effort", u**2)
+        leg.initial_time(equal=k)
+        leg.final_time(equal=k + 1)
+        if k == 0:
+            leg.initial_bounds(m, equal=10)
+        else:
+            leg.final_bounds(x, equal=1)
+        p.add(leg)
+        masses.append(m)
+    with pytest.raises(slalom.InvalidValue, match="no state 'mass'"):
+        p.connect(0, 1, without=["mass"])
+    p.connect(0, 1, jumps={"m": -4})
+    s = p.solve(mesh=4)
+    assert s.solved
+    assert s[1].state("m")[0] == pytest.approx(s[0].state("m")[-1] - 4)

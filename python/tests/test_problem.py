@@ -86,6 +86,8 @@ def test_an_array_outlives_its_solution():
     (lambda p: p.state("w", lower=1, upper=0), "bounds 1 to 0"),
     (lambda p: p.state("w", lower=float("nan")), "NaN"),
     (lambda p: p.boundary("b", p.tf, lower=0, equal=1), "equal beside"),
+    (lambda p: p.path("b", p.tf), "path b.*no bounds"),
+    (lambda p: p.boundary("b", p.tf), "boundary b.*no bounds"),
     (lambda p: p.solve(mesh=0), "mesh|interval"),
     (lambda p: p.solve(mesh=[0, 0.5, 0.4, 1]), "mesh|breakpoint"),
     (lambda p: p.solve(scheme="hermit_simpson"), "hermite_simpson"),
@@ -112,6 +114,23 @@ def test_wrong_types_are_type_errors():
         bryson_denham().state("w", lower="low")
     with pytest.raises(TypeError):
         bryson_denham().solve(tol=[1])
+
+
+def test_points_that_do_nothing_are_warned_of():
+    for scheme, points in (("hermite_simpson", 6), (["trapezoidal"] * 2, [3, 3])):
+        with pytest.warns(UserWarning, match="points do nothing"):
+            bryson_denham().solve(mesh=2, scheme=scheme, points=points)
+
+
+def test_maximised_terms_count_with_a_minus():
+    p = slalom.Problem("far")
+    x, u = p.state("x", initial=0), p.control("u", upper=2)
+    p.dynamics(x, u)
+    p.mayer("way", p.final(x), maximise=True)
+    p.lagrange("comfort", -(u**2) / 8, maximise=True)
+    s = p.solve(mesh=4)
+    assert s.solved and s.objective == pytest.approx(-1.5, abs=1e-6)
+    assert s.cost_terms == pytest.approx({"way": -2, "comfort": 0.5}, abs=1e-6)
 
 
 def test_not_solved_is_a_status():

@@ -38,6 +38,7 @@ def solved() -> float:
 def phased() -> str:
     p = slalom.PhasedProblem("typed")
     number: int = p.add(stated())
+    p.connect(0, 1, without=["x"], jumps={"y": -1})
     p.link("link", 0)
     s = p.solve(phases={"typed": {"mesh": 3}})
     return s[number].status + s["typed"].worst_constraint

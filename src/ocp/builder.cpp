@@ -38,18 +38,6 @@ void run_time_forward(Draft& draft) {
   draft.linear.push_back({row, draft.out.layout.t0, -1});
 }
 
-void check_freedom(const Draft& draft) {
-  std::size_t free = 0, equations = 0;
-  for (std::size_t i = 0; i < draft.out.layout.variables; ++i)
-    free += draft.out.limits.xl[i] < draft.out.limits.xu[i] ? 1 : 0;
-  for (std::size_t r = 0; r < draft.rows.size(); ++r)
-    equations += draft.out.limits.gl[r] == draft.out.limits.gu[r] ? 1 : 0;
-  if (equations > free)
-    throw InvalidValue(draft.problem.name(),
-                       fmt::format("{} equations for {} free variables", equations, free),
-                       "no more equations than unknowns");
-}
-
 }  // namespace
 
 Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Schemes& schemes) {
@@ -63,7 +51,6 @@ Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Schemes& 
   fill_sparsity(draft.rows, draft.linear, draft.uses, draft.out);
   for (auto& batch : draft.out.batches) batch.finish();
   fill_data(problem, draft.out);
-  check_freedom(draft);
   return std::move(draft.out);
 }
 

@@ -100,6 +100,18 @@ std::pair<double, std::size_t> error_of(const Vector& found, const Vector& expec
   return worst;
 }
 
+/// What an interval's errors make of the objective: those of the states by their costates at its
+/// end, that of the cost's integral as it is.
+double objective_share(const Solution& solution, std::size_t interval, const Vector& found,
+                       const Vector& expected) {
+  if (found.empty()) return kInfinity;
+  if (interval + 1 >= solution.costates.size()) return 0;  // put together by hand, without
+  const std::vector<double>& costates = solution.costates[interval + 1];
+  double share = found[costates.size()] - expected[costates.size()];
+  for (std::size_t i = 0; i < costates.size(); ++i) share += costates[i] * (found[i] - expected[i]);
+  return share;
+}
+
 Interpolant between(const Problem& problem, const Solution& solution) {
   return {problem, solution.trajectory, solution.mesh, solution.scheme};
 }
@@ -112,10 +124,34 @@ Vector state_units(const Problem& problem, const Solution& solution) {
   return units;
 }
 
+/// The objective where everything is moved by its own scale, by one point of it: the solver's unit
+/// of an objective that is 0 at its least.
+double objective_beside(const Problem& problem, const Solution& solution) {
+  Trajectory at = solution.trajectory;
+  const std::size_t nx = problem.states().size(), nu = problem.controls().size();
+  if (solution.scales.size() < nx + nu) return 0;  // put together by hand
+  for (std::size_t k = 0; k < at.tau.size(); ++k) {
+    for (std::size_t i = 0; i < nx; ++i) at.states[k][i] += solution.scales[i].second;
+    for (std::size_t i = 0; i < nu; ++i) at.controls[k][i] += solution.scales[nx + i].second;
+  }
+  Expr sum = 0;
+  for (const auto& term : problem.costs())
+    if (term.enabled) sum += term.lagrange ? (at.tf - at.t0) * term.value : term.value;
+  const std::size_t middle = at.tau.size() / 2;
+  Vector inputs = at.states[middle];
+  inputs.insert(inputs.end(), at.controls[middle].begin(), at.controls[middle].end());
+  inputs.push_back(at.time(middle));
+  inputs.push_back(at.tau[middle]);
+  double value = 0;
+  function_along(problem, at, {sum})(inputs, {}, {&value, 1});
+  return std::isfinite(value) ? std::fabs(value) : 0;
+}
+
 /// Of states, cost and integrals: names, solver's units, and what an error is relative to.
 struct Sizes {
   std::vector<std::string> names;
   Vector units, sizes;
+  double objective = 0;  ///< of it and all that adds up to its integral
 };
 
 Sizes sizes_of(const Problem& problem, const Solution& solution, const Interpolant& polynomials) {
@@ -136,6 +172,8 @@ Sizes sizes_of(const Problem& problem, const Solution& solution, const Interpola
     for (std::size_t i = 0; i < part.size(); ++i) integrals[i] += part[i];
   }
   integrals.front() += std::fabs(solution.objective);
+  list.objective =
+      std::max(integrals.front(), solution.options.tol * objective_beside(problem, solution));
   list.names.emplace_back("the cost's integral");
   for (const auto& integral : problem.integrals()) list.names.push_back(integral.name);
   for (const double size : integrals) {
@@ -162,11 +200,15 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
     return x;
   };
   ErrorEstimate estimate;
+  estimate.objective_size = sizes.objective;
   Vector running = begin(0);
   for (std::size_t k = 0; k < solution.mesh.intervals(); ++k) {
     Vector expected = trajectory.states[node[k + 1]];
     for (const double integral : integrator.quadrature(k, false)) expected.push_back(integral);
-    const auto [error, which] = error_of(integrator.across(k, begin(k)), expected, sizes.sizes);
+    const Vector found = integrator.across(k, begin(k));
+    const auto [error, which] = error_of(found, expected, sizes.sizes);
+    estimate.objective_share.push_back(objective_share(solution, k, found, expected));
+    estimate.objective += estimate.objective_share.back();
     estimate.interval.push_back(error);
     estimate.state.push_back(sizes.names[which]);
     if (error > estimate.largest) {
@@ -187,34 +229,89 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
   return estimate;
 }
 
+namespace {
+
+/// Of a control's largest size: a range below counts as this. What the barrier keeps a control off
+/// its bound is no jump, however it compares with the rest of such a control.
+constexpr double kLeastRange = 0.1;
+/// Of a control's scale: what the solver may take for 0.
+constexpr double kSolversZero = 1e-6;
+
+/// Value, slope and curvature of a control's polynomial at one end of an interval.
+struct EndShape {
+  double value, slope, curvature;
+
+  /// `end`: 0 at the interval's begin, 1 at its end. By differences that a parabola meets exactly.
+  EndShape(const Interpolant& polynomials, std::size_t control, std::size_t interval, double end,
+           double length) {
+    constexpr double kPart = 1e-3;
+    const double step = end > 0 ? -kPart : kPart, h = step * length;
+    const auto at = [&](double c) { return polynomials.controls(interval, c)[control]; };
+    const double near = at(end + step), far = at(end + 2 * step);
+    value = at(end);
+    slope = (4 * near - far - 3 * value) / (2 * h);
+    curvature = (far - 2 * near + value) / (h * h);
+  }
+};
+
+/// Of a control's polynomial over a single interval, which has no neighbours: the larger of its
+/// last two coefficients in Chebyshev's polynomials, which are small where it is resolved.
+double tail_of(const Interpolant& polynomials, std::size_t control) {
+  constexpr int kSamples = 24;
+  Vector sample, coefficient;
+  for (int s = 0; s < kSamples; ++s)
+    sample.push_back(
+        polynomials.controls(0, 0.5 - 0.5 * std::cos(M_PI * (s + 0.5) / kSamples))[control]);
+  for (int n = 0; n < kSamples; ++n) {
+    double sum = 0;
+    for (int s = 0; s < kSamples; ++s) sum += sample[s] * std::cos(M_PI * n * (s + 0.5) / kSamples);
+    coefficient.push_back(std::fabs(sum) * 2 / kSamples);
+  }
+  const double largest = *std::max_element(coefficient.begin() + 1, coefficient.end());
+  int last = kSamples - 1;
+  while (last > 1 && coefficient[last] <= 1e-10 * largest) --last;
+  return std::max(coefficient[last], last > 1 ? coefficient[last - 1] : 0.0);
+}
+
+/// How far two polynomials that meet at a node are from one another a length `h` away from it, to
+/// second order. Value and slope alone would not do: the parabola of an interval whose control
+/// jumps at a third of it meets one neighbour with equal value and slope.
+double gap_between(const EndShape& before, const EndShape& after, double h) {
+  return std::fabs(after.value - before.value) + std::fabs(after.slope - before.slope) * h +
+         std::fabs(after.curvature - before.curvature) * h * h / 6;
+}
+
+}  // namespace
+
 std::vector<double> unresolved_controls(const Problem& problem, const Solution& solution) {
   const Interpolant polynomials = between(problem, solution);
   const auto& breaks = solution.mesh.breakpoints();
   const std::size_t intervals = solution.mesh.intervals(), nu = problem.controls().size();
   Vector unresolved(intervals, 0.0);
-  if (intervals < 3) return unresolved;
-  // A polynomial's slope at an end by a difference over a small part of the interval.
-  constexpr double kPart = 1e-3;
   for (std::size_t i = 0; i < nu; ++i) {
     double low = kInfinity, high = -kInfinity;
     for (const auto& u : solution.trajectory.controls) {
       low = std::min(low, u[i]);
       high = std::max(high, u[i]);
     }
-    if (!(high - low > 1e-6 * (std::fabs(high) + std::fabs(low)))) continue;
-    const auto value = [&](std::size_t k, double c) { return polynomials.controls(k, c)[i]; };
+    const double largest = std::max(std::fabs(high), std::fabs(low));
+    if (!(high - low > 2e-6 * largest)) continue;
+    const std::size_t place = problem.states().size() + i;
+    const double unit = place < solution.scales.size() ? solution.scales[place].second : 0;
+    const double range = std::max({high - low, kLeastRange * largest, kSolversZero * unit});
     const auto length = [&](std::size_t k) { return breaks[k + 1] - breaks[k]; };
-    Vector gap(intervals + 1, kInfinity);  // by node; none counts at the horizon's ends
-    for (std::size_t k = 1; k < intervals; ++k) {
-      const double before = value(k - 1, 1), after = value(k, 0);
-      const double slope_before = (before - value(k - 1, 1 - kPart)) / (kPart * length(k - 1));
-      const double slope_after = (value(k, kPart) - after) / (kPart * length(k));
-      gap[k] = std::fabs(after - before) +
-               std::fabs(slope_after - slope_before) * std::min(length(k - 1), length(k));
+    if (intervals == 1) {
+      unresolved[0] = std::max(unresolved[0], tail_of(polynomials, i) / range);
+      continue;
     }
+    Vector gap(intervals + 1, kInfinity);  // by node; none counts at the horizon's ends
+    for (std::size_t k = 1; k < intervals; ++k)
+      gap[k] = gap_between(EndShape(polynomials, i, k - 1, 1, length(k - 1)),
+                           EndShape(polynomials, i, k, 0, length(k)),
+                           std::min(length(k - 1), length(k)));
     for (std::size_t k = 0; k < intervals; ++k)
-      unresolved[k] = std::max(unresolved[k],
-                               length(k) * length(k) * std::min(gap[k], gap[k + 1]) / (high - low));
+      unresolved[k] =
+          std::max(unresolved[k], length(k) * length(k) * std::min(gap[k], gap[k + 1]) / range);
   }
   return unresolved;
 }

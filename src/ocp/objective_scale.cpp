@@ -75,7 +75,9 @@ nlp::Answer solve_times(nlp::Problem& problem, double factor, nlp::Solver& solve
   Multiplied multiplied(problem, factor);
   nlp::Answer answer = solver.solve(multiplied, scaled(start, factor), options);
   answer.objective /= factor;
-  answer.point = scaled(std::move(answer.point), 1 / factor);
+  // An infeasible problem's multipliers are of its violation.
+  if (answer.status != nlp::Status::infeasible && answer.status != nlp::Status::too_few_freedoms)
+    answer.point = scaled(std::move(answer.point), 1 / factor);
   return answer;
 }
 

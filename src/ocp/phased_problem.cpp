@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "slalom/base/error.hpp"
+#include "slalom/base/options.hpp"
 #include "slalom/ocp/phases.hpp"
 
 namespace slalom::ocp {
@@ -46,21 +48,39 @@ const Problem& PhasedProblem::phase(std::size_t number, const char* what) const 
   return phases_[number];
 }
 
-void PhasedProblem::connect(std::size_t from, std::size_t to) {
+void PhasedProblem::connect(std::size_t from, std::size_t to, const Gaps& gaps) {
   const Problem &a = phase(from, "connect"), &b = phase(to, "connect");
-  std::size_t common = 0;
+  const auto left_out = [&](const std::string& name) {
+    return std::find(gaps.without.begin(), gaps.without.end(), name) != gaps.without.end();
+  };
+  std::vector<std::string> common{"time"};
+  std::vector<std::pair<std::string, Expr>> rows;
   for (const auto& state : a.states())
     for (const auto& other : b.states()) {
       if (state.name != other.name) continue;
-      link(fmt::format("{} from {} to {}", state.name, a.name(), b.name()),
-           state.final_symbol - other.initial_symbol);
-      ++common;
+      common.push_back(state.name);
+      if (left_out(state.name)) continue;
+      rows.emplace_back(state.name, state.final_symbol - other.initial_symbol);
     }
-  if (common == 0)
+  const auto check = [&](const std::string& name) {
+    if (std::find(common.begin(), common.end(), name) != common.end()) return;
+    const auto nearest = nearest_name(name, common);
+    throw InvalidValue(name_ + ": connect",
+                       fmt::format("no state '{}' of both {} and {}", name, a.name(), b.name()),
+                       nearest.empty() ? "states that both have" : "perhaps '" + nearest + "'");
+  };
+  for (const auto& name : gaps.without) check(name);
+  for (const auto& [name, jump] : gaps.jumps) check(name);
+  if (common.size() == 1)
     throw InvalidValue(name_ + ": connect",
                        fmt::format("no state of {} that {} has too", a.name(), b.name()),
                        "states of the same name, or links of their own");
-  link(fmt::format("time from {} to {}", a.name(), b.name()), a.final_time() - b.initial_time());
+  if (!left_out("time")) rows.emplace_back("time", a.final_time() - b.initial_time());
+  for (auto& [name, difference] : rows) {
+    for (const auto& [jumping, jump] : gaps.jumps)
+      if (jumping == name) difference += jump;
+    link(fmt::format("{} from {} to {}", name, a.name(), b.name()), difference);
+  }
 }
 
 }  // namespace slalom::ocp

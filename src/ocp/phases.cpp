@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
+#include "constant_rows.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/expr/evaluator.hpp"
 #include "slalom/expr/function.hpp"
@@ -114,6 +116,8 @@ class PhasedTranscription::Impl {
     join();
     links_.emplace(problem, parts_, offsets_);
     add_links();
+    relax_constant_rows(
+        structure, [this](const std::vector<double>& x) { return link_values(x); }, limits);
     structure.id = nlp::Structure::next_id();
   }
 
@@ -131,6 +135,15 @@ class PhasedTranscription::Impl {
     links_->evaluate(x, link_weights_, parts);
     add_results(parts, out);
     return check_links(parts, out);
+  }
+
+  /// The rows' values, of the links alone: the phases have seen to theirs.
+  std::vector<double> link_values(std::span<const double> x) {
+    std::vector<double> rows(structure.rows, std::numeric_limits<double>::quiet_NaN());
+    links_->evaluate(x, {}, {.values = true});
+    for (std::size_t l = 0; l < link_scale_.size(); ++l)
+      rows[first_link + l] = links_->results().values()[l] * link_scale_[l];
+    return rows;
   }
 
   std::span<const double> variables_of(std::size_t p, std::span<const double> x) const {

@@ -36,14 +36,20 @@ Given given(const Problem& problem, const Trajectory& at) {
 
 }  // namespace
 
-PointFunctions::PointFunctions(const Problem& problem, const Trajectory& at)
-    : t0_(at.t0), tf_(at.tf) {
+expr::Function function_along(const Problem& problem, const Trajectory& at,
+                              const std::vector<Expr>& outputs) {
   std::vector<Expr> inputs;
   for (const auto& state : problem.states()) inputs.push_back(state.symbol);
   for (const auto& control : problem.controls()) inputs.push_back(control.symbol);
   inputs.push_back(problem.time());
   inputs.push_back(problem.tau());
-  inputs_.resize(inputs.size());
+  const Given fixed = given(problem, at);
+  return {inputs, {}, expr::substitute(outputs, fixed.symbols, fixed.numbers)};
+}
+
+PointFunctions::PointFunctions(const Problem& problem, const Trajectory& at)
+    : t0_(at.t0), tf_(at.tf) {
+  inputs_.resize(problem.states().size() + problem.controls().size() + 2);
 
   std::vector<Expr> rates, values;
   for (const auto& state : problem.states()) rates.push_back(state.rate);
@@ -69,15 +75,11 @@ PointFunctions::PointFunctions(const Problem& problem, const Trajectory& at)
               expr::substitute({row.value}, row.symbols, numbers).front(), row.bounds, row.points);
     }
   }
-  const Given fixed = given(problem, at);
-  const auto compile = [&](const std::vector<Expr>& outputs) {
-    return expr::Function(inputs, {}, expr::substitute(outputs, fixed.symbols, fixed.numbers));
-  };
-  rates_ = compile(rates);
+  rates_ = function_along(problem, at, rates);
   std::vector<Expr> integrands{integrand};
   for (const auto& integral : problem.integrals()) integrands.push_back(integral.integrand);
-  integrand_ = compile(integrands);
-  row_functions_ = compile(values);
+  integrand_ = function_along(problem, at, integrands);
+  row_functions_ = function_along(problem, at, values);
 }
 
 void PointFunctions::call(const expr::Function& f, double t, std::span<const double> x,

@@ -46,6 +46,11 @@ class PointFunctions {
   mutable std::vector<double> inputs_;
 };
 
+/// A function of one point's states, controls, time and tau (in this order) with these outputs,
+/// all that a trajectory fixes put in as numbers.
+expr::Function function_along(const Problem& problem, const Trajectory& at,
+                              const std::vector<Expr>& outputs);
+
 /// The states' scales; 1 where none is given.
 std::vector<double> scales_of(const Problem& problem);
 

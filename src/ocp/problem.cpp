@@ -23,6 +23,13 @@ void check_bounds(const std::string& where, Bounds bounds) {
                        "bounds that some number satisfies");
 }
 
+/// Of a row, which without bounds would be no row.
+void check_row(const std::string& where, Bounds bounds) {
+  check_bounds(where, bounds);
+  if (!bounds.bounded())
+    throw InvalidValue(where, "no bounds", "a lower or upper bound, or a number that it equals");
+}
+
 void check_variable(const std::string& where, const Problem::Variable& variable) {
   check_bounds(where, variable.bounds);
   if (variable.scaled() && !(std::isfinite(variable.scale) && variable.scale > 0))
@@ -190,14 +197,14 @@ void Problem::lagrange(const std::string& name, const Expr& integrand) {
 ConstraintId Problem::path(const std::string& name, const Expr& value, Bounds bounds,
                            Points points) {
   claim_name(name);
-  check_bounds(name_ + ": path " + name, bounds);
+  check_row(name_ + ": path " + name, bounds);
   constraints_.push_back({name, Kind::path, value, bounds, points, true, {}, {}, {}, {}});
   return {constraints_.size() - 1};
 }
 
 ConstraintId Problem::boundary(const std::string& name, const Expr& value, Bounds bounds) {
   claim_name(name);
-  check_bounds(name_ + ": boundary " + name, bounds);
+  check_row(name_ + ": boundary " + name, bounds);
   constraints_.push_back({name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}, {}});
   return {constraints_.size() - 1};
 }
@@ -205,7 +212,7 @@ ConstraintId Problem::boundary(const std::string& name, const Expr& value, Bound
 ConstraintId Problem::path_family(const std::string& name, const std::vector<Expr>& symbols,
                                   const Expr& value, Bounds bounds, Points points) {
   claim_name(name);
-  check_bounds(name_ + ": path family " + name, bounds);
+  check_row(name_ + ": path family " + name, bounds);
   constraints_.push_back({name, Kind::family, value, bounds, points, true, symbols, {}, {}, {}});
   return {constraints_.size() - 1};
 }

@@ -15,6 +15,9 @@ namespace {
 /// Most pieces that one refinement cuts an interval into: errors far from the asymptotic regime
 /// tell little.
 constexpr int kMostPieces = 5;
+/// Times the tolerance: what all errors together may make of the objective, relative to it. And
+/// what of the tolerance an interval's errors are at least for a share of that to mean anything.
+constexpr double kObjectiveTolerance = 10, kSolversError = 1e-3;
 
 bool has_degrees(const Scheme& scheme) {
   return scheme.name == "lgr" || scheme.name == "lgr_differential" || scheme.name == "lgl";
@@ -80,15 +83,46 @@ Fate cut_for_control(const Scheme& scheme, double excess) {
           scheme};
 }
 
+/// What all phases' intervals make of the objective.
+class Shares {
+ public:
+  Shares(const std::vector<ErrorEstimate>& phases, double tolerance) : tolerance_(tolerance) {
+    for (const auto& errors : phases) {
+      size_ += errors.objective_size;
+      for (const double share : errors.objective_share) sum_ += std::fabs(share);
+      intervals_ += static_cast<double>(errors.objective_share.size());
+    }
+    if (!(size_ > 0)) size_ = 1;
+    for (const auto& errors : phases)
+      for (std::size_t k = 0; k < errors.interval.size(); ++k)
+        largest_excess_ = std::max(largest_excess_, excess(errors, k));
+  }
+
+  double size() const { return size_; }
+  /// Relative to that.
+  double sum() const { return sum_ / size_; }
+  bool too_large() const { return largest_excess_ > 1; }
+  /// An interval's share over what it may be; 0 where the sum is small enough, or the interval's
+  /// errors are but the solver's.
+  double excess(const ErrorEstimate& errors, std::size_t k) const {
+    const double most = kObjectiveTolerance * tolerance_;
+    if (sum() <= most || errors.interval[k] <= kSolversError * tolerance_) return 0;
+    return std::fabs(errors.objective_share[k]) / size_ * intervals_ / most;
+  }
+
+ private:
+  double tolerance_, size_ = 0, sum_ = 0, intervals_ = 0, largest_excess_ = 0;
+};
+
 PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimate& errors,
-                                    const std::vector<double>& unresolved,
+                                    const Shares& shares, const std::vector<double>& unresolved,
                                     const RefineRules& rules) {
   const auto& breaks = solution.mesh.breakpoints();
   std::vector<double> next{0};
   std::vector<Scheme> schemes;
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const Scheme& scheme = solution.scheme.of(k);
-    const double excess = errors.interval[k] / rules.tolerance;
+    const double excess = std::max(errors.interval[k] / rules.tolerance, shares.excess(errors, k));
     const Fate fate =
         unresolved[k] > rules.tolerance
             ? cut_for_control(scheme, std::max(excess, unresolved[k] / rules.tolerance))
@@ -194,7 +228,7 @@ MeshRecord record_of(const typename Solves::Answer& answer) {
   record.iterations = answer.iterations;
   record.wall_s = answer.wall_s;
   record.objective = answer.objective;
-  record.largest_error = kInfinity;
+  record.largest_error = record.objective_error = kInfinity;
   return record;
 }
 
@@ -230,11 +264,10 @@ std::vector<std::vector<double>> unresolved_by_phase(const Solves& solves,
   return list;
 }
 
-/// Whether the last mesh's objective is that of the one before.
-bool settled(const std::vector<MeshRecord>& meshes, double tolerance) {
-  if (meshes.size() < 2) return false;
-  const double now = meshes.back().objective, before = meshes[meshes.size() - 2].objective;
-  return std::fabs(now - before) <= tolerance * std::max(std::fabs(now), std::fabs(before));
+/// Change of the objective since the mesh before, relative to its size; infinite on the first.
+double last_change(const std::vector<MeshRecord>& meshes, double size) {
+  if (meshes.size() < 2) return kInfinity;
+  return std::fabs(meshes.back().objective - meshes[meshes.size() - 2].objective) / size;
 }
 
 /// Fills `answer`, `errors` and `meshes`.
@@ -251,15 +284,19 @@ RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answe
     if (!solved) return RefineStatus::not_solved;
     errors = judge(solves, answer, record);
     const auto unresolved = unresolved_by_phase(solves, answer, rules, record);
-    if (record.largest_error <= rules.tolerance &&
-        (record.unresolved == 0 || settled(meshes, rules.tolerance)))
+    const Shares shares(errors, rules.tolerance);
+    record.objective_error = shares.sum();
+    const double change = last_change(meshes, shares.size());
+    if (record.unresolved > 0) record.objective_error = std::max(record.objective_error, change);
+    if (record.largest_error <= rules.tolerance && !shares.too_large() &&
+        (record.unresolved == 0 || change <= rules.tolerance))
       return RefineStatus::converged;
     if (mesh == rules.max_meshes) return RefineStatus::mesh_limit;
     std::vector<PhasedTranscription::Grid> grids;
     std::size_t size = 0;
     const auto phases = Solves::phases(answer);
     for (std::size_t p = 0; p < phases.size(); ++p) {
-      grids.push_back(next_grid(*phases[p], errors[p], unresolved[p], rules));
+      grids.push_back(next_grid(*phases[p], errors[p], shares, unresolved[p], rules));
       size += points(grids.back());
     }
     if (size > static_cast<std::size_t>(rules.max_size)) return RefineStatus::size_limit;
@@ -285,14 +322,15 @@ const char* to_string(RefineStatus status) {
 
 std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status) {
   std::string text =
-      "mesh  intervals  points  status  iterations  solve [s]  objective  unresolved  error\n";
+      "mesh  intervals  points  status  iterations  solve [s]  objective  its error  unresolved  "
+      "error\n";
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const MeshRecord& mesh = meshes[m];
-    text +=
-        fmt::format("{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {}  {:.2e} in interval {}{}\n", m + 1,
-                    mesh.intervals, mesh.points, nlp::to_string(mesh.status), mesh.iterations,
-                    mesh.wall_s, mesh.objective, mesh.unresolved, mesh.largest_error,
-                    mesh.worst_interval, mesh.worst_phase.empty() ? "" : " of " + mesh.worst_phase);
+    text += fmt::format(
+        "{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {:.1e}  {}  {:.2e} in interval {}{}\n", m + 1,
+        mesh.intervals, mesh.points, nlp::to_string(mesh.status), mesh.iterations, mesh.wall_s,
+        mesh.objective, mesh.objective_error, mesh.unresolved, mesh.largest_error,
+        mesh.worst_interval, mesh.worst_phase.empty() ? "" : " of " + mesh.worst_phase);
   }
   return text + to_string(status) + "\n";
 }

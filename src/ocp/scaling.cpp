@@ -22,24 +22,34 @@ double largest(const std::vector<std::vector<double>>& rows, std::size_t i) {
   return most;
 }
 
+/// Least size of a variable in the guess: this part of what fixed ends and the controls' bounds
+/// make of it by the dynamics. Rounding left in a guess is no size. (Bounds of states are often
+/// wide.)
+constexpr double kLeastPart = 1e-2;
+
 /// Sizes of the states and controls, 0 where not known yet.
 class Sizes {
  public:
   Sizes(const Problem& problem, const Trajectory& guess)
       : problem_(problem), guess_(guess), nx_(problem.states().size()) {
-    for (std::size_t i = 0; i < nx_; ++i) {
-      const auto& state = problem.states()[i];
-      known_.push_back(first_of(
-          {state.scale,
-           std::max({largest(guess.states, i), size_of(state.initial), size_of(state.final)}),
-           size_of(state.bounds)}));
+    for (const auto& state : problem.states()) {
+      scale_.push_back(state.scale);
+      ends_.push_back(std::max(size_of(state.initial), size_of(state.final)));
+      bounds_.push_back(size_of(state.bounds));
     }
-    for (std::size_t i = 0; i < problem.controls().size(); ++i) {
-      const auto& control = problem.controls()[i];
-      known_.push_back(
-          first_of({control.scale, largest(guess.controls, i), size_of(control.bounds)}));
+    for (const auto& control : problem.controls()) {
+      scale_.push_back(control.scale);
+      ends_.push_back(0);
+      bounds_.push_back(size_of(control.bounds));
     }
-    if (!all_known()) infer();
+    for (std::size_t i = 0; i < scale_.size(); ++i) {
+      const double guessed = i < nx_ ? largest(guess.states, i) : largest(guess.controls, i - nx_);
+      known_.push_back(first_of({scale_[i], std::max(guessed, ends_[i]), bounds_[i]}));
+    }
+    if (std::all_of(scale_.begin(), scale_.end(), [](double scale) { return scale > 0; })) return;
+    const Dynamics at = dynamics();
+    keep_off_rounding(at);
+    if (!all_known()) infer(at);
   }
 
   double state(std::size_t i) const { return known_[i] > 0 ? known_[i] : 1; }
@@ -73,8 +83,12 @@ class Sizes {
     return std::all_of(known_.begin(), known_.end(), [](double size) { return size > 0; });
   }
 
-  /// By the dynamics' values and slopes in the middle of the guess.
-  void infer() {
+  /// The dynamics in the middle of the guess.
+  struct Dynamics {
+    expr::Function f;
+    std::vector<double> values, slopes;
+  };
+  Dynamics dynamics() const {
     std::vector<Expr> variables, data, rates;
     for (const auto& state : problem_.states()) {
       variables.push_back(state.symbol);
@@ -85,17 +99,22 @@ class Sizes {
       if (std::none_of(variables.begin(), variables.end(),
                        [&](const Expr& each) { return each.same(symbol); }))
         data.push_back(symbol);
-    const expr::Function f(variables, data, rates);
+    Dynamics at{{variables, data, rates}, std::vector<double>(nx_), {}};
+    at.slopes.resize(at.f.jacobian_pattern().size());
     const std::size_t middle = guess_.tau.size() / 2;
-    std::vector<double> x = guess_.states[middle];
+    std::vector<double> x = guess_.states[middle], none;
     x.insert(x.end(), guess_.controls[middle].begin(), guess_.controls[middle].end());
-    const std::vector<double> p = numbers(data, middle);
-    std::vector<double> values(nx_), slopes(f.jacobian_pattern().size()), none;
-    f.evaluate(1, x, p, none, {.values = true, .jacobian = true}, values, slopes, none);
+    at.f.evaluate(1, x, numbers(data, middle), none, {.values = true, .jacobian = true}, at.values,
+                  at.slopes, none);
+    return at;
+  }
+
+  /// By the dynamics' values and slopes in the middle of the guess.
+  void infer(const Dynamics& at) {
     const double duration = std::max(guess_.tf - guess_.t0, 0.0);
     for (std::size_t pass = 0; pass < known_.size() && !all_known(); ++pass) {
-      infer_from_rates(rates_of(f, values, slopes), duration);
-      infer_from_effects(f, slopes, rates_of(f, values, slopes), duration);
+      infer_from_rates(rates_of(at.f, at.values, at.slopes), duration);
+      infer_from_effects(at.f, at.slopes, rates_of(at.f, at.values, at.slopes), duration);
     }
   }
 
@@ -104,6 +123,59 @@ class Sizes {
   struct Rates {
     std::vector<double> size, own;
   };
+  /// As infer(), but one size at a time: the largest that the rates make, else of what moves a
+  /// state the one with the largest slope. A slope that is rounding in the guess has no say before
+  /// others.
+  void infer_one_by_one(const Dynamics& at) {
+    const double duration = std::max(guess_.tf - guess_.t0, 0.0);
+    for (std::size_t pass = 0; pass < known_.size() && !all_known(); ++pass) {
+      const Rates rates = rates_of(at.f, at.values, at.slopes);
+      const std::vector<double> before = known_;
+      infer_from_rates(rates, duration);
+      std::size_t largest = nx_;
+      for (std::size_t i = 0; i < nx_; ++i)
+        if (known_[i] != before[i] && (largest == nx_ || known_[i] > known_[largest])) largest = i;
+      const double size = largest < nx_ ? known_[largest] : 0;
+      known_ = before;
+      if (size > 0)
+        known_[largest] = size;
+      else if (!infer_from_steepest(at, rates, duration))
+        return;
+    }
+  }
+  /// False when nothing that is not known moves a state that is.
+  bool infer_from_steepest(const Dynamics& at, const Rates& rates, double duration) {
+    std::vector<double> one(at.slopes.size(), 0.0);
+    std::size_t steepest = one.size();
+    for (std::size_t e = 0; e < one.size(); ++e) {
+      const auto [row, col] = at.f.jacobian_pattern()[e];
+      if (known_[row] == 0 || known_[col] > 0 || !(size_of(at.slopes[e]) > 0)) continue;
+      if (steepest == one.size() || size_of(at.slopes[e]) > size_of(at.slopes[steepest]))
+        steepest = e;
+    }
+    if (steepest == one.size()) return false;
+    one[steepest] = at.slopes[steepest];
+    infer_from_effects(at.f, one, rates, duration);
+    return true;
+  }
+
+  /// What the ends, and then the controls' bounds too, make of the sizes by the dynamics' slopes
+  /// alone: the guess's own rates may be rounding as well.
+  void keep_off_rounding(Dynamics at) {
+    std::fill(at.values.begin(), at.values.end(), 0.0);
+    std::vector<double> sizes = std::move(known_);
+    for (const bool with_controls : {false, true}) {
+      known_.clear();
+      for (std::size_t i = 0; i < sizes.size(); ++i)
+        known_.push_back(
+            first_of({scale_[i], ends_[i], with_controls && i >= nx_ ? bounds_[i] : 0.0}));
+      infer_one_by_one(at);
+      for (std::size_t i = 0; i < sizes.size(); ++i)
+        if (scale_[i] == 0 && sizes[i] > 0) sizes[i] = std::max(sizes[i], kLeastPart * known_[i]);
+    }
+    known_ = std::move(sizes);
+  }
+
   Rates rates_of(const expr::Function& f, const std::vector<double>& values,
                  const std::vector<double>& slopes) const {
     Rates rates{std::vector<double>(nx_), std::vector<double>(nx_, 0.0)};
@@ -173,7 +245,9 @@ class Sizes {
   const Problem& problem_;
   const Trajectory& guess_;
   std::size_t nx_;
-  std::vector<double> known_;  ///< states, then controls
+  /// Of states, then controls: the user's scales, sizes of fixed ends and of bounds; 0 for none.
+  std::vector<double> scale_, ends_, bounds_;
+  std::vector<double> known_;
 };
 
 }  // namespace
@@ -197,7 +271,9 @@ Problem with_scales(Problem problem, const Trajectory& guess) {
     if (problem.constraints()[c].scale == kAutomaticScale)
       if (const double size = sizes.row(problem.constraints()[c]); size > 0)
         problem.set_scale(ConstraintId{c}, size);
-  const double horizon = std::max({size_of(guess.t0), size_of(guess.tf), guess.tf - guess.t0});
+  // Times by how long it lasts, however far from zero the clock stands.
+  const double duration = guess.tf - guess.t0;
+  const double horizon = duration > 0 ? duration : std::max(size_of(guess.t0), size_of(guess.tf));
   set(problem.t0(), horizon);
   set(problem.tf(), horizon);
   return problem;

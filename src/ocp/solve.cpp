@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "conflicts.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
 #include "slalom/ocp/scaling.hpp"
@@ -149,6 +150,7 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
     const std::size_t row = transcription.first_link() + l;
     solution.link_multipliers.emplace_back(problem.links()[l].name, point.y[row] * row_scale[row]);
   }
+  if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
   return solution;
 }
 

@@ -1,5 +1,6 @@
 #include "solved.hpp"
 
+#include "conflicts.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/interpolant.hpp"
 
@@ -9,6 +10,16 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
               Transcription& transcription, const nlp::Start& point, Solution& solution) {
   solution.mesh = grid.mesh;
   for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
+  const auto note = [&](const auto& list) {
+    for (const auto& each : list) solution.scales.emplace_back(each.name, each.unit());
+  };
+  note(problem.states());
+  note(problem.controls());
+  note(problem.static_parameters());
+  note(problem.slacks());
+  note(problem.integrals());
+  note(std::vector{problem.t0(), problem.tf()});
+  note(problem.constraints());
   solution.scheme = grid.schemes;
   solution.cost_terms = transcription.cost_terms(point.x);
   solution.trajectory = transcription.trajectory(point.x);
@@ -20,6 +31,7 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
   solution.control_names = names_of(problem.controls());
   solution.static_parameter_names = names_of(problem.static_parameters());
   solution.slack_names = names_of(problem.slacks());
+  if (knows_conflicts(solution)) solution.conflicts = conflicts(problem, solution.multipliers);
 }
 
 nlp::Start to_user(nlp::Start point, const nlp::Structure& shape) {

@@ -45,6 +45,14 @@ nlp::Start run(nlp::Problem& problem, nlp::Solver& solver, nlp::Options options,
   return std::move(answer.point);
 }
 
+/// Whether an answer's multipliers are those of the least violation.
+template <class Result>
+bool knows_conflicts(const Result& answer) {
+  return (answer.status == nlp::Status::infeasible ||
+          answer.status == nlp::Status::too_few_freedoms) &&
+         answer.backend.starts_with("interior_point");
+}
+
 /// What one phase starts from.
 struct Beginning {
   Trajectory guess;

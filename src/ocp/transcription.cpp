@@ -11,6 +11,7 @@
 #include "builder.hpp"
 #include "carry.hpp"
 #include "checks.hpp"
+#include "constant_rows.hpp"
 #include "duals.hpp"
 #include "point_functions.hpp"
 #include "slalom/base/error.hpp"
@@ -142,8 +143,19 @@ class Transcription::Impl {
 };
 
 Transcription::Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes)
-    : impl_(std::make_unique<Impl>(problem, mesh, schemes)) {}
+    : impl_(std::make_unique<Impl>(problem, mesh, schemes)) {
+  relax_constant_rows();
+}
 Transcription::~Transcription() = default;
+
+void Transcription::relax_constant_rows() {
+  const auto rows = [this](const std::vector<double>& x) {
+    nlp::Evaluation at;
+    (void)evaluate(x, 1, {}, {.values = true}, at);  // others may be undefined there
+    return at.rows;
+  };
+  ocp::relax_constant_rows(impl_->data.structure, rows, impl_->data.limits);
+}
 
 void Transcription::update(const ocp::Problem& problem) {
   check_same(impl_->problem, problem);
@@ -159,6 +171,7 @@ void Transcription::update(const ocp::Problem& problem) {
   impl_->problem = problem;
   fill_data(problem, impl_->data);
   fill_limits(problem, impl_->data);
+  relax_constant_rows();
 }
 
 std::vector<double> Transcription::point(const Trajectory& guess) const {

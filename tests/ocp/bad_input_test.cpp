@@ -74,22 +74,24 @@ const std::vector<Refused>& refused() {
          l.problem.set_members(family, {"one"}, {{1}});
        },
        "line: f[one] at node 0" + kNoVariable},
-      {"more equations than unknowns",
-       [](Line& l) {
-         l.problem.path("a", l.u - l.x, Bounds::equal(0));
-         l.problem.path("b", l.u - 2 * l.x, Bounds::equal(0));
-       },
-       "line: found 32 equations for 22 free variables, expected no more equations than unknowns"},
+      {"path without bounds", [](Line& l) { l.problem.path("c", l.x, {}); },
+       "line: path c: found no bounds, expected a lower or upper bound, or a number that it "
+       "equals"},
+      {"boundary without bounds",
+       [](Line& l) { l.problem.boundary("c", l.problem.final(l.x), {}); },
+       "line: boundary c: found no bounds, expected a lower or upper bound, or a number that it "
+       "equals"},
   };
   return table;
 }
 
 TEST(BadInput, IsRefusedWhenTranscribed) {
   for (const auto& each : refused()) {
-    Line line;
-    each.change(line);
-    const auto message = refusal(
-        [&] { (void)solve(line.problem, {.mesh = Mesh::uniform(10), .scheme = trapezoidal()}); });
+    const auto message = refusal([&] {
+      Line line;
+      each.change(line);
+      (void)solve(line.problem, {.mesh = Mesh::uniform(10), .scheme = trapezoidal()});
+    });
     EXPECT_EQ(message, each.message) << each.name;
   }
 }
@@ -167,6 +169,13 @@ const std::vector<Ended>& ended() {
          l.problem.boundary("b", l.problem.initial(l.x), Bounds::equal(1));
        },
        Status::infeasible, "", "", "", "a"},
+      {"more equations than unknowns",
+       [](Line& l) {
+         l.problem.initial_bounds(l.x, Bounds::equal(1));
+         l.problem.path("a", l.u - l.x, Bounds::equal(0));
+         l.problem.path("b", l.u - 2 * l.x, Bounds::equal(0));
+       },
+       Status::too_few_freedoms, "", "", "", ""},
       {"nothing that holds a control",
        [](Line& l) { l.problem.lagrange("c", l.problem.control("w")); }, Status::unbounded, "", "",
        "", ""},

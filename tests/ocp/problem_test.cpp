@@ -186,15 +186,6 @@ TEST(ProblemErrors, SlacksStayAtTheirEnd) {
   EXPECT_EQ(ends.transcription_refusal(), rule);
 }
 
-TEST(ProblemErrors, MoreEquationsThanUnknowns) {
-  Line line;  // 3 defects, 4 x and 4 u; t0 and tf are fixed
-  line.problem.path("u is x", line.u - line.x, Bounds::equal(0));
-  line.problem.path("u is t", line.u - line.problem.time(), Bounds::equal(0));
-  EXPECT_EQ(line.transcription_refusal(),
-            "line: found 11 equations for 8 free variables, expected no more equations than "
-            "unknowns");
-}
-
 TEST(ProblemErrors, Families) {
   Line line;
   Problem& p = line.problem;

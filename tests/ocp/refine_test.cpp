@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "ocp/closed_forms.hpp"
 #include "ocp/messages.hpp"
@@ -114,6 +116,81 @@ TEST(Refinement, RefusesSettingsThatCannotBe) {
   rules.max_points = 2;
   EXPECT_EQ(refusal([&] { (void)refine(form.problem, {}, rules); }),
             "linear regulator: refinement: max_points: found 2, expected at least 3");
+}
+
+/// Least time from rest to rest with unlike forces: sqrt(2 way (1 / ahead + 1 / back)), the switch
+/// where speed is `ahead` times its time.
+Problem unlike_forces(double ahead, double back, double way) {
+  Problem p("unlike forces");
+  const Expr x = p.state("x"), v = p.state("v"), u = p.control("u", {-back, ahead});
+  p.dynamics(x, v);
+  p.dynamics(v, u);
+  fix(p, x, 0, way);
+  fix(p, v, 0, 0);
+  p.final_time({0.1, 100}, 5);
+  p.mayer("duration", p.final_time());
+  return p;
+}
+
+/// At a third of an interval of Hermite-Simpson, the parabola through a jump meets one neighbour
+/// with equal value and slope.
+TEST(Refinement, SeesAJumpAtAThirdOfAnInterval) {
+  for (const auto& [ahead, back] : {std::pair{2.0, 1.0}, {1.0, 2.0}, {1.0, 5.0}, {1.9, 1.0}}) {
+    const double right = std::sqrt(2 * 12 * (1 / ahead + 1 / back));
+    for (const int intervals : {20, 40}) {
+      const Refined refined =
+          refine(unlike_forces(ahead, back, 12), {.mesh = Mesh::uniform(intervals)});
+      SCOPED_TRACE(std::to_string(ahead) + "\n" + refined.table());
+      ASSERT_EQ(refined.status, RefineStatus::converged);
+      EXPECT_NEAR(refined.solution.tf() / right, 1, 5e-6);
+    }
+  }
+}
+
+/// The control of each phase is constant but for what the barrier keeps it off its bound.
+TEST(Refinement, TakesNoBarrierForAJump) {
+  PhasedProblem both("both");
+  for (const bool stop : {false, true}) {
+    Problem p(stop ? "stop" : "go");
+    const Expr x = p.state("x"), v = p.state("v"), u = p.control("u", {-1, 1});
+    p.dynamics(x, v);
+    p.dynamics(v, u);
+    for (const auto& [state, value] : {std::pair{x, stop ? 1.0 : 0.0}, {v, 0.0}})
+      stop ? p.final_bounds(state, Bounds::equal(value))
+           : p.initial_bounds(state, Bounds::equal(value));
+    if (stop) p.initial_time({0, 10}, 1);
+    p.final_time({0, 10}, stop ? 2 : 1);
+    if (stop) p.mayer("duration", p.final_time());
+    both.add(p);
+  }
+  both.connect(0, 1);
+  PhasedSettings start;
+  start.grids.assign(2, {Mesh::uniform(40), lgr(4)});
+  const PhasedRefined refined = refine(both, start, {.refinement = Refinement::hp});
+  SCOPED_TRACE(refined.table());
+  EXPECT_EQ(refined.status, RefineStatus::converged);
+  EXPECT_LE(refined.meshes.back().points, 1000U);
+  EXPECT_NEAR(refined.solution.objective, 2, 2e-6);
+}
+
+/// States accurate to the tolerance may leave an objective that is not, where its costates are
+/// large beside it: here a small difference of large terms.
+TEST(Refinement, LooksAtWhatErrorsMakeOfTheObjective) {
+  Problem p("far from its size");
+  const Expr x = p.state("x"), u = p.control("u");
+  p.dynamics(x, u - 3 * sin(9 * p.time()) * x);
+  p.initial_bounds(x, Bounds::equal(1));
+  p.lagrange("effort", square(u) / 2);
+  p.mayer("end", 200 * square(p.final(x) - 2));
+  const Refined fine = refine(p, {.mesh = Mesh::uniform(40), .scheme = lgr(8)},
+                              {.tolerance = 1e-11, .max_meshes = 3});
+  const Refined refined = refine(p, {.mesh = Mesh::uniform(6)}, {.tolerance = 1e-4});
+  SCOPED_TRACE(refined.table());
+  ASSERT_EQ(refined.status, RefineStatus::converged);
+  EXPECT_LE(refined.meshes.back().objective_error, 1e-3);
+  const double off = refined.solution.objective - fine.solution.objective;
+  EXPECT_GT(refined.errors.objective / -off, 0.5) << "says how far it is off";
+  EXPECT_LT(refined.errors.objective / -off, 2);
 }
 
 }  // namespace

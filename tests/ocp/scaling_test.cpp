@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
+#include <utility>
 
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/errors.hpp"
+#include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/solve.hpp"
 
 namespace slalom::ocp {
@@ -154,6 +157,92 @@ TEST(AutomaticScales, LetAnAnswerStartASolveThatIsScaledOtherwise) {
   ASSERT_TRUE(warm.solved());
   EXPECT_LT(warm.iterations, cold.iterations / 2);
   EXPECT_NEAR(warm.objective / cold.objective, 1, 1e-8);
+}
+
+/// A cart and a pendulum, moved by 1 in 2 s.
+Problem cart_with_pendulum(double to) {
+  Problem p("cart");
+  const Expr x = p.state("x"), v = p.state("v"), a = p.state("a"), w = p.state("w");
+  const Expr u = p.control("u", {-30, 30});
+  const Expr rate =
+      (u + 0.3 * sin(a) * (0.5 * square(w) - 9.81 * cos(a))) / (1 + 0.3 * square(sin(a)));
+  p.dynamics(x, v);
+  p.dynamics(v, rate);
+  p.dynamics(a, w);
+  p.dynamics(w, (-rate * cos(a) - 9.81 * sin(a)) / 0.5);
+  p.fix(x, 0, to);
+  for (const Expr& state : {v, a, w}) p.fix(state, 0, 0);
+  p.lagrange("effort", square(u));
+  p.final_time(Bounds::equal(2), 2);
+  return p;
+}
+
+TEST(Scaling, RoundingInAGuessIsNoSize) {
+  const Problem problem = cart_with_pendulum(1);
+  const double right = solve(problem).objective;
+  EXPECT_NEAR(right, 0.979856, 1e-6);
+  for (const double dust : {1e-16, 1e-12, 1e-9, 1e-6, 1e-3}) {
+    SCOPED_TRACE(dust);
+    const Solution tiny = solve(cart_with_pendulum(dust));
+    ASSERT_TRUE(tiny.solved());
+    const Solution solution = solve(problem, {.guess = tiny.trajectory});
+    EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+    EXPECT_NEAR(solution.objective, right, 1e-6);
+    EXPECT_LE(solution.iterations, 50);
+  }
+}
+
+/// A car past a disc: what its guess leaves at rest is found from its controls' bounds.
+TEST(Scaling, RoundingInAGuessIsNoSizeWhereEndsSayNothing) {
+  Problem p("car");
+  const Expr x = p.state("x"), y = p.state("y"), th = p.state("th");
+  const Expr w = p.control("w", {-1, 1}), v = p.control("v", {0, 2});
+  p.dynamics(x, v * cos(th));
+  p.dynamics(y, v * sin(th));
+  p.dynamics(th, w);
+  p.fix(x, 0, 10);
+  p.fix(y, 0, 0);
+  p.initial_bounds(th, Bounds::equal(0));
+  p.final_time({1, 30}, 8);
+  p.mayer("duration", p.final_time());
+  p.lagrange("effort", 0.1 * square(w));
+  p.path("keep out", square(x - 5) + square(y - 0.1), Bounds::at_least(1));
+  for (const double dust : {0.0, 1e-16, 1e-10, 1e-6, 1e-3}) {
+    SCOPED_TRACE(dust);
+    const Solution solution =
+        solve(p, {.guess = Guess(p).line("y", 0, dust).constant("v", 1.5).trajectory()});
+    EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+    EXPECT_NEAR(solution.objective, 5.11030, 1e-5);
+    const Solution all_dust = solve(p, {.guess = Guess(p)
+                                                     .line("y", 0, dust)
+                                                     .line("th", 0, -dust)
+                                                     .constant("w", dust / 10)
+                                                     .constant("v", 1.5)
+                                                     .trajectory()});
+    EXPECT_TRUE(all_dust.solved()) << nlp::to_string(all_dust.status);
+  }
+}
+
+/// Where the clock stands does not matter.
+TEST(Scaling, TimesHaveTheSizeOfTheDuration) {
+  for (const double begin : {0.0, 42.758, -1e3, 1e4, 1e6, 1.76e9}) {
+    SCOPED_TRACE(begin);
+    Problem p("late");
+    const Expr x = p.state("x"), v = p.state("v"), u = p.control("u");
+    p.initial_time(Bounds::equal(begin), begin);
+    p.final_time({begin + 0.1, begin + 100}, begin + 1);
+    p.dynamics(x, v);
+    p.dynamics(v, u + 0.3 * sin(p.time() - begin));
+    p.fix(x, 0, 1);
+    p.fix(v, 0, 0);
+    p.lagrange("cost", square(u) + 1);
+    const Solution solution = solve(p);
+    EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+    EXPECT_NEAR(solution.objective, 3.5427278, 1e-6);
+    EXPECT_NEAR(solution.tf() - begin, 2.64337, 1e-5);
+    EXPECT_EQ(solution.scales[3], std::pair(std::string("t0"), 1.0));
+    EXPECT_EQ(solution.scales[4].second, 1);
+  }
 }
 
 }  // namespace

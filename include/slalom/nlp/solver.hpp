@@ -85,7 +85,10 @@ struct Answer {
   std::string backend;
   std::string message;  ///< the reason in words
   Fault fault;          ///< for invalid_number
-  Start point;          ///< primal and dual
+  /// Primal and dual. Of interior_point's `infeasible` without a floor, the multipliers are those
+  /// of the sum of the rows' violations (scaled), relative to that sum: 1 / multiplier is how far a
+  /// bound must move for it to vanish, to first order.
+  Start point;
   double objective = 0;
   double violation = 0;       ///< largest, of a row at the point, in the user's unit
   std::size_t worst_row = 0;  ///< its row, see Problem::row_name; meaningless for violation 0

@@ -24,6 +24,13 @@ struct ErrorEstimate {
   /// `horizon` over the sum of the intervals' errors: about 1 where dynamics are neutral, large
   /// where they are unstable and so no open-loop control can reproduce the states.
   double amplification = 0;
+  /// What these errors make of the objective, to first order: each interval's errors of the states
+  /// times their costates at its end, and its error of the cost's integral. The sum says by how
+  /// much the objective would change if the errors were mended.
+  double objective = 0;
+  std::vector<double> objective_share;  ///< by interval
+  double objective_size = 0;            ///< of the objective and all that adds up to its integral,
+                                        ///< or what the solver takes for 0
 };
 
 /// `tolerance` is the integrator's, relative and, in units of each state's scale, absolute. A state
@@ -33,8 +40,9 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution,
 
 /// For each interval, how much of a control its polynomial cannot follow, such as a jump or kink
 /// within the interval. It is large where the polynomial meets those of both neighbours badly:
-/// (h / T)^2 times the gap in value and slope at the better of its two ends, over the control's
-/// range. The cost's error falls as fast as this number.
+/// (h / T)^2 times the gap in value, slope and curvature at the better of its two ends, over the
+/// control's range (at least a tenth of its largest size). Of a single interval: its polynomial's
+/// last coefficients over that range. The cost's error falls as fast as this number.
 std::vector<double> unresolved_controls(const Problem& problem, const Solution& solution);
 
 /// The largest violation of a bound of a state or control or of a path constraint.

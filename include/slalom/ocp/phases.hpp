@@ -28,9 +28,16 @@ class PhasedProblem {
   /// A constraint between phases: an expression of initial(), final(), initial_time(),
   /// final_time(), static parameters and integrals of any of them.
   void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));
+  /// What connect() does not make continuous.
+  struct Gaps {
+    std::vector<std::string> without;  ///< states left alone; "time" too may stand here
+    /// By how much a state is higher at the begin of the later phase, such as -mass dropped.
+    std::vector<std::pair<std::string, Expr>> jumps;
+  };
   /// Makes time, and the states whose names both phases have, continuous from the end of `from` to
-  /// the begin of `to`. Throws InvalidValue when they have none.
-  void connect(std::size_t from, std::size_t to);
+  /// the begin of `to`, but for `gaps`. Throws InvalidValue when they have none, and for a name in
+  /// `gaps` that is not one of them.
+  void connect(std::size_t from, std::size_t to, const Gaps& gaps = {});
 
   struct Link {
     std::string name;

@@ -29,7 +29,8 @@ struct RefineRules {
 
 /// How a refinement ended.
 enum class RefineStatus {
-  converged,   ///< every interval's error, by re-integration, is within the tolerance
+  converged,   ///< every interval's error, by re-integration, is within the tolerance, and the
+               ///< objective's, to first order, within ten times it
   mesh_limit,  ///< `max_meshes` were solved
   size_limit,  ///< the next mesh would have more than `max_size` points
   not_solved,  ///< a mesh was not solved: see the last record's status
@@ -44,7 +45,11 @@ struct MeshRecord {
   double wall_s = 0;  ///< of the solve
   double objective = 0;
   double largest_error = 0;  ///< ErrorEstimate::largest
-  std::string worst_phase;   ///< the phase with that error; empty if there is only one
+  /// How far the objective may be from the value that it converges to, relative to its size: the
+  /// intervals' shares (ErrorEstimate::objective_share), and the change since the mesh before while
+  /// a control is not resolved.
+  double objective_error = 0;
+  std::string worst_phase;  ///< the phase with that error; empty if there is only one
   std::size_t worst_interval = 0;
   std::size_t unresolved = 0;  ///< intervals whose control is not resolved
 };

@@ -10,8 +10,10 @@ namespace slalom::ocp {
 ///
 /// A variable gets the first of these that is not 0: its largest size in the guess and at the ends;
 /// the size of its bounds; what its rate makes of the others' sizes over the horizon, or what moves
-/// another state by that state's size; 1. A constraint gets the size of its bounds, or else how
-/// much it changes when all variables move by half their sizes.
+/// another state by that state's size; 1. But a size in the guess is not less than a hundredth of
+/// what the fixed ends and the controls' bounds make of it by the dynamics: rounding left in a
+/// guess is no size. Times get the guess's duration. A constraint gets the size of its bounds, or
+/// else how much it changes when all variables move by half their sizes.
 Problem with_scales(Problem problem, const Trajectory& guess);
 
 }  // namespace slalom::ocp

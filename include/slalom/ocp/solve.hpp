@@ -16,6 +16,13 @@ namespace slalom::ocp {
 
 struct Solution;
 
+/// What an infeasible problem's constraint or bound would have to give, all others as they are, for
+/// the violation to vanish to first order.
+struct Conflict {
+  std::string name;   ///< of a constraint, link or variable; "initial x", "final x" of fixed ends
+  double change = 0;  ///< of its bound [its unit]: > 0 upwards, < 0 downwards, 0 not known
+};
+
 /// How to solve a problem; the defaults suit a smooth one.
 struct SolveSettings {
   Mesh mesh = Mesh::uniform(40);
@@ -45,9 +52,12 @@ struct Solution {
   std::vector<Multipliers> multipliers;  ///< of constraints and bounds, by name
   std::vector<Excesses> excesses;        ///< of soft constraints, by name
   nlp::Residuals residuals;              ///< recomputed from the point; names the worst constraint
-  nlp::Options options;                  ///< those it was solved with
-  std::string backend;                   ///< the one that solved it, with its factorisation
-  nlp::Start point;                      ///< of the NLP, for warm starts
+  /// Of an infeasible problem or one with too few freedoms, as interior_point finds them: what
+  /// stands against each other, first what would have to give least in its own scale.
+  std::vector<Conflict> conflicts;
+  nlp::Options options;  ///< those it was solved with
+  std::string backend;   ///< the one that solved it, with its factorisation
+  nlp::Start point;      ///< of the NLP, for warm starts
   int iterations = 0;
   double wall_s = 0;
 
@@ -68,6 +78,8 @@ struct Solution {
   const Excesses& excess(const std::string& name) const;
 
   std::vector<double> state_units;  ///< the scales the states were solved with
+  /// All scales it was solved with, given or found: of variables, t0 and tf, then constraints.
+  std::vector<std::pair<std::string, double>> scales;
   std::vector<std::string> state_names, control_names, static_parameter_names, slack_names;
 };
 
@@ -96,6 +108,7 @@ struct PhasedSolution {
   /// For each link: the change of J* per change of its bounds, with the sign of nlp::Start.
   std::vector<std::pair<std::string, double>> link_multipliers;
   nlp::Residuals residuals;
+  std::vector<Conflict> conflicts;  ///< as Solution::conflicts, of phases "phase: name"
   nlp::Options options;
   std::string backend;
   nlp::Start point;  ///< in user's units

@@ -57,8 +57,8 @@ struct Duals {
 class Transcription final : public nlp::Problem {
  public:
   /// Throws InvalidValue for mistakes that no single declaration shows: a state without dynamics,
-  /// no states, a function of a foreign symbol, no tf after t0, more equations than unknowns, a
-  /// constraint that no variable can change.
+  /// no states, a function of a foreign symbol, no tf after t0, a constraint that no variable can
+  /// change.
   Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes);
   ~Transcription() override;
 
@@ -107,6 +107,8 @@ class Transcription final : public nlp::Problem {
   std::optional<nlp::Formulas> formulas() const override;
 
  private:
+  void relax_constant_rows();
+
   class Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -20,6 +20,7 @@ class Barrier {
   void begin(BarrierRule rule, double mu, double least);
   double mu() const { return mu_; }
   bool at_least() const { return mu_ <= least_; }
+  bool nearly_at_least() const { return mu_ <= 10 * least_; }
   /// Whether mu follows the iterates: then it is set by one of the next two.
   bool free() const { return free_; }
   /// From the mean product now and after the step towards mu = 0 (Mehrotra 1992).

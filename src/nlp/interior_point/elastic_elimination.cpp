@@ -21,14 +21,16 @@ ElasticElimination::Pull ElasticElimination::pull(const BarrierTerms& terms, con
           -(rho + at.y[row] + terms.slope[form_.n(row)])};
 }
 
-/// b = -residual + r_p / sigma_p - r_n / sigma_n, and of an inequality (y - slope) / sigma_s.
+/// b = -residual + r_p / sigma_p - r_n / sigma_n, and of an inequality (y - slope) / sigma_s. A row
+/// without bounds has sigma_s = 0, no weight and no b.
 void ElasticElimination::shift(const BarrierTerms& terms, const Iterate& at,
                                std::span<const double> residuals) {
   for (std::size_t r = 0; r < form_.rows(); ++r) {
     const auto [r_p, r_n] = pull(terms, at, r);
     const std::size_t s = form_.slack(r);
     b_[r] = -residuals[r] + r_p / terms.sigma[form_.p(r)] - r_n / terms.sigma[form_.n(r)];
-    if (!form_.equation(r)) b_[r] += (at.y[r] - terms.slope[s]) / terms.sigma[s];
+    if (!form_.equation(r) && terms.sigma[s] > 0)
+      b_[r] += (at.y[r] - terms.slope[s]) / terms.sigma[s];
     multipliers_[r] = at.y[r] - weight_[r] * b_[r];
   }
 }

@@ -25,7 +25,12 @@ using namespace ipm;
 constexpr double kMostVariable = 1e20;  ///< beyond, iterates diverge
 constexpr int kMostTinySteps = 2;
 constexpr double kRoom = 1e-9;
-constexpr double kNoViolation = 1e-2;  ///< of the tolerance: nothing is left to restore
+/// Iterations that mu may be at its least with the rows met, and where the objective has become so
+/// many times the first.
+constexpr int kMostLow = 75, kFewLow = 10;
+constexpr double kMet = 1e-4, kFar = 1e3;
+constexpr double kMostBoundMultiplier = 1e8;  ///< of a bound with an interior, within reason
+constexpr double kNoViolation = 1e-2;         ///< of the tolerance: nothing is left to restore
 /// Violation at most that restoration hands back: a part of the search's (section 3.3), and of what
 /// it handed back before, for where the search has got stuck with that, it takes a better point.
 constexpr double kSufficient = 0.9, kStricter = 0.01;
@@ -59,15 +64,25 @@ class Run final : public Restoration::Watch {
 
   void solve(Problem& problem, const Start& start, const Options& options, Answer& answer) {
     begin(problem, options);
-    Status status = enough_freedom() ? iterate(start) : Status::too_few_freedoms;
-    if (status == Status::numerical_failure && options.floor == 0 && best_.feasible()) {
-      // Rows that leave no interior have no central path: once more, with a little room.
+    Status status = iterate(start);
+    const Options monotone = with_monotone_barrier(options);
+    if (barrier_too_low_) {
+      options_ = &monotone;
+      status = iterate(start);
+    }
+    if (no_interior_ ||
+        (status == Status::numerical_failure && options.floor == 0 && best_.feasible())) {
+      // Bounds and rows that leave no interior have no central path: once more, with a little room.
       form_.set_room(kRoom);
       form_.refresh(problem);
       status = iterate(start);
       form_.set_room(0);
     }
-    fill(status, start, answer);
+    // Equations that depend on each other may all hold; those that do not leave nothing to choose.
+    const bool least = status == Status::infeasible;
+    if ((least || status == Status::numerical_failure) && !enough_freedom())
+      status = Status::too_few_freedoms;
+    fill(status, start, answer, least);
   }
 
  private:
@@ -79,6 +94,7 @@ class Run final : public Restoration::Watch {
       offer_best();
       if (converged()) return Status::solved;
       if (const auto status = told_to_end()) return *status;
+      if (leaves_no_interior() || fell_too_early()) return Status::numerical_failure;
       descent_.update_barrier();
       const auto failure = descent_.find_step() ? advance() : restore();
       if (failure) return *failure;
@@ -87,7 +103,7 @@ class Run final : public Restoration::Watch {
     }
   }
 
-  bool converged() const {
+  bool converged() {
     const Survey& s = descent_.survey();
     const double floor = options_->floor;
     if (floor > 0)
@@ -96,7 +112,45 @@ class Run final : public Restoration::Watch {
     const double unit = form_.objective_scale();  // the checker's terms
     return s.error(0) <= options_->tol && s.dual <= options_->dual_tol * unit &&
            s.complementarity(0) <= options_->dual_tol * unit &&
-           form_.violation(descent_.point().functions()) <= options_->constraint_tol;
+           s.mean_product * s.bounds <=
+               kMostGap * std::max(1.0, std::fabs(descent_.point().functions().objective)) &&
+           meets_rows();
+  }
+
+  /// To the tolerance, or as well as the rounding of the rows' own terms lets them be met.
+  bool meets_rows() {
+    const Evaluation& at = descent_.point().functions();
+    return form_.violation(at) <= options_->constraint_tol ||
+           form_.met_to_rounding(at, descent_.point().at().w, options_->constraint_tol);
+  }
+
+  /// Where an equation holds a variable at its bound, no slack stays: it falls by the fraction to
+  /// the boundary with each step, whatever mu is, and its multiplier rises without end.
+  bool leaves_no_interior() {
+    if (options_->floor > 0 || form_.room() > 0) return false;
+    const auto& kernels = vector_kernels();
+    const Iterate& at = descent_.point().at();
+    no_interior_ = kernels.largest_magnitude(at.zl.size(), at.zl.data()) > kMostBoundMultiplier ||
+                   kernels.largest_magnitude(at.zu.size(), at.zu.data()) > kMostBoundMultiplier;
+    return no_interior_;
+  }
+
+  static Options with_monotone_barrier(Options options) {
+    options.barrier_rule = BarrierRule::monotone;
+    return options;
+  }
+  /// A step of the adaptive rule may land beside a bound with mu next to zero, far from where the
+  /// objective is least: the rows are met, and there is no way off but many short steps.
+  bool fell_too_early() {
+    const Options& options = *options_;
+    if (options.floor > 0 || options.barrier_rule != BarrierRule::adaptive) return false;
+    const bool low = descent_.barrier().nearly_at_least() && descent_.survey().primal < kMet;
+    low_iterations_ = low ? low_iterations_ + 1 : 0;
+    const double objective = std::fabs(descent_.point().functions().objective);
+    if (iterations_ == 0) first_objective_ = objective;
+    const bool far = objective > kFar * std::max(1.0, first_objective_);
+    barrier_too_low_ = low_iterations_ >= (far ? kFewLow : kMostLow);
+    return barrier_too_low_;
   }
 
   /// Along the step, as the watchdog has it. Empty: go on.
@@ -122,6 +176,7 @@ class Run final : public Restoration::Watch {
         return resume() ? std::nullopt : std::optional(Status::invalid_number);
       case Restoration::Outcome::infeasible:
         if (!descent_.complete()) return Status::invalid_number;
+        if (options_->floor == 0) restoration_.hand_back_multipliers();
         offer_best();
         return Status::infeasible;
       case Restoration::Outcome::failed:
@@ -167,6 +222,8 @@ class Run final : public Restoration::Watch {
     iterations_ = tiny_steps_ = 0;
     handed_back_ = std::numeric_limits<double>::infinity();
     end_.reset();
+    no_interior_ = barrier_too_low_ = false;
+    low_iterations_ = 0;
     form_.refresh(problem);
     watchdog_.restart(options.warm_start);
     best_.begin(form_, options.constraint_tol);
@@ -188,7 +245,8 @@ class Run final : public Restoration::Watch {
     });
   }
 
-  void fill(Status status, const Start& start, Answer& answer) {
+  /// `least`: the point is the one of least violation.
+  void fill(Status status, const Start& start, Answer& answer, bool least) {
     answer.status = status;
     answer.backend = "interior_point/";
     answer.backend += descent_.newton().backend().name();
@@ -202,10 +260,13 @@ class Run final : public Restoration::Watch {
       answer.objective = answer.violation = 0;
     } else {
       // An infeasible problem's answer is where the sum of its violations is least.
-      if (status != Status::solved && status != Status::infeasible) go_back_to_best();
+      if (status != Status::solved && !least) go_back_to_best();
       hand_out(form_, point.at(), answer.point);
       answer.objective = point.functions().objective / form_.objective_scale();
       answer.violation = form_.violation(point.functions());
+      if (status == Status::too_few_freedoms && !least)
+        for (auto* multipliers : {&answer.point.y, &answer.point.zl, &answer.point.zu})
+          std::fill(multipliers->begin(), multipliers->end(), 0.0);  // they say nothing
       answer.worst_row = answer.violation > 0 ? form_.worst_row(point.functions()) : 0;
     }
     budget_.report(answer);
@@ -234,6 +295,9 @@ class Run final : public Restoration::Watch {
   Restoration restoration_;
   BestIterate best_;
   std::optional<Status> end_;
+  bool no_interior_ = false, barrier_too_low_ = false;
+  int low_iterations_ = 0;  ///< on end, with mu (nearly) at its least and the rows met
+  double first_objective_ = 0;
   int iterations_ = 0, tiny_steps_ = 0;
   double handed_back_ = 0;  ///< violation that the last restoration ended with
 };

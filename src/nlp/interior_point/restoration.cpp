@@ -23,7 +23,12 @@ void copy_primal(const Point& elastic, Point& point) {
 }  // namespace
 
 Restoration::Restoration(SlackForm& form, Descent& main)
-    : main_(main), form_(form.problem()), inner_(form_), misfits_(form.rows()), trial_(form) {}
+    : main_(main),
+      form_(form.problem()),
+      inner_(form_),
+      misfits_(form.rows()),
+      force_(form.variables()),
+      trial_(form) {}
 
 /// With its limits and scales, which may be others than at the last run.
 void Restoration::take_over_problem() {
@@ -95,6 +100,24 @@ bool Restoration::accepted_by_main(double most_violation) {
 
 void Restoration::hand_back() {
   copy_primal(inner_.point(), main_.point());
+}
+
+void Restoration::hand_back_multipliers() {
+  const Iterate& at = inner_.point().at();
+  Point& point = main_.point();
+  double violation = 0;
+  for (std::size_t r = 0; r < form_.rows(); ++r) violation += at.w[form_.p(r)] + at.w[form_.n(r)];
+  // Without the objective's scale, by which what is handed out is divided.
+  const double factor = main_.form().objective_scale() / (form_.violation_weight() * violation);
+  const auto y = point.change_y(), zl = point.change_zl(), zu = point.change_zu();
+  for (std::size_t r = 0; r < form_.rows(); ++r) y[r] = factor * at.y[r];
+  std::fill(force_.begin(), force_.end(), 0.0);
+  form_.row_blocks().add_transposed(point.functions().jacobian, y, force_);
+  for (std::size_t i = 0; i < form_.variables(); ++i) {
+    // The bounds of a fixed variable have no terms of their own: what holds it balances the rows.
+    zl[i] = form_.fixed(i) ? std::max(force_[i], 0.0) : factor * at.zl[i];
+    zu[i] = form_.fixed(i) ? std::max(-force_[i], 0.0) : factor * at.zu[i];
+  }
 }
 
 /// The weight of nearness falls with the barrier parameter (eq. 30): in the end violation alone

@@ -27,6 +27,9 @@ class Restoration {
   /// `most_violation`: with which the main method may go on; `again`: it was called before in this
   /// solve.
   Outcome run(Watch& watch, double most_violation, bool again);
+  /// After `infeasible`, with the derivatives at the main point known: its multipliers become those
+  /// of the sum of the rows' violations, relative to that sum.
+  void hand_back_multipliers();
   void give_up_at(Deadline* deadline) { inner_.give_up_at(deadline); }
 
  private:
@@ -43,6 +46,7 @@ class Restoration {
   ElasticForm form_;
   Descent inner_;
   std::vector<double> misfits_;  ///< of the rows, elastic parts left out
+  std::vector<double> force_;    ///< of the rows on the variables
   Point trial_;                  ///< of the main form
 };
 

@@ -34,7 +34,8 @@ SlackForm::SlackForm(Problem& problem, std::size_t more)
       condensed_(shape_->hessian_row, shape_->hessian_col, row_blocks_, opposite(equation_)),
       row_scale_(shape_->rows, 1.0),
       users_unit_(shape_->rows),
-      scaled_y_(shape_->rows) {
+      scaled_y_(shape_->rows),
+      row_size_(shape_->rows) {
   for (std::size_t r = 0; r < rows(); ++r)
     if (equation_[r]) equations_.push_back(static_cast<std::uint32_t>(r));
   for (std::size_t i = 0; i < variables(); ++i)
@@ -56,6 +57,11 @@ void SlackForm::refresh(Problem& problem) {
   const std::size_t n = variables();
   std::copy(limits.xl.begin(), limits.xl.end(), lower_.begin());
   std::copy(limits.xu.begin(), limits.xu.end(), upper_.begin());
+  for (std::size_t i = 0; room_ > 0 && i < n; ++i) {
+    if (fixed_[i]) continue;
+    lower_[i] -= room_ * std::max(1.0, std::fabs(lower_[i]));
+    upper_[i] += room_ * std::max(1.0, std::fabs(upper_[i]));
+  }
   for (std::size_t r = 0; r < rows(); ++r) {
     const double room = equation_[r] ? 0 : room_;
     lower_[n + r] = (limits.gl[r] - room) * row_scale_[r];
@@ -175,6 +181,28 @@ double SlackForm::violation(const Evaluation& e) const {
   const Limits& limits = problem_->limits();
   return vector_kernels().most_outside(rows(), e.rows.data(), limits.gl.data(), limits.gu.data(),
                                        row_scale_.data(), users_unit_.data());
+}
+
+bool SlackForm::met_to_rounding(const Evaluation& e, std::span<const double> w,
+                                double tolerance) {
+  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+  const Limits& limits = problem_->limits();
+  std::fill(row_size_.begin(), row_size_.end(), 0.0);
+  for (std::size_t t = 0; t < e.jacobian.size(); ++t)
+    row_size_[shape_->jacobian_row[t]] += std::fabs(e.jacobian[t] * w[shape_->jacobian_col[t]]);
+  for (std::size_t r = 0; r < rows(); ++r) {
+    const double outside = std::max(row_scale_[r] * limits.gl[r] - e.rows[r],
+                                    e.rows[r] - row_scale_[r] * limits.gu[r]);
+    if (outside * users_unit_[r] > tolerance && outside > kRounding * row_size_[r]) return false;
+  }
+  return true;
+}
+
+double SlackForm::bounds() const {
+  std::size_t count = 0;
+  for (const Segment& s : segments_)
+    count += (s.end - s.begin) * ((s.lower ? 1u : 0u) + (s.upper ? 1u : 0u));
+  return static_cast<double>(count);
 }
 
 std::size_t SlackForm::worst_row(const Evaluation& e) const {

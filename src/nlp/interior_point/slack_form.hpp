@@ -84,6 +84,11 @@ class SlackForm {
   /// Largest violation of a row in the user's units, and the row where it stands.
   double violation(const Evaluation& e) const;
   std::size_t worst_row(const Evaluation& e) const;
+  /// Whether every row is met to `tolerance` in the user's unit, or to the rounding of the row's own
+  /// terms at w, below which no tolerance can be asked for.
+  bool met_to_rounding(const Evaluation& e, std::span<const double> w, double tolerance);
+  /// How many sides of variables and slacks have a bound.
+  double bounds() const;
 
  protected:
   /// With `more` entries of w after the slacks, each >= 0.
@@ -108,7 +113,7 @@ class SlackForm {
   kkt::CondensedHessian condensed_;
   double objective_scale_ = 1, room_ = 0;
   std::vector<double> row_scale_, users_unit_;  ///< by row; users_unit_: user's value / e.rows
-  std::vector<double> scaled_y_;
+  std::vector<double> scaled_y_, row_size_;
   bool scaled_ = false;
   Fault fault_;
   Revision revision_;

@@ -29,9 +29,10 @@ double inside(double value, double lower, double upper, double push) {
   return value;
 }
 
-/// Without a floor: so far below the tolerances that complementarity can meet them.
-double least_barrier(const Options& options) {
-  return std::min(options.tol, options.dual_tol) / 10;
+/// Without a floor: so far below the tolerances that complementarity can meet them, each product by
+/// itself and, of very many, their sum.
+double least_barrier(const Options& options, double bounds) {
+  return std::min({options.tol / 10, options.dual_tol / 10, kMostGap / 2 / std::max(bounds, 1.0)});
 }
 
 /// Of the gradient of a function whose largest entry is `most` (section 3.8).
@@ -168,7 +169,7 @@ bool Starter::prepare(const Start& start, const Options& options) {
   if (floor && !point.complete({.values = true, .derivatives = true, .hessian = warm}))
     return false;
   const double mu = floor ? options.floor : warm ? first.complementarity() : kFirstBarrier;
-  descent_.begin(options.barrier_rule, mu, floor ? options.floor : least_barrier(options));
+  descent_.begin(options.barrier_rule, mu, floor ? options.floor : least_barrier(options, form_.bounds()));
   first.set_slacks(descent_.barrier().mu());
   first.set_bound_multipliers(descent_.barrier().mu());
   if (!warm) descent_.estimate_multipliers();

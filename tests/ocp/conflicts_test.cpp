@@ -1,0 +1,146 @@
+// What an infeasible problem names: what stands against each other, and by how much.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/solve.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+/// x' = u from 0 to `way` in one time unit, |u| <= `most`.
+Problem line(const std::string& name, double way, double most = 1) {
+  Problem p(name);
+  const Expr x = p.state("x"), u = p.control("u", {-most, most});
+  p.dynamics(x, u);
+  p.fix(x, 0, way);
+  p.lagrange("effort", square(u));
+  return p;
+}
+
+/// By how much a bound would have to move; 0 where it is not named.
+double change_of(const std::vector<Conflict>& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const Conflict& each) { return each.name == name; });
+  return found == list.end() ? 0 : found->change;
+}
+
+TEST(Conflicts, NameBoundsAndEndsAndByHowMuchEachWouldHaveToMove) {
+  for (const Scheme& scheme : {hermite_simpson(), lgr(3), trapezoidal()}) {
+    SCOPED_TRACE(scheme.name);
+    const Solution solution = solve(line("line", 5), {.mesh = Mesh::uniform(10), .scheme = scheme});
+    ASSERT_EQ(solution.status, nlp::Status::infeasible);
+    EXPECT_NEAR(change_of(solution.conflicts, "final x"), -4, 0.01);
+    EXPECT_NEAR(change_of(solution.conflicts, "initial x"), 4, 0.01);
+    EXPECT_NEAR(change_of(solution.conflicts, "u"), 4, 0.01);
+  }
+}
+
+TEST(Conflicts, LeaveOutWhatIsNoPartOfIt) {
+  Problem p = line("line", 0.5, 50);  // fast enough to be beyond the wall at the end alone
+  const Expr x = p.states()[0].symbol;
+  p.path("wall", x, Bounds::at_most(0.3));
+  p.path("far", x, Bounds::at_most(7));
+  const Solution solution = solve(p, {.mesh = Mesh::uniform(10)});
+  ASSERT_EQ(solution.status, nlp::Status::infeasible);
+  EXPECT_NEAR(change_of(solution.conflicts, "wall"), 0.2, 1e-3);
+  EXPECT_NEAR(change_of(solution.conflicts, "final x"), -0.2, 1e-3);
+  EXPECT_EQ(change_of(solution.conflicts, "far"), 0);
+  EXPECT_EQ(change_of(solution.conflicts, "u"), 0);
+}
+
+TEST(Conflicts, OfPhasesAreNamedWithThem) {
+  PhasedProblem both("both");
+  Problem one("one"), two = line("two", 0);
+  one.dynamics(one.state("x"), one.control("u", {-1, 1}));
+  one.initial_bounds(one.states()[0].symbol, Bounds::equal(0));
+  two.initial_time(Bounds::equal(1), 1);
+  two.final_time(Bounds::equal(2), 2);
+  two.initial_bounds(two.states()[0].symbol, {});
+  two.final_bounds(two.states()[0].symbol, Bounds::equal(5));
+  both.add(one);
+  both.add(two);
+  both.connect(0, 1);
+  const PhasedSolution solution = solve(both);
+  ASSERT_EQ(solution.status, nlp::Status::infeasible);
+  EXPECT_NEAR(change_of(solution.conflicts, "two: final x"), -3, 0.01);
+  EXPECT_NEAR(change_of(solution.conflicts, "one: u"), 3, 0.01);
+  EXPECT_NEAR(std::abs(change_of(solution.conflicts, "x from one to two")), 3, 0.01);
+}
+
+TEST(Conflicts, AreNoneOfASolution) {
+  EXPECT_TRUE(solve(line("line", 0.5)).conflicts.empty());
+}
+
+// --- equations that no freedom meets ---------------------------------------------------------
+
+TEST(DependentRows, AreSolvedWhereTheyHold) {
+  for (const Scheme& scheme : {hermite_simpson(), lgr(3), backward_euler(), lgl(4)}) {
+    SCOPED_TRACE(scheme.name);
+    Problem twice = line("twice", 0.5);
+    const Expr x = twice.states()[0].symbol, u = twice.controls()[0].symbol;
+    const Expr y = twice.control("y");
+    twice.path("a", y - u - x, Bounds::equal(0));
+    twice.path("b", 2 * y - 2 * u - 2 * x, Bounds::equal(0));
+    const Solution solution = solve(twice, {.scheme = scheme});
+    EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+    EXPECT_NEAR(solution.objective, 0.25, 1e-6);
+
+    Problem given("given");  // a control that its bounds give
+    const Expr z = given.state("z"), w = given.control("w"), c = given.control("c", {0.5, 0.5});
+    given.dynamics(z, c + w);
+    given.initial_bounds(z, Bounds::equal(0));
+    given.lagrange("effort", square(w) + square(z));
+    const Solution other = solve(given, {.scheme = scheme});
+    EXPECT_TRUE(other.solved()) << nlp::to_string(other.status);
+    EXPECT_NEAR(other.objective, 0.0596, scheme.order > 1 ? 1e-4 : 3e-3);
+  }
+}
+
+/// x' = -k x, measured at four times: phases between them, whose times are given.
+TEST(DependentRows, LinksOfFixedTimesAskForNothing) {
+  PhasedProblem fit("fit");
+  std::vector<Expr> rates;
+  for (int i = 0; i < 4; ++i) {
+    Problem p(std::to_string(i));
+    const Expr x = p.state("x"), k = p.static_parameter("k", {0, 5}, 1);
+    if (i == 0) p.initial_bounds(x, Bounds::equal(1));
+    p.dynamics(x, -k * x);
+    p.initial_time(Bounds::equal(i / 4.0), 0);
+    p.final_time(Bounds::equal((i + 1) / 4.0), 1);
+    p.mayer("misfit", square(p.final(x) - std::exp(-1.3 * (i + 1) / 4.0)));
+    fit.add(p);
+    rates.push_back(k);
+    if (i == 0) continue;
+    fit.connect(static_cast<std::size_t>(i - 1), static_cast<std::size_t>(i));
+    fit.link("k " + p.name(), k - rates[rates.size() - 2]);
+  }
+  PhasedSettings settings;
+  settings.grids.assign(4, {Mesh::uniform(4), hermite_simpson()});
+  const PhasedSolution solution = solve(fit, settings);
+  EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+  EXPECT_NEAR(solution.phases[0].static_parameter("k"), 1.3, 1e-6);
+
+  fit.link("apart", rates[0] - rates[0] + fit.phases()[0].final_time() -
+                        fit.phases()[2].initial_time());  // 0.25 and 0.5: does not hold
+  EXPECT_NE(solve(fit, settings).status, nlp::Status::solved);
+}
+
+TEST(DependentRows, ThatContradictEachOtherAreNamed) {
+  Problem p = line("line", 0.5);
+  const Expr x = p.states()[0].symbol, u = p.controls()[0].symbol;
+  p.path("a", u - x, Bounds::equal(0));
+  p.path("b", u - 2 * x, Bounds::equal(0));
+  const Solution solution = solve(p, {.mesh = Mesh::uniform(10)});
+  EXPECT_EQ(solution.status, nlp::Status::too_few_freedoms);
+  EXPECT_NE(change_of(solution.conflicts, "a"), 0);
+  EXPECT_NE(change_of(solution.conflicts, "b"), 0);
+}
+
+}  // namespace
+}  // namespace slalom::ocp

@@ -1,0 +1,86 @@
+// Problems that the interior-point method lost its way in, each for a reason of its own.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "slalom/ocp/guess.hpp"
+#include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/solve.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+/// x' = tf u from 0 to 1, cost tf + integral of u^2 / 2: u = 1 / tf^2, tf = 1.5^(1/4).
+Problem bolza(double guess) {
+  Problem p("bolza");
+  const Expr x = p.state("x"), u = p.control("u");
+  p.final_time({0.01, 50}, guess);
+  p.dynamics(x, p.final_time() * u);
+  p.fix(x, 0, 1);
+  p.mayer("duration", p.final_time());
+  p.lagrange("effort", square(u) / 2);
+  return p;
+}
+
+/// The first step of the adaptive rule goes to tf's lower bound, with mu next to zero.
+TEST(HardStarts, TheAdaptiveRuleFallsBackInTime) {
+  for (const double guess : {0.5, 1.0, 2.0, 10.0, 25.005}) {
+    SCOPED_TRACE(guess);
+    const Solution solution = solve(bolza(guess));
+    EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+    EXPECT_NEAR(solution.tf(), std::pow(1.5, 0.25), 1e-6);
+    EXPECT_LE(solution.iterations, 50);
+  }
+}
+
+/// Two stages of a rocket straight up, the second's mass bounded by what it begins with: the link
+/// that says so leaves that bound no interior.
+PhasedProblem two_stages() {
+  PhasedProblem both("two stages");
+  const double mass[] = {20, 5}, thrust[] = {400, 90}, flow[] = {1.2, 0.3};
+  for (int i = 0; i < 2; ++i) {
+    Problem p(i == 0 ? "one" : "two");
+    const Expr h = p.state("h", {0, kInfinity}), v = p.state("v"), m = p.state("m", {1, mass[i]});
+    const Expr u = p.control("u", {0, 1});
+    p.dynamics(h, v);
+    p.dynamics(v, thrust[i] * u / m - 9.81 - 0.001 * square(v) / m);
+    p.dynamics(m, -flow[i] * u);
+    if (i == 0) {
+      p.initial_bounds(h, Bounds::equal(0));
+      p.initial_bounds(v, Bounds::equal(0));
+      p.initial_bounds(m, Bounds::equal(mass[0]));
+      p.final_time(Bounds::equal(10), 10);
+    } else {
+      p.initial_time(Bounds::equal(10), 10);
+      p.final_time({11, 40}, 20);
+      p.final_bounds(h, Bounds::equal(2500));
+      p.mayer("mass", -p.final(m));
+    }
+    both.add(p);
+  }
+  both.connect(0, 1, {.without = {"m"}});
+  both.link("dropped", both.phases()[1].initial(both.phases()[1].states()[2].symbol),
+            Bounds::equal(mass[1]));
+  return both;
+}
+
+TEST(HardStarts, ABoundThatALinkHoldsHasNoInterior) {
+  std::vector<double> found;
+  for (const std::string& backend : nlp::backends()) {
+    PhasedSettings settings;
+    settings.grids.assign(2, {Mesh::uniform(10), hermite_simpson()});
+    settings.backend = backend;
+    const PhasedSolution solution = solve(two_stages(), settings);
+    EXPECT_TRUE(solution.solved()) << backend << ": " << nlp::to_string(solution.status);
+    EXPECT_LE(solution.iterations, 100) << backend;
+    found.push_back(solution.objective);
+  }
+  for (const double each : found) EXPECT_NEAR(each, found.front(), 1e-5);
+}
+
+}  // namespace
+}  // namespace slalom::ocp
