@@ -87,10 +87,11 @@ void check_sizes(const GridChoice& choice, const std::string& where) {
     check_at_most(points, kMostPoints, where + ": points");
     entries += static_cast<double>(times) * points * points;
   };
-  if (const auto* one = std::get_if<int>(&choice.points))
+  const auto chosen = choice.points.value_or(kPoints);
+  if (const auto* one = std::get_if<int>(&chosen))
     add(*one, intervals);
   else
-    for (const int points : std::get<std::vector<int>>(choice.points)) add(points, 1);
+    for (const int points : std::get<std::vector<int>>(chosen)) add(points, 1);
   if (entries > kMostEntries)
     throw InvalidValue(where + ": mesh, points",
                        std::to_string(intervals) + " intervals of so many points",
