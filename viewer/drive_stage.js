@@ -147,8 +147,8 @@
       }
       if (layers.margins) {
         ctx.strokeStyle = colour.vermilion;
-        ctx.lineWidth = 1;
-        ctx.setLineDash([1, 3]);
+        ctx.lineWidth = 1.5;
+        ctx.setLineDash([3, 3]);
         for (const margin of data.planner.margins) {
           ellipse(p.x, p.y, o.a + margin, o.b + margin);
           ctx.stroke();

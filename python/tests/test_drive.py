@@ -214,5 +214,5 @@ def test_values_are_read_by_the_keys_that_set_them():
     assert scenario["obstacles.O2.vy"] == -12
     assert scenario["goal.sigma"] == 25
     assert "obstacles.cone3.y" in scenario.keys()
-    with pytest.raises(KeyError, match="perhaps 'obstacles.O2.vy'"):
+    with pytest.raises(KeyError, match="perhaps 'obstacles.O2.v[xy]'"):
         scenario["obstacles.O2.vz"]

@@ -203,11 +203,11 @@ class Variants(ProgramTest):
 
 class Others(ProgramTest):
     def test_check_says_what_is_likely_to_go_wrong(self):
-        result = run("check", "E_C", "--set", "goal.y=-20")
+        result = run("check", "E_C", "--set", "goal.y=-90")
         self.assertEqual(result.code, 0)
         notes = [line.removeprefix("slalom: note: ") for line in result.err.splitlines()]
         self.assertIn("degrees off the vehicle's heading, behind it", result.err)
-        self.assertEqual(json.loads(run("check", "E_C", "--set", "goal.y=-20", "--json").out)["advice"], notes)
+        self.assertEqual(json.loads(run("check", "E_C", "--set", "goal.y=-90", "--json").out)["advice"], notes)
         refused = run("check", "E_C", "--set", "goal.y=281", "--set", "goal.x=8")
         self.assert_refused(refused, 2, "inside obstacle O1 grown by sm_end = 4 m")
 
