@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel docs sweep-scale format clean build
+.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel package docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -131,6 +131,11 @@ problems: ## every problem of the library by two schemes, beside its known value
 wheel: ## set up, and build the Python package into dist/
 	tools/setup.sh wheel
 	tools/python.sh wheel dist
+
+package: ## set up, and build a Debian package of program and library into dist/
+	tools/setup.sh package
+	$(MAKE) --no-print-directory build
+	cpack --config build/CPackConfig.cmake -B dist
 
 docs: wheel ## the documentation's site into build/docs/
 	tools/docs.sh dist build/docs

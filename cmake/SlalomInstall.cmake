@@ -25,3 +25,17 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/slalomConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/slalomConfig.cmake
               ${PROJECT_BINARY_DIR}/slalomConfigVersion.cmake
               cmake/FindIpopt.cmake cmake/FindKnitro.cmake DESTINATION ${package_dir})
+
+# `make package`: a Debian package of what is installed. Its dependencies are found by the linker's
+# own list (dpkg-shlibdeps).
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME slalom)
+set(CPACK_PACKAGE_CONTACT "the Slalom project")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "plans and drives trajectories for fast ground vehicles")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+include(CPack)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# setup.sh run|test|bench|results|wheel|fuzz: sees to it that what `make run`, `make test`, `make bench`,
+# setup.sh run|test|bench|results|wheel|package|fuzz: sees to it that what `make run`, `make test`, `make bench`,
 # `make fuzz` or `make results` and `make robustness` need is there. What is missing is installed by
 # apt, after saying which package and why, and asking whoever sits at the terminal. Nobody is asked
 # where YES=1 or CI is set, or where there is no terminal; YES=0 says no. Where apt cannot do it, this
@@ -37,6 +37,7 @@ python3-dev         | wheel | pc:python3                | compiles the Python ex
 python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
 gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
 make                | bench | cmd:make                  | builds acados' generated solver
+dpkg-dev            | package | cmd:dpkg-shlibdeps        | finds what the Debian package depends on
 linux-perf          | bench | cmd:perf                  | samples the profile of a solve
 clang               | fuzz  | cmd:clang++               | compiles the fuzzers
 libclang-rt-dev     | fuzz  | fuzzer:                   | libFuzzer, which runs them
@@ -80,7 +81,8 @@ is_there() {
 wanted() { # needed for $1, when asked for $2
   case $2 in
     run) [ "$1" = run ] ;;
-    test) [ "$1" = run ] || [ "$1" = test ] || [ "$1" = wheel ] ;;
+    test) [ "$1" = run ] || [ "$1" = test ] || [ "$1" = wheel ] || [ "$1" = package ] ;;
+    package) [ "$1" = run ] || [ "$1" = package ] ;;
     wheel) [ "$1" = run ] || [ "$1" = wheel ] ;;
     bench) [ "$1" = run ] || [ "$1" = bench ] ;;
     results) [ "$1" = run ] || [ "$1" = results ] ;;
@@ -119,9 +121,9 @@ go_on() {
 
 purpose=${1:-}
 case $purpose in
-  run | test | bench | results | wheel | fuzz) ;;
+  run | test | bench | results | wheel | package | fuzz) ;;
   *)
-    echo "usage: tools/setup.sh run|test|bench|results|wheel|fuzz" >&2
+    echo "usage: tools/setup.sh run|test|bench|results|wheel|package|fuzz" >&2
     exit 2
     ;;
 esac
