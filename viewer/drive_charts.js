@@ -8,6 +8,21 @@
   const deg = 180 / Math.PI;
   const charts = [];
   let onSeek = () => {};
+  /** The stretch of time that the charts show [s]. */
+  const shown = { from: start, to: end };
+  const SHORTEST = 0.1;
+
+  const length = () => Math.max(shown.to - shown.from, 1e-9);
+
+  /** Zooms all charts about a time, no further than the drive. */
+  function zoomTime(factor, about) {
+    const long = Math.min(Math.max(length() * factor, Math.min(SHORTEST, end - start)), end - start);
+    const share = (about - shown.from) / length();
+    shown.from = Math.min(Math.max(about - share * long, start), end - long);
+    shown.to = shown.from + long;
+    layout();
+    moveTo(slalom.now || start);
+  }
 
   function element(name, attributes, parent) {
     const node = document.createElementNS(SVG, name);
@@ -100,7 +115,7 @@
     }
 
     x(t) {
-      return margin.left + ((t - start) / Math.max(end - start, 1e-9)) * (this.width - margin.left - margin.right);
+      return margin.left + ((t - shown.from) / length()) * (this.width - margin.left - margin.right);
     }
 
     y(v) {
@@ -142,7 +157,7 @@
         element('line', { class: 'grid', x1: margin.left, x2: this.width - margin.right, y1: y, y2: y }, this.svg);
         element('text', { x: margin.left - 6, y: y + 3.5, 'text-anchor': 'end' }, this.svg).textContent = this.tickText(v, marks);
       }
-      const times = slalom.ticks(start, end, Math.max(Math.round(this.width / 75), 2));
+      const times = slalom.ticks(shown.from, shown.to, Math.max(Math.round(this.width / 75), 2));
       for (const t of times) {
         const x = Math.round(this.x(t)) + 0.5;
         element('line', { class: 'grid', x1: x, x2: x, y1: margin.top, y2: bottom }, this.svg);
@@ -207,9 +222,7 @@
       spec.series.forEach((s, i) => { sample[i] = s.values; });
       const at = slalom.sampleAt(sample, t);
       const x = this.x(t);
-      const line = this.cursor.firstChild;
-      line.setAttribute('x1', x);
-      line.setAttribute('x2', x);
+      this.placeCursor(t);
       spec.series.forEach((s, i) => {
         const v = at ? at[i] : null;
         const dot = this.dots[i];
@@ -222,6 +235,11 @@
       this.showPlan(slalom.cycleAt(t));
     }
 
+    placeCursor(t) {
+      this.cursor.setAttribute('visibility', t < shown.from || t > shown.to ? 'hidden' : 'visible');
+      for (const end of ['x1', 'x2']) this.cursor.firstChild.setAttribute(end, this.x(t));
+    }
+
     showPlan(cycle) {
       if (!this.spec.planned || cycle === this.shownPlan) return;
       this.shownPlan = cycle;
@@ -231,11 +249,18 @@
 
     listen() {
       let down = false;
-      const seek = (event) => {
+      const timeAt = (event) => {
         const rect = this.svg.getBoundingClientRect();
         const w = (event.clientX - rect.left - margin.left) / Math.max(rect.width - margin.left - margin.right, 1);
-        onSeek(start + Math.min(Math.max(w, 0), 1) * (end - start));
+        return shown.from + Math.min(Math.max(w, 0), 1) * length();
       };
+      const seek = (event) => onSeek(timeAt(event));
+      this.svg.addEventListener('wheel', (event) => {
+        if (!event.shiftKey) return;  // the page scrolls
+        event.preventDefault();
+        zoomTime(Math.exp((event.deltaY || event.deltaX) * 0.0015), timeAt(event));
+      }, { passive: false });
+      this.svg.addEventListener('dblclick', () => zoomTime(Infinity, start));
       this.svg.addEventListener('pointerdown', (event) => {
         down = true;
         this.svg.setPointerCapture(event.pointerId);
@@ -290,9 +315,7 @@
     }
 
     moveTo(t) {
-      const x = this.x(t);
-      this.cursor.firstChild.setAttribute('x1', x);
-      this.cursor.firstChild.setAttribute('x2', x);
+      this.placeCursor(t);
       const current = slalom.solvingAt(t);
       this.bars.forEach((bar, i) => bar.classList.toggle('now', this.cycles[i] === current));
       this.values.innerHTML = current

@@ -168,6 +168,22 @@ describe('the page of a drive', () => {
     assert.equal(await page.getAttribute('#view-follow', 'aria-pressed'), 'true');
   });
 
+  test('zooms the charts in time', async () => {
+    const ticks = () => page.$$eval('.chart:first-child text', (all) => all.map((t) => t.textContent).join(' '));
+    const before = await ticks();
+    const box = await (await page.$('.chart:first-child svg')).boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.keyboard.down('Shift');
+    await page.mouse.wheel(0, -900);
+    await page.keyboard.up('Shift');
+    await until(async () => (await ticks()) !== before);
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    const middle = await timeOf(page);
+    assert.ok(Math.abs(middle - Number(await page.getAttribute('#time', 'max')) / 2) < 0.8, `at ${middle} s`);
+    await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
+    assert.equal(await ticks(), before);
+  });
+
   test('hides what is switched off', async () => {
     await moveSlider(page, 0.5);
     const shown = await lookAt(page, ['orange']);
