@@ -223,12 +223,13 @@
       const at = slalom.sampleAt(sample, t);
       const x = this.x(t);
       this.placeCursor(t);
+      const inside = t >= shown.from && t <= shown.to;
       spec.series.forEach((s, i) => {
         const v = at ? at[i] : null;
         const dot = this.dots[i];
-        const shown = v !== null && v <= this.range[1] && v >= this.range[0];
-        dot.setAttribute('visibility', shown ? 'visible' : 'hidden');
-        if (shown) { dot.setAttribute('cx', x); dot.setAttribute('cy', this.y(v)); }
+        const seen = inside && v !== null && v <= this.range[1] && v >= this.range[0];
+        dot.setAttribute('visibility', seen ? 'visible' : 'hidden');
+        if (seen) { dot.setAttribute('cx', x); dot.setAttribute('cy', this.y(v)); }
       });
       this.values.innerHTML = spec.series.map((s, i) =>
         `<span>${s.label ? `<em style="color:var(${s.colour})">${s.label}</em> ` : ''}<b>${number(at ? at[i] : null, spec.digits)}</b></span>`).join('');
