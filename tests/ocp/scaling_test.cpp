@@ -245,8 +245,8 @@ TEST(Scaling, TimesHaveTheSizeOfTheDuration) {
   }
 }
 
-/// From the Earth's orbit to that of Mars. Of 1.5e11 m the rounding is 3e-5 m: no tolerance of 1e-6 m
-/// can be asked for.
+/// From the Earth's orbit to that of Mars. Of 1.5e11 m the rounding is 3e-5 m: no tolerance of 1e-6
+/// m can be asked for.
 TEST(Scaling, ToleranceIsNotAskedForBelowRounding) {
   for (const double unit : {1.0, 1e-3, 1 / 1.495978707e11}) {  // metres, kilometres, their distance
     SCOPED_TRACE(unit);

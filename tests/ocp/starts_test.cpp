@@ -36,8 +36,8 @@ TEST(Starts, ASecondTryFollowsAPointOfLeastViolation) {
     SCOPED_TRACE(x0);
     // Braking first where it passes 0 on the way, u = -1 at first otherwise.
     const bool right = x0 > -v0 * std::fabs(v0) / 2;
-    const double time = right ? v0 + 2 * std::sqrt(x0 + v0 * v0 / 2)
-                              : -v0 + 2 * std::sqrt(-x0 + v0 * v0 / 2);
+    const double time =
+        right ? v0 + 2 * std::sqrt(x0 + v0 * v0 / 2) : -v0 + 2 * std::sqrt(-x0 + v0 * v0 / 2);
     const Solution solution = solve(to_rest(x0, v0));
     EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
     EXPECT_NEAR(solution.objective, time, 5e-3);
@@ -71,7 +71,8 @@ Problem two_ways() {
 TEST(Starts, OfSeveralTheBestIsFound) {
   const Problem p = two_ways();
   SolveSettings above;
-  above.guess = Guess(p).function("y", [](double t) { return 3 * std::sin(M_PI * t); }).trajectory();
+  above.guess =
+      Guess(p).function("y", [](double t) { return 3 * std::sin(M_PI * t); }).trajectory();
   const double worse = solve(p, above).objective;
   const auto answers = solve_from_several(p, above, 8, 5);
   ASSERT_EQ(answers.size(), 8U);
