@@ -40,6 +40,8 @@ void bind_verdict(nb::class_<Type>& type) {
       .def_prop_ro(
           "wall_s", [](const Type& s) { return s.answer.wall_s; },
           "Seconds by the clock in the solver.")
+      .def_ro("starts", &Type::starts,
+              "All answers in their order, where solve was asked for several starts; else none.")
       .def_ro("elapsed_s", &Type::elapsed_s,
               "Seconds by the clock from transcription to check, all of it outside Python.")
       .def_prop_ro(

@@ -1,4 +1,5 @@
 #include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/starts.hpp"
 
 #include <map>
 #include <memory>
@@ -147,12 +148,20 @@ namespace {
 PhasedSolved solve(const Phases& phases_now, const MeshChoice& mesh, const SchemeChoice& scheme,
                    const PointsChoice& points, const ByName<nb::any>& phases,
                    const std::string& backend, const PhasedSolved* guess,
-                   const PhasedSolved* warm_start, const nb::kwargs& options) {
+                   const PhasedSolved* warm_start, int starts, std::uint64_t seed,
+                   const nb::kwargs& options) {
   const PhasedProblem copy = phases_now.now();
-  auto start = start_of(copy, {mesh, scheme, points}, phases, backend, guess, warm_start, options);
-  auto [answer, elapsed] =
-      run_released(start.settings.options, [&] { return ocp::solve(copy, start.settings); });
-  return {copy, std::move(answer), elapsed};
+  auto start = start_of(copy, {mesh, scheme, points}, phases, backend, guess, warm_start, options,
+                        {"starts", "seed"});
+  auto [answers, elapsed] = run_released(start.settings.options, [&] {
+    return ocp::solve_from_several(copy, start.settings, starts, seed);
+  });
+  const std::size_t best = ocp::best_of(answers);
+  std::vector<PhasedSolved> all;
+  for (auto& answer : answers) all.emplace_back(copy, std::move(answer), elapsed);
+  PhasedSolved solved = all[best];
+  if (starts > 1) solved.starts = std::move(all);
+  return solved;
 }
 
 void bind_problem_of_phases(nb::module_& module) {
@@ -198,7 +207,8 @@ void bind_problem_of_phases(nb::module_& module) {
           "jumps"_a = std::map<std::string, ocp::Expr>(), connect_doc.c_str())
       .def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
            "points"_a = nb::none(), "phases"_a = nb::dict(), "backend"_a = "",
-           "guess"_a = nb::none(), "warm_start"_a = nb::none(), "options"_a,
+           "guess"_a = nb::none(), "warm_start"_a = nb::none(), "starts"_a = 1, "seed"_a = 1,
+           "options"_a,
            "Transcribes, solves and checks all phases as one problem. The keywords are those of "
            "Problem.solve;\n`phases` has by phase a dict of those that differ there: mesh, scheme, "
            "points, guess. `guess` and\n`warm_start` are earlier PhasedSolutions.");

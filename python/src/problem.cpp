@@ -1,4 +1,5 @@
 #include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/kinks.hpp"
 
 #include <cmath>
 #include <optional>
@@ -217,6 +218,7 @@ void bind_constraints(nb::class_<Problem>& type) {
 }
 
 void bind_terms(nb::class_<Problem>& type) {
+  type.def("smooth_kinks", &ocp::smooth_kinks, doc::ocp_smooth_kinks);
   static const std::string maximised =
       "\nWith `maximise` it is to be large: it counts with a minus, in the objective too.";
   using Add = void (Problem::*)(const std::string&, const Expr&);

@@ -1,5 +1,7 @@
 #include "slalom/ocp/solve.hpp"
+#include "slalom/ocp/starts.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -17,13 +19,23 @@ using ocp::Problem;
 
 Solved solve(const Problem& problem, const MeshChoice& mesh, const SchemeChoice& scheme,
              const PointsChoice& points, const std::string& backend, const nb::object& guess,
-             const Solved* warm_start, const nb::kwargs& options) {
-  auto settings = settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options);
-  Solved solved;
-  solved.problem = std::make_shared<const Problem>(problem);
-  std::tie(solved.answer, solved.elapsed_s) =
-      run_released(settings.options, [&] { return ocp::solve(*solved.problem, settings); });
-  forget_stop(solved.answer.options);
+             const Solved* warm_start, int starts, std::uint64_t seed, const nb::kwargs& options) {
+  auto settings = settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options,
+                              {"starts", "seed"});
+  const auto as_then = std::make_shared<const Problem>(problem);
+  auto [answers, elapsed] = run_released(
+      settings.options, [&] { return ocp::solve_from_several(*as_then, settings, starts, seed); });
+  const std::size_t best = ocp::best_of(answers);
+  std::vector<Solved> all;
+  for (auto& answer : answers) {
+    Solved& one = all.emplace_back();
+    one.problem = as_then;
+    one.answer = std::move(answer);
+    one.elapsed_s = elapsed;
+    forget_stop(one.answer.options);
+  }
+  Solved solved = all[best];
+  if (starts > 1) solved.starts = std::move(all);
   return solved;
 }
 
@@ -52,7 +64,7 @@ void bind_solve(nb::module_& module) {
   type.def(
       "solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
       "points"_a = nb::none(), "backend"_a = "", "guess"_a = nb::none(),
-      "warm_start"_a = nb::none(), "options"_a,
+      "warm_start"_a = nb::none(), "starts"_a = 1, "seed"_a = 1, "options"_a,
       "Transcribes, solves and checks.\n\n"
       "`mesh` is a number of intervals, or breakpoints from 0 to 1; `scheme` one of "
       "scheme_names(), with\n`points` an interval where it has a choice (4 if not given), each one "
@@ -62,6 +74,10 @@ void bind_solve(nb::module_& module) {
       "times \"t\" if these are\ngiven) or a function of an array of times, and \"t0\", "
       "\"tf\". `warm_start` is an earlier Solution on\nwhatever mesh, whose multipliers are "
       "used too; it beats the guess.\n\n"
+      "With several `starts`, the guess is moved at random for all but the first; the best answer "
+      "is returned\n(solved, with the least objective), and its `starts` has all. The same `seed` "
+      "gives the "
+      "same starts.\n\n"
       "Other keywords are the solver's options, such as tol and max_iterations: "
       "solver_options().\nRaises InvalidValue for set-up errors; how the solve ended is in "
       "the Solution.");

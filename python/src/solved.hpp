@@ -31,7 +31,8 @@ auto named(const Lookup& lookup) {
 struct Solved {
   std::shared_ptr<const ocp::Problem> problem;
   ocp::Solution answer;
-  double elapsed_s = 0;  ///< of the C++ call as a whole; of a phase, of all
+  double elapsed_s = 0;             ///< of the C++ call as a whole; of a phase, of all
+  std::vector<Solved> starts = {};  ///< all answers, where several starts were asked for
 
   /// Made when first asked for.
   const ocp::Interpolant& between() const {
@@ -56,6 +57,7 @@ struct PhasedSolved {
   ocp::PhasedSolution answer;
   std::vector<Solved> phases;
   double elapsed_s = 0;
+  std::vector<PhasedSolved> starts = {};
 
   PhasedSolved() = default;
   PhasedSolved(const ocp::PhasedProblem& problem, ocp::PhasedSolution solution, double elapsed);

@@ -1,5 +1,6 @@
 """Problems: stated, solved, and refused with the right exception."""
 
+import math
 import os
 import pathlib
 import re
@@ -114,6 +115,37 @@ def test_wrong_types_are_type_errors():
         bryson_denham().state("w", lower="low")
     with pytest.raises(TypeError):
         bryson_denham().solve(tol=[1])
+
+
+def test_several_starts():
+    p = slalom.Problem("two ways")
+    x, y = p.state("x", initial=-2, final=2), p.state("y", initial=0, final=0)
+    u, v = p.control("u"), p.control("v")
+    p.dynamics(x, u)
+    p.dynamics(y, v)
+    p.path("disc", x**2 + (y - 0.3) ** 2, lower=1)
+    p.lagrange("effort", u**2 + v**2)
+    guess = {"y": lambda t: 3 * np.sin(np.pi * t)}
+    s = p.solve(guess=guess, starts=8, seed=5)
+    assert len(s.starts) == 8 and s.objective == min(a.objective for a in s.starts if a.solved)
+    assert s.objective < p.solve(guess=guess).objective - 0.5
+    assert p.solve(guess=guess).starts == []
+    with pytest.raises(slalom.InvalidValue, match="starts"):
+        p.solve(starts=0)
+
+
+def test_kinks_of_a_cost_as_rows():
+    p = slalom.Problem("least fuel")
+    x, v = p.state("x", initial=0, final=1), p.state("v", initial=0, final=0)
+    u = p.control("u", lower=-1, upper=1)
+    p.dynamics(x, v)
+    p.dynamics(v, u)
+    p.final_time(equal=4)
+    p.lagrange("fuel", abs(u))
+    assert not p.solve(max_iterations=100).solved
+    assert "abs 1 of fuel" in p.smooth_kinks()[0]
+    s = p.solve()
+    assert s.solved and s.objective == pytest.approx(4 - math.sqrt(12), rel=1e-3)
 
 
 def test_points_that_do_nothing_are_warned_of():

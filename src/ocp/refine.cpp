@@ -15,9 +15,10 @@ namespace {
 /// Most pieces that one refinement cuts an interval into: errors far from the asymptotic regime
 /// tell little.
 constexpr int kMostPieces = 5;
-/// Times the tolerance: what all errors together may make of the objective, relative to it. And
-/// what of the tolerance an interval's errors are at least for a share of that to mean anything.
-constexpr double kObjectiveTolerance = 10, kSolversError = 1e-3;
+/// Times the tolerance: what all errors together may make of the objective, relative to it.
+constexpr double kObjectiveTolerance = 10;
+/// What an interval's errors are at least for their share of that to mean anything.
+constexpr double kSolversError = 1e-10;
 
 bool has_degrees(const Scheme& scheme) {
   return scheme.name == "lgr" || scheme.name == "lgr_differential" || scheme.name == "lgl";
@@ -106,7 +107,7 @@ class Shares {
   /// errors are but the solver's.
   double excess(const ErrorEstimate& errors, std::size_t k) const {
     const double most = kObjectiveTolerance * tolerance_;
-    if (sum() <= most || errors.interval[k] <= kSolversError * tolerance_) return 0;
+    if (sum() <= most || errors.interval[k] <= kSolversError) return 0;
     return std::fabs(errors.objective_share[k]) / size_ * intervals_ / most;
   }
 

@@ -1,9 +1,11 @@
 #include "slalom/ocp/solve.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "conflicts.hpp"
+#include "moved.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
 #include "slalom/ocp/scaling.hpp"
@@ -12,6 +14,9 @@
 
 namespace slalom::ocp {
 namespace {
+
+/// Starts beside the first, where that ends at a point that is stationary for the violation.
+constexpr std::uint64_t kMoreTries = 5;
 
 std::size_t index_of(const std::string& name, const std::vector<std::string>& known,
                      const char* what) {
@@ -84,7 +89,9 @@ void check_count(const PhasedProblem& problem, const char* what, const List& lis
 
 }  // namespace
 
-Solution solve(const Problem& problem, const SolveSettings& settings) {
+namespace {
+
+Solution solve_once(const Problem& problem, const SolveSettings& settings) {
   const PhasedTranscription::Grid grid{settings.mesh, settings.scheme};
   const Beginning beginning = begin(problem, grid, settings.guess, settings.previous);
   const Problem scaled = with_scales(problem, beginning.guess);
@@ -100,7 +107,7 @@ Solution solve(const Problem& problem, const SolveSettings& settings) {
   return solution;
 }
 
-PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& settings) {
+PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& settings) {
   const std::size_t phases = problem.phases().size();
   auto grids = settings.grids;
   if (grids.empty()) grids.resize(phases);
@@ -151,6 +158,54 @@ PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& setting
     solution.link_multipliers.emplace_back(problem.links()[l].name, point.y[row] * row_scale[row]);
   }
   if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
+  return solution;
+}
+
+/// Whether violation was least, where other starts may find less.
+template <class Answer, class Settings>
+bool ends_locally(const Answer& answer, const Settings& settings) {
+  return answer.status == nlp::Status::infeasible && knows_conflicts(answer) &&
+         settings.options.floor == 0 && settings.previous == nullptr &&
+         settings.warm_start.x.empty();
+}
+
+/// Tries again from elsewhere where violation was least but not zero, within the same limits.
+template <class Answer, class Problem, class Settings>
+Answer solve_with_tries(const Problem& problem, const Settings& settings) {
+  Answer answer = solve_once(problem, settings);
+  int iterations = answer.iterations;
+  double wall_s = answer.wall_s;
+  for (std::uint64_t seed = 1; seed <= kMoreTries && ends_locally(answer, settings); ++seed) {
+    Settings again = moved(problem, settings, seed);
+    again.options.max_iterations -= iterations;
+    again.options.time_limit -= wall_s;
+    if (again.options.max_iterations <= 0 || !(again.options.time_limit > 0)) break;
+    Answer other = solve_once(problem, again);
+    iterations += other.iterations;
+    wall_s += other.wall_s;
+    const bool interrupted = other.status == nlp::Status::interrupted;
+    if (other.solved()) answer = std::move(other);
+    if (interrupted) break;
+  }
+  answer.options = settings.options;
+  answer.iterations = iterations;
+  answer.wall_s = wall_s;
+  return answer;
+}
+
+}  // namespace
+
+Solution solve(const Problem& problem, const SolveSettings& settings) {
+  return solve_with_tries<Solution>(problem, settings);
+}
+
+PhasedSolution solve(const PhasedProblem& problem, const PhasedSettings& settings) {
+  auto solution = solve_with_tries<PhasedSolution>(problem, settings);
+  for (auto& phase : solution.phases) {
+    phase.options = solution.options;
+    phase.iterations = solution.iterations;
+    phase.wall_s = solution.wall_s;
+  }
   return solution;
 }
 

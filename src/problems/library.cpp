@@ -85,7 +85,7 @@ const std::vector<Entry>& library() {
   static const std::vector<Entry> all = [] {
     std::vector<Entry> list;
     for (auto* part : {classics, singular_arcs, state_constraints, bang_bang, aerospace, biology,
-                       phases, parameter_estimation})
+                       phases, ascent, parameter_estimation})
       for (auto& entry : part()) list.push_back(std::move(entry));
     return list;
   }();

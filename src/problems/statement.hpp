@@ -56,5 +56,6 @@ Entries phases();
 Entries parameter_estimation();
 Entries aerospace();
 Entries biology();
+Entries ascent();
 
 }  // namespace slalom::problems

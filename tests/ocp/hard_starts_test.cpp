@@ -37,6 +37,23 @@ TEST(HardStarts, TheAdaptiveRuleFallsBackInTime) {
   }
 }
 
+/// What each bound's complementarity adds to the objective adds up: not to more on a finer mesh.
+TEST(HardStarts, AFineMeshIsNoWorse) {
+  Problem p("least time");
+  const Expr x = p.state("x"), v = p.state("v"), u = p.control("u", {-1, 1});
+  p.dynamics(x, v);
+  p.dynamics(v, u);
+  p.fix(x, 0, 1);
+  p.fix(v, 0, 0);
+  p.final_time({0.1, 10}, 5);
+  p.mayer("duration", p.final_time());
+  for (const int intervals : {40, 400, 4000}) {
+    const Solution solution = solve(p, {.mesh = Mesh::uniform(intervals)});
+    EXPECT_TRUE(solution.solved());
+    EXPECT_NEAR(solution.tf(), 2, 1.8e-5) << intervals;
+  }
+}
+
 /// Two stages of a rocket straight up, the second's mass bounded by what it begins with: the link
 /// that says so leaves that bound no interior.
 PhasedProblem two_stages() {

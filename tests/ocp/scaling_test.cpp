@@ -245,5 +245,30 @@ TEST(Scaling, TimesHaveTheSizeOfTheDuration) {
   }
 }
 
+/// From the Earth's orbit to that of Mars. Of 1.5e11 m the rounding is 3e-5 m: no tolerance of 1e-6
+/// m can be asked for.
+TEST(Scaling, ToleranceIsNotAskedForBelowRounding) {
+  for (const double unit : {1.0, 1e-3, 1 / 1.495978707e11}) {  // metres, kilometres, their distance
+    SCOPED_TRACE(unit);
+    const double au = 1.495978707e11 * unit, mu = 1.32712440018e20 * std::pow(unit, 3);
+    Problem p("transfer");
+    const Expr r = p.state("r", {0.5 * au, 3 * au}), th = p.state("th"), vr = p.state("vr"),
+               vt = p.state("vt"), b = p.control("b");
+    p.dynamics(r, vr);
+    p.dynamics(th, vt / r);
+    p.dynamics(vr, square(vt) / r - mu / square(r) + 1e-3 * unit * sin(b));
+    p.dynamics(vt, -vr * vt / r + 1e-3 * unit * cos(b));
+    p.fix(r, au, 1.524 * au);
+    p.initial_bounds(th, Bounds::equal(0));
+    p.fix(vr, 0, 0);
+    p.fix(vt, std::sqrt(mu / au), std::sqrt(mu / (1.524 * au)));
+    p.final_time({1e6, 1e8}, 2e7);
+    p.mayer("duration", p.final_time());
+    const Solution solution = solve(p, {.guess = Guess(p).line("b", 1, -1).trajectory()});
+    EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+    EXPECT_NEAR(solution.tf() / 86400, 189.2124, 1e-4);
+  }
+}
+
 }  // namespace
 }  // namespace slalom::ocp

@@ -183,8 +183,7 @@ double SlackForm::violation(const Evaluation& e) const {
                                        row_scale_.data(), users_unit_.data());
 }
 
-bool SlackForm::met_to_rounding(const Evaluation& e, std::span<const double> w,
-                                double tolerance) {
+bool SlackForm::met_to_rounding(const Evaluation& e, std::span<const double> w, double tolerance) {
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   const Limits& limits = problem_->limits();
   std::fill(row_size_.begin(), row_size_.end(), 0.0);

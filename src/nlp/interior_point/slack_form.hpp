@@ -84,8 +84,8 @@ class SlackForm {
   /// Largest violation of a row in the user's units, and the row where it stands.
   double violation(const Evaluation& e) const;
   std::size_t worst_row(const Evaluation& e) const;
-  /// Whether every row is met to `tolerance` in the user's unit, or to the rounding of the row's own
-  /// terms at w, below which no tolerance can be asked for.
+  /// Whether every row is met to `tolerance` in the user's unit, or to the rounding of the row's
+  /// own terms at w, below which no tolerance can be asked for.
   bool met_to_rounding(const Evaluation& e, std::span<const double> w, double tolerance);
   /// How many sides of variables and slacks have a bound.
   double bounds() const;

@@ -169,7 +169,8 @@ bool Starter::prepare(const Start& start, const Options& options) {
   if (floor && !point.complete({.values = true, .derivatives = true, .hessian = warm}))
     return false;
   const double mu = floor ? options.floor : warm ? first.complementarity() : kFirstBarrier;
-  descent_.begin(options.barrier_rule, mu, floor ? options.floor : least_barrier(options, form_.bounds()));
+  descent_.begin(options.barrier_rule, mu,
+                 floor ? options.floor : least_barrier(options, form_.bounds()));
   first.set_slacks(descent_.barrier().mu());
   first.set_bound_multipliers(descent_.barrier().mu());
   if (!warm) descent_.estimate_multipliers();

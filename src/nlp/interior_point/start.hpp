@@ -7,7 +7,8 @@
 
 namespace slalom::nlp::ipm {
 
-/// Of the objective: what all products of slacks and multipliers together may hold it off its least.
+/// Of the objective: what all products of slacks and multipliers together may hold it off its
+/// least.
 inline constexpr double kMostGap = 1e-5;
 
 /// Sets scales, barrier and the first point of a solve (Waechter & Biegler 2006, sections 3.6 and
