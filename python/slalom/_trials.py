@@ -63,10 +63,10 @@ def write_parquet(folder: str | os.PathLike[str], file: str | os.PathLike[str]) 
     target = pathlib.Path(file)
     # As the program writes files: under a name that nobody can foresee, in a folder that is in use.
     aside = target.with_name(f".{target.name[:150]}.{secrets.token_hex(8)}.aside")
-    folder = os.open(target.parent, os.O_RDONLY | os.O_DIRECTORY)
+    parent = os.open(target.parent, os.O_RDONLY | os.O_DIRECTORY)
     try:
         with contextlib.suppress(OSError):  # where there are no locks
-            fcntl.flock(folder, fcntl.LOCK_SH)
+            fcntl.flock(parent, fcntl.LOCK_SH)
         try:
             with open(aside, "xb") as sink:
                 arrow.parquet.write_table(table, sink)
@@ -74,4 +74,4 @@ def write_parquet(folder: str | os.PathLike[str], file: str | os.PathLike[str]) 
         finally:
             aside.unlink(missing_ok=True)
     finally:
-        os.close(folder)
+        os.close(parent)

@@ -1,10 +1,9 @@
 """Tables of sweeps in Python are those of trials.csv."""
 
 import csv
+import os
 import subprocess
 import sys
-
-import os
 
 import pytest
 
