@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel package docs sweep-scale format clean build
+.PHONY: help run quick test fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel package docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -165,8 +165,12 @@ belief-errors: ## P_E with plant and sensors not as believed, 10,000 drives, int
 	$(MAKE) --no-print-directory build
 	python3 tools/belief_errors.py --program build/slalom
 
+fuzz: ## feed what reads files, answers, options and requests with millions of inputs, for SECONDS=600
+	tools/setup.sh fuzz
+	tools/fuzz.py --seconds $(or $(SECONDS),600) --jobs $(JOBS)
+
 format: ## format the C++ sources
 	tools/format.sh
 
 clean: ## remove the build trees and what `make run` wrote
-	rm -rf build build-python dist build-debug build-asan build-tsan run tests/browser/node_modules
+	rm -rf build build-python dist build-debug build-asan build-tsan build-fuzz run tests/browser/node_modules

@@ -24,7 +24,7 @@ function(slalom_batches target)
     OUTPUT_VARIABLE lines OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # To g++ a source in a batch is a header, of which it would warn for having an unnamed namespace.
-  target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   string(REPLACE "\n" ";" batches "${lines}")
   foreach(batch IN LISTS batches)
     string(REPLACE "|" ";" files "${batch}")

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import io
 import os
 import pathlib
+import secrets
 from typing import Any
 
 from ._core import trials_csv
@@ -58,9 +61,17 @@ def write_parquet(folder: str | os.PathLike[str], file: str | os.PathLike[str]) 
     arrow = _arrow("write_parquet")
     table = _read(arrow, folder)
     target = pathlib.Path(file)
-    aside = target.with_name(f".{target.name}.{os.getpid()}.aside")
+    # As the program writes files: under a name that nobody can foresee, in a folder that is in use.
+    aside = target.with_name(f".{target.name[:150]}.{secrets.token_hex(8)}.aside")
+    parent = os.open(target.parent, os.O_RDONLY | os.O_DIRECTORY)
     try:
-        arrow.parquet.write_table(table, aside)
-        os.replace(aside, target)
+        with contextlib.suppress(OSError):  # where there are no locks
+            fcntl.flock(parent, fcntl.LOCK_SH)
+        try:
+            with open(aside, "xb") as sink:
+                arrow.parquet.write_table(table, sink)
+            os.replace(aside, target)
+        finally:
+            aside.unlink(missing_ok=True)
     finally:
-        aside.unlink(missing_ok=True)
+        os.close(parent)

@@ -10,9 +10,9 @@ namespace {
 /// Pickling an object of this class is a TypeError that says what to do instead.
 void refuse(nb::module_& module, const char* name, const std::string& instead) {
   const auto message = "a " + std::string(name) + " cannot be pickled: " + instead;
-  module.attr(name).attr("__reduce_ex__") = nb::cpp_function(
-      [message](const nb::object&, int) -> nb::object { throw nb::type_error(message.c_str()); },
-      nb::is_method());
+  module.attr(name).attr("__reduce__") = nb::cpp_function(
+      [message](const nb::object&) -> nb::tuple { throw nb::type_error(message.c_str()); },
+      nb::is_method(), nb::sig("def __reduce__(self) -> tuple[object, ...]"));
 }
 
 }  // namespace

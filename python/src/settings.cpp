@@ -76,22 +76,21 @@ namespace {
 constexpr int kMostIntervals = 200'000, kMostPoints = 100;
 constexpr double kMostEntries = 4e6;  ///< of all intervals' differentiation matrices together
 
-void check_sizes(const GridChoice& choice, const std::string& where) {
-  const auto* count = std::get_if<int>(&choice.mesh);
+void check_sizes(const MeshChoice& mesh, const PointsChoice::value_type& points, const std::string& where) {
+  const auto* count = std::get_if<int>(&mesh);
   const auto intervals =
       count ? std::int64_t{*count}
-            : static_cast<std::int64_t>(std::get<std::vector<double>>(choice.mesh).size());
+            : static_cast<std::int64_t>(std::get<std::vector<double>>(mesh).size());
   check_at_most(intervals, kMostIntervals, where + ": mesh");
   double entries = 0;
-  const auto add = [&](int points, std::int64_t times) {
-    check_at_most(points, kMostPoints, where + ": points");
-    entries += static_cast<double>(times) * points * points;
+  const auto add = [&](int number, std::int64_t times) {
+    check_at_most(number, kMostPoints, where + ": points");
+    entries += static_cast<double>(times) * number * number;
   };
-  const auto chosen = choice.points.value_or(kPoints);
-  if (const auto* one = std::get_if<int>(&chosen))
+  if (const auto* one = std::get_if<int>(&points))
     add(*one, intervals);
   else
-    for (const int points : std::get<std::vector<int>>(chosen)) add(points, 1);
+    for (const int number : std::get<std::vector<int>>(points)) add(number, 1);
   if (entries > kMostEntries)
     throw InvalidValue(where + ": mesh, points",
                        std::to_string(intervals) + " intervals of so many points",
@@ -101,7 +100,7 @@ void check_sizes(const GridChoice& choice, const std::string& where) {
 }  // namespace
 
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where) {
-  check_sizes(choice, where);
+  check_sizes(choice.mesh, choice.points.value_or(kPoints), where);
   const auto* intervals = std::get_if<int>(&choice.mesh);
   const auto mesh = intervals ? ocp::Mesh::uniform(*intervals)
                               : ocp::Mesh(std::get<std::vector<double>>(choice.mesh));

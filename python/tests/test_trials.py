@@ -1,6 +1,7 @@
 """Tables of sweeps in Python are those of trials.csv."""
 
 import csv
+import os
 import subprocess
 import sys
 
@@ -49,6 +50,14 @@ def test_parquet_is_the_same_table(folder, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["trials.parquet"]
     with pytest.raises(OSError):
         slalom.write_parquet(folder, tmp_path / "none" / "trials.parquet")
+
+
+def test_parquet_is_written_through_no_link(folder, tmp_path):
+    victim = tmp_path / "victim"
+    victim.write_text("precious")
+    (tmp_path / f".trials.parquet.{os.getpid()}.aside").symlink_to(victim)
+    slalom.write_parquet(folder, tmp_path / "trials.parquet")
+    assert victim.read_text() == "precious"
 
 
 def test_a_folder_without_a_sweep_is_refused(tmp_path):

@@ -34,6 +34,16 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
   if (knows_conflicts(solution)) solution.conflicts = conflicts(problem, solution.multipliers);
 }
 
+nlp::Answer interrupted_at(const nlp::Start& start, const nlp::Structure& shape) {
+  nlp::Answer answer;
+  answer.status = nlp::Status::interrupted;
+  answer.point = start;
+  answer.point.y.resize(shape.rows);
+  answer.point.zl.resize(shape.variables);
+  answer.point.zu.resize(shape.variables);
+  return answer;
+}
+
 nlp::Start to_user(nlp::Start point, const nlp::Structure& shape) {
   for (std::size_t i = 0; i < point.x.size(); ++i) point.x[i] *= shape.variable_scale[i];
   for (auto* z : {&point.zl, &point.zu})

@@ -26,13 +26,19 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
 nlp::Start to_user(nlp::Start point, const nlp::Structure& shape);
 nlp::Start from_user(nlp::Start point, const nlp::Structure& shape);
 
+/// The answer of a solve that was not begun.
+nlp::Answer interrupted_at(const nlp::Start& start, const nlp::Structure& shape);
+
 /// Solves and checks from a start in the NLP's units, with multipliers or without; `solution` is of
-/// one phase or of several. The NLP's answer, in its own units, is returned.
+/// one phase or of several. The NLP's answer, in its own units, is returned. Where `options.stop`
+/// says so already, what the solver needs is not even set up.
 template <class Result>
 nlp::Start run(nlp::Problem& problem, nlp::Solver& solver, nlp::Options options,
                const nlp::Start& start, const std::vector<char>& regular, Result& solution) {
   options.warm_start = !start.y.empty();
-  nlp::Answer answer = solve_scaled(problem, solver, start, options, regular);
+  const bool stopped = options.stop != nullptr && options.stop(options.stop_data);
+  nlp::Answer answer = stopped ? interrupted_at(start, problem.structure())
+                               : solve_scaled(problem, solver, start, options, regular);
   solution.status = answer.status;
   solution.fault = answer.fault;
   solution.objective = answer.objective;

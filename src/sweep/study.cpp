@@ -110,14 +110,21 @@ class StudyLoader {
     };
     const auto& listed = placed.listed[key];
     if (!listed.empty()) return set(all ? listed : std::vector{listed.front()});
-    constexpr std::size_t kAtOnce = 4096;  // values with their places take far more than numbers
     const auto& numbers = placed.axis.points.numbers(key);
-    const auto count = all ? numbers.size() : 1;
-    for (std::size_t begin = 0; begin < count; begin += kAtOnce) {
+    std::vector<double> tried = {numbers.front()};
+    if (all && placed.drawn) {
+      // What a key takes is an interval, and of whole numbers alone a drawn one is none.
+      const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+      tried.insert(tried.end(), {*least, *most});
+    } else if (all) {
+      tried = numbers;
+    }
+    constexpr std::size_t kAtOnce = 4096;  // values with their places take far more than numbers
+    for (std::size_t begin = 0; begin < tried.size(); begin += kAtOnce) {
       std::vector<io::Value> values;
       std::vector<const io::Value*> list;
-      for (std::size_t k = begin; k < std::min(count, begin + kAtOnce); ++k)
-        values.push_back(scalar(numbers[k], placed.computed[key]));
+      for (std::size_t k = begin; k < std::min(tried.size(), begin + kAtOnce); ++k)
+        values.push_back(scalar(tried[k], placed.computed[key]));
       for (const auto& value : values) list.push_back(&value);
       set(list);
     }

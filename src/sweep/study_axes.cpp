@@ -70,6 +70,7 @@ void read_draw(const io::Value& map, int seed, std::size_t stream, PlacedAxis& a
   if (std::int64_t{count} * static_cast<std::int64_t>(of.size()) > kMaxDrawn)
     throw InvalidValue(map.place.to_string(), fmt::format("{} points of {} keys", count, of.size()),
                        fmt::format("at most {} values in one draw", kMaxDrawn));
+  axis.drawn = true;
   std::vector<Distribution> distributions;
   for (const auto& item : of) {
     const auto& drawn = distributions.emplace_back(read_distribution(item));

@@ -15,6 +15,7 @@ struct PlacedAxis {
   /// By key, the values that stand in the file; none where its numbers were computed.
   std::vector<std::vector<const io::Value*>> listed;
   std::vector<io::Place> computed;  ///< by key, where what they were computed from stands
+  bool drawn = false;               ///< its numbers are drawn from intervals
 };
 
 /// Reads one member of `axes:`. `stream` tells the draws of one axis from those of the others.

@@ -76,6 +76,10 @@ class Refused(SweepTest):
                  ["s.yaml:3:", "low < high"]),
                 (head + "axes:\n  - draw: {count: 3, method: sobl, of: [{key: start.x, normal: [2, 1]}]}\n",
                  ["s.yaml:3:30", "did you mean 'sobol'?"]),
+                (head + "axes:\n  - draw: {count: 99, of: [{key: loop.tex, uniform: [-0.1, 1]}]}\n",
+                 ["s.yaml:3:", "found tex = -0.0", "a number >= 0.001"]),
+                (head + "axes:\n  - draw: {count: 99, of: [{key: planner.N, uniform: [10, 12]}]}\n",
+                 ["s.yaml:3:", "found a number 1", "an integer for N"]),
                 (head + "axes:\n  - draw: {count: 3, of: [{key: start.x, gauss: [2, 1]}]}\n",
                  ["s.yaml:3:42", "unknown key 'gauss'"]),
         ):
