@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -164,6 +165,9 @@ PhasedSolved solve(const Phases& phases_now, const MeshChoice& mesh, const Schem
   return solved;
 }
 
+/// By how much a state is higher in the later phase.
+using Jumps = std::map<std::string, std::variant<double, ocp::Expr>>;
+
 void bind_problem_of_phases(nb::module_& module) {
   static const std::string connect_doc =
       std::string(doc::ocp_PhasedProblem_connect) +
@@ -199,12 +203,16 @@ void bind_problem_of_phases(nb::module_& module) {
       .def(
           "connect",
           [](Phases& p, std::size_t from, std::size_t to, const std::vector<std::string>& without,
-             const std::map<std::string, ocp::Expr>& jumps) {
+             const Jumps& jumps) {
             p.take_over();
-            p.connect(from, to, {without, {jumps.begin(), jumps.end()}});
+            ocp::PhasedProblem::Gaps gaps{without, {}};
+            for (const auto& [state, jump] : jumps)
+              gaps.jumps.emplace_back(
+                  state, std::visit([](const auto& value) { return ocp::Expr(value); }, jump));
+            p.connect(from, to, gaps);
           },
           "from_phase"_a, "to_phase"_a, nb::kw_only(), "without"_a = std::vector<std::string>(),
-          "jumps"_a = std::map<std::string, ocp::Expr>(), connect_doc.c_str())
+          "jumps"_a = Jumps(), connect_doc.c_str())
       .def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
            "points"_a = nb::none(), "phases"_a = nb::dict(), "backend"_a = "",
            "guess"_a = nb::none(), "warm_start"_a = nb::none(), "starts"_a = 1, "seed"_a = 1,

@@ -22,10 +22,8 @@ class Pairing {
   explicit Pairing(const Pattern& p) : rows_(p.equations), of_variable_(p.variables, kNone) {
     for (const auto& entry : p.jacobian)
       if (!p.fixed[entry.variable]) rows_[entry.equation].push_back(entry.variable);
-    for (std::uint32_t e = 0; e < p.equations; ++e) {
-      seen_.assign(p.variables, 0);
-      augment(e);
-    }
+    seen_by_.assign(p.variables, kNone);
+    for (std::uint32_t e = 0; e < p.equations; ++e) augment(e);
   }
   /// The equation paired with a variable, or kNone.
   std::uint32_t of(std::size_t variable) const { return of_variable_[variable]; }
@@ -44,8 +42,8 @@ class Pairing {
         continue;
       }
       const std::uint32_t i = rows_[e][next++];
-      if (seen_[i]) continue;
-      seen_[i] = 1;
+      if (seen_by_[i] == equation) continue;
+      seen_by_[i] = equation;
       if (of_variable_[i] != kNone) {
         path.push_back({of_variable_[i], 0});
         continue;
@@ -59,7 +57,7 @@ class Pairing {
 
   std::vector<std::vector<std::uint32_t>> rows_;
   std::vector<std::uint32_t> of_variable_;
-  std::vector<char> seen_;
+  std::vector<std::uint32_t> seen_by_;  ///< the last equation whose search came past
 };
 
 /// Nodes (a variable, an equation, or a pair of both) and what each touches.
@@ -126,14 +124,13 @@ std::vector<Supernode> eliminate(Graph& graph) {
     super.later.assign(touched.begin(), touched.end());
     super.later_rows = degrees[node];
     for (const auto a : touched) {
-      auto& reach = graph.touches[a];
-      reach.insert(touched.begin(), touched.end());
-      reach.erase(a);
-      reach.erase(node);
-    }
-    for (const auto a : touched) {
       queue.erase({degrees[a], a});
-      queue.emplace(degrees[a] = degree(a), a);
+      auto& reach = graph.touches[a];
+      reach.erase(node);
+      degrees[a] -= rows(node);
+      for (const auto b : touched)
+        if (b != a && reach.insert(b).second) degrees[a] += rows(b);
+      queue.emplace(degrees[a], a);
     }
   }
   for (auto& super : list)

@@ -144,7 +144,7 @@ class Sizes {
     }
   }
   /// False when nothing that is not known moves a state that is.
-  bool infer_from_steepest(const Dynamics& at, const Rates& rates, double duration) {
+  bool infer_from_steepest(const Dynamics& at, Rates rates, double duration) {
     std::vector<double> one(at.slopes.size(), 0.0);
     std::size_t steepest = one.size();
     for (std::size_t e = 0; e < one.size(); ++e) {
@@ -155,6 +155,9 @@ class Sizes {
     }
     if (steepest == one.size()) return false;
     one[steepest] = at.slopes[steepest];
+    // Not to balance the rest of the rate: that would double from each of many controls to the
+    // next.
+    std::fill(rates.size.begin(), rates.size.end(), 0.0);
     infer_from_effects(at.f, one, rates, duration);
     return true;
   }

@@ -142,5 +142,22 @@ TEST(DependentRows, ThatContradictEachOtherAreNamed) {
   EXPECT_NE(change_of(solution.conflicts, "b"), 0);
 }
 
+/// A norm that the dynamics keep, but the discretised ones only nearly: held along the horizon it
+/// leaves no freedom.
+TEST(DependentRows, ThatDynamicsAllButKeepAreNamed) {
+  Problem p("norm");
+  const Expr a = p.state("a"), b = p.state("b"), w = p.control("w", {-3, 3});
+  p.dynamics(a, -w * b);
+  p.dynamics(b, w * a);
+  p.initial_bounds(a, Bounds::equal(1));
+  p.fix(b, 0, 1);
+  p.path("norm", square(a) + square(b), Bounds::equal(1));
+  p.lagrange("effort", square(w));
+  const Solution solution = solve(p, {.scheme = lgr(4)});
+  EXPECT_EQ(solution.status, nlp::Status::too_few_freedoms) << nlp::to_string(solution.status);
+  ASSERT_FALSE(solution.conflicts.empty());
+  EXPECT_EQ(solution.conflicts.front().name, "norm");
+}
+
 }  // namespace
 }  // namespace slalom::ocp

@@ -54,6 +54,31 @@ TEST(HardStarts, AFineMeshIsNoWorse) {
   }
 }
 
+/// Of many controls each meets few others: they are eliminated one by one, and not as one dense
+/// front of a stage, whose work grows with the cube of their number.
+TEST(HardStarts, ManyControlsAreEliminatedByThemselves) {
+  for (const int count : {20, 200}) {
+    Problem p("many");
+    const Expr x = p.state("x"), v = p.state("v");
+    Expr force = 0, effort = 0;
+    for (int i = 0; i < count; ++i) {
+      const Expr u = p.control("u" + std::to_string(i), {0, 1});
+      force += i < count / 2 ? u : -u;
+      effort += square(u);
+    }
+    p.dynamics(x, v);
+    p.dynamics(v, force / (count / 2.0) * 20);
+    p.fix(x, 0, 1);
+    p.fix(v, 0, 0);
+    p.lagrange("effort", effort / (count / 2.0));
+    const Solution solution = solve(p);
+    EXPECT_TRUE(solution.solved());
+    EXPECT_NEAR(solution.objective, 0.03, 1e-6);  // 12 / 20^2
+    EXPECT_EQ(solution.backend,
+              count == 20 ? "interior_point/stage_ldlt" : "interior_point/sparse_ldlt");
+  }
+}
+
 /// Two stages of a rocket straight up, the second's mass bounded by what it begins with: the link
 /// that says so leaves that bound no interior.
 PhasedProblem two_stages() {

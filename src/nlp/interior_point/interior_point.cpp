@@ -80,8 +80,9 @@ class Run final : public Restoration::Watch {
     }
     // Equations that depend on each other may all hold; those that do not leave nothing to choose.
     const bool least = status == Status::infeasible;
-    if ((least || status == Status::numerical_failure) && !enough_freedom())
-      status = Status::too_few_freedoms;
+    const bool in_vain =
+        least || status == Status::numerical_failure || status == Status::iteration_limit;
+    if (in_vain && !enough_freedom()) status = Status::too_few_freedoms;
     fill(status, start, answer, least);
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <vector>
 
 namespace slalom::nlp::ipm {
 namespace {
@@ -19,6 +21,35 @@ constexpr int kRefinements = 5;
 /// other pivots.
 constexpr double kGoodResidual = 1e-9, kBadResidual = 1e-5;
 
+/// Rows of a stage's front, at least, for it to be looked into: below, one dense front is faster.
+constexpr std::size_t kLargeStage = 250;
+/// Entries of a variable with which it is eliminated by itself for next to nothing, and the share
+/// of such ones that makes up for finding the order.
+constexpr std::size_t kFewEntries = 8;
+constexpr double kMostlyFew = 0.75;
+
+/// One front a stage; the order of least fill where a stage is large and most of its variables,
+/// such as many controls, meet few others.
+std::unique_ptr<kkt::Backend> make_backend(const kkt::Pattern& pattern) {
+  std::vector<std::size_t> rows(pattern.stages + 1, 0), entries(pattern.variables, 0);
+  for (std::size_t i = 0; i < pattern.variables; ++i)
+    rows[pattern.variable_stage[i]] += pattern.fixed[i] ? 0 : 1;
+  for (const auto stage : pattern.equation_stage) ++rows[stage];
+  rows.pop_back();  // what all stages share is a border in either
+  if (rows.empty() || *std::max_element(rows.begin(), rows.end()) < kLargeStage)
+    return kkt::make_stage_ldlt(pattern);
+  for (const auto& place : pattern.hessian) {
+    ++entries[place.row];
+    if (place.row != place.col) ++entries[place.col];
+  }
+  for (const auto& entry : pattern.jacobian) ++entries[entry.variable];
+  const auto few = std::count_if(entries.begin(), entries.end(),
+                                 [](std::size_t count) { return count <= kFewEntries; });
+  return static_cast<double>(few) >= kMostlyFew * static_cast<double>(entries.size())
+             ? kkt::make_sparse_ldlt(pattern)
+             : kkt::make_stage_ldlt(pattern);
+}
+
 }  // namespace
 
 kkt::Inertia inertia_of_minimum(const SlackForm& form) {
@@ -31,7 +62,7 @@ kkt::Inertia inertia_of_minimum(const SlackForm& form) {
 Newton::Newton(const SlackForm& form)
     : form_(form),
       elimination_(form.elimination()),
-      backend_(kkt::make_stage_ldlt(form.pattern())),
+      backend_(make_backend(form.pattern())),
       wanted_(inertia_of_minimum(form)) {
   const std::size_t equations = form.equations().size();
   hessian_.resize(form.condensed().places().size());
