@@ -76,7 +76,8 @@ namespace {
 constexpr int kMostIntervals = 200'000, kMostPoints = 100;
 constexpr double kMostEntries = 4e6;  ///< of all intervals' differentiation matrices together
 
-void check_sizes(const MeshChoice& mesh, const PointsChoice::value_type& points, const std::string& where) {
+void check_sizes(const MeshChoice& mesh, const PointsChoice::value_type& points,
+                 const std::string& where) {
   const auto* count = std::get_if<int>(&mesh);
   const auto intervals =
       count ? std::int64_t{*count}

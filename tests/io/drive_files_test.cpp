@@ -127,15 +127,16 @@ TEST(DriveFiles, SummaryIsJsonWithoutInfinity) {
 
 TEST(DriveFiles, CyclesOfAPlannerThatVerifiesSaySo) {
   constexpr const char* added =
-      ",t_swap,rung,verified,verified_clearance,verified_wheel_load,verified_until,refused,"
-      "candidates";
+      ",passage_obstacle,rung,verified,verified_clearance,verified_wheel_load,verified_until,"
+      "refused,candidates";
   auto drive = verified_drive();
   const auto lines = lines_of(cycles_csv(drive));
   EXPECT_TRUE(lines[0].ends_with(added)) << lines[0];
   EXPECT_TRUE(lines[1].ends_with(",new,1,0.25,2100,7.5,,1")) << lines[1];
   EXPECT_TRUE(lines[2].ends_with(",least_bad,0,-0.5,1900,3,\"clearance to O1, at 2 s\",2"))
       << lines[2];
-  EXPECT_TRUE(lines_of(cycles_csv(made_up_drive()))[0].ends_with(",t_swap"));
+  EXPECT_TRUE(lines_of(cycles_csv(made_up_drive()))[0].ends_with(
+      ",t_swap,start_slack_m,start_slack_deg,passage_m,passage_obstacle"));
 
   drive.cycles[1].plan = {};
   const auto without = lines_of(cycles_csv(drive));
