@@ -17,8 +17,9 @@ struct TrialDrive {
 
 /// Sees to it that the drive of trial `number` of the sweep in `folder` stands there, in
 /// drives/000123: drives it again if it was not kept, on the sweep's instruction set, which stays
-/// selected. `interrupted` is polled while it drives; true ends it. Throws InvalidValue for a trial that has not run or has no drive, Error where files
-/// cannot be read or written or another version recorded it.
+/// selected. `interrupted` is polled while it drives; true ends it. Throws InvalidValue for a trial
+/// that has not run or has no drive, Error where files cannot be read or written or another version
+/// recorded it.
 TrialDrive trial_drive(const std::filesystem::path& folder, std::int64_t number,
                        const std::function<bool()>& interrupted = {});
 
