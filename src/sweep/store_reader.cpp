@@ -246,7 +246,7 @@ std::string stored_base(const fs::path& file, std::int64_t number) {
   const auto study = stored_study(file);
   const auto bases = stored_bases(file);
   const auto count = static_cast<std::int64_t>(bases.size());
-  if (count == 0 || study.size % count != 0)
+  if (number < 1 || number > study.size || count == 0 || study.size % count != 0)
     throw Error(fmt::format("{}: trial {}: damaged: {} scenarios of {} trials", file.string(),
                             number, count, study.size));
   // Bases vary slowest: each has as many trials as the others, one after the other.
