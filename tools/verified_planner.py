@@ -208,8 +208,8 @@ def by_range(options):
     """P_E told of what lies within a range alone."""
     settings = REAL_TIME | {"planner.known": "range"}
     text = ("\n## By range\n\nP_E in E_C by `known: range`: it learns of an obstacle when that is as near as `L_range`, and "
-            "takes it that anything may stand beyond (`unseen: standing`) or nothing does (`nothing`). Of each range "
-            f"{len(RANGE_TEXES)} horizons and {RANGE_POINTS} speeds of O2.\n\n"
+            "takes it that anything may stand beyond (`unseen: standing`) or nothing does (`nothing`). Each at "
+            f"tex of {', '.join(map(str, RANGE_TEXES))} s and {RANGE_POINTS} speeds of O2.\n\n"
             + head(["unseen", "range [m]", "drives", "arrive", "crash", "other ends", "unverified cycles",
                     "median time to the goal [s]"]))
     lost = ""
