@@ -41,13 +41,15 @@ class Ending {
   bool late_ = false;
 };
 
-/// The status of an answer, or of the solution in it.
+/// Tells what ended it to an answer, to the solution in it, or to each of several.
 template <class Answer>
-nlp::Status& status_of(Answer& answer) {
-  if constexpr (requires { answer.solution; })
-    return answer.solution.status;
+void tell(const Ending& ending, Answer& answer) {
+  if constexpr (requires { answer.begin(); })
+    for (auto& each : answer) ending.tell(each.status);
+  else if constexpr (requires { answer.solution; })
+    ending.tell(answer.solution.status);
   else
-    return answer.status;
+    ending.tell(answer.status);
 }
 
 /// Calls `work` while other Python threads run; an interrupt stops the solver by `options`, and is
@@ -59,7 +61,7 @@ auto run_released(nlp::Options& options, const Work& work) {
   auto result = [&] {
     const nb::gil_scoped_release unlock;
     auto answer = work();
-    ending.tell(status_of(answer));
+    tell(ending, answer);
     return std::pair(std::move(answer), ending.seconds());
   }();
   ending.raise_if_interrupted();
