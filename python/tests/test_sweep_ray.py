@@ -97,8 +97,8 @@ def test_it_goes_on_where_another_sweep_stopped(tmp_path, capsys):
 
 def test_a_trial_that_hangs_is_recorded_as_failed(tmp_path, capsys):
     # E_C at this setting takes minutes.
-    file = study(tmp_path, "scenario: E_C\nset: {planner.N: 60}\ntime_limit: 4\nretries: 1\n"
-                           "axes:\n  - {keys: [loop.tex, loop.timeout], values: [[0.01, 60], [0.5, 0.5]]}\n")
+    file = study(tmp_path, "scenario: E_C\nset: {planner.N: 120}\ntime_limit: 4\nretries: 1\n"
+                           "axes:\n  - {keys: [loop.tex, loop.timeout], values: [[0.001, 60], [0.5, 0.5]]}\n")
     assert _sweep_ray.main([str(file), "--out", str(tmp_path / "out")]) == 0
     hung, other = table(tmp_path / "out")
     assert hung["outcome"] == "failed" and hung["message"] == "2 attempts; the last: no answer within 4 s"
