@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,7 +13,7 @@
 
 namespace slalom::io {
 
-FileLock::FileLock(const std::filesystem::path& file, Wait wait) {
+FileLock::FileLock(const std::filesystem::path& file, Wait wait) : file_(file) {
   const auto fail = [&](const char* what) {
     const int reason = errno;
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -28,6 +29,13 @@ FileLock::FileLock(const std::filesystem::path& file, Wait wait) {
   while (code != 0 && errno == EINTR);
   held_ = code == 0;
   if (!held_ && errno != EWOULDBLOCK) fail("locked");
+}
+
+bool FileLock::stands() const {
+  struct stat ours {
+  }, there{};
+  return ::fstat(descriptor_, &ours) == 0 && ::lstat(file_.c_str(), &there) == 0 &&
+         ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }
 
 FileLock::~FileLock() {

@@ -18,8 +18,12 @@ class FileLock {
 
   /// False where another process holds it and was not waited for.
   bool held() const { return held_; }
+  /// Whether what it is held by is still what stands at its path: who ends a lock may have removed
+  /// it.
+  bool stands() const;
 
  private:
+  const std::filesystem::path file_;
   int descriptor_ = -1;
   bool held_ = false;
 };

@@ -1,50 +1,62 @@
 #include "slalom/io/results_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
+#include "file_lock.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/drive_files.hpp"
 
 namespace slalom::io {
+namespace {
 
-ResultsFolder::ResultsFolder(const std::filesystem::path& folder, bool force) {
+/// A file of its own, for the folder itself is locked by all that write aside in it (FileSet).
+std::filesystem::path lock_file(const std::filesystem::path& folder) {
+  return folder / ".results.lock";
+}
+
+}  // namespace
+
+ResultsFolder::ResultsFolder() = default;
+
+ResultsFolder::ResultsFolder(const std::filesystem::path& folder, bool force) : folder_(folder) {
   prepare_folder(folder, force);
-  // The folder itself is locked, so that nothing is left in it. A process that is killed lets go.
-  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0)
-    throw Error(fmt::format("{}: cannot be opened ({})", folder.string(), std::strerror(errno)));
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    const bool taken = errno == EWOULDBLOCK;
-    ::close(std::exchange(descriptor_, -1));
-    // A file system that has no locks is no reason to fail.
-    if (taken)
+  do {
+    try {
+      lock_ = std::make_unique<FileLock>(lock_file(folder), FileLock::Wait::no);
+    } catch (const Error&) {
+      return;  // A file system that has no locks is no reason to fail.
+    }
+    if (!lock_->held()) {
+      lock_.reset();
       throw Error(fmt::format("{}: another process writes its results there", folder.string()));
-    return;
-  }
+    }
+  } while (!lock_->stands());
   try {
     prepare_folder(folder, force);  // whoever held it may just have written
   } catch (...) {
-    ::close(std::exchange(descriptor_, -1));
+    release();
     throw;
   }
 }
 
-ResultsFolder::~ResultsFolder() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+/// The file goes while it is held, so that nobody else's is removed.
+void ResultsFolder::release() {
+  if (lock_ != nullptr) ::unlink(lock_file(folder_).c_str());
+  lock_.reset();
 }
 
-ResultsFolder::ResultsFolder(ResultsFolder&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
+ResultsFolder::~ResultsFolder() {
+  release();
+}
+
+ResultsFolder::ResultsFolder(ResultsFolder&& other) noexcept = default;
 
 ResultsFolder& ResultsFolder::operator=(ResultsFolder&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
+  std::swap(folder_, other.folder_);
+  std::swap(lock_, other.lock_);
   return *this;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 namespace slalom::io {
+
+class FileLock;
 
 /// A folder for results that this process alone writes to while this lives.
 class ResultsFolder {
  public:
-  ResultsFolder() = default;  ///< of no folder
+  ResultsFolder();  ///< of no folder
   /// Makes the folder as prepare_folder() does, and throws as it does; and where another process
   /// writes its results there, `force` or not.
   ResultsFolder(const std::filesystem::path& folder, bool force);
@@ -16,7 +19,10 @@ class ResultsFolder {
   ResultsFolder& operator=(ResultsFolder&& other) noexcept;
 
  private:
-  int descriptor_ = -1;
+  void release();
+
+  std::filesystem::path folder_;
+  std::unique_ptr<FileLock> lock_;
 };
 
 }  // namespace slalom::io
