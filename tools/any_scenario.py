@@ -8,7 +8,6 @@ name no cause, and plans through an obstacle that do not say so. Standard librar
 
 import collections
 import concurrent.futures
-import csv
 import json
 import math
 import os
@@ -18,7 +17,7 @@ import subprocess
 
 from measured import command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios
-from sweeps import head, interval, row
+from sweeps import head, interval, row, rows_of
 
 SEED = 11
 DIFFICULTIES = (0.0, 0.35, 0.7, 1.0)
@@ -165,12 +164,10 @@ def unreported(out, text, planner, settings):
     la = value("la")
     obstacles = [{k: float(v) for k, v in re.findall(r"(\w+): ([-+.\d][-+.\deE]*)", line)}
                  for line in resolved.splitlines() if line.startswith("  - {")]
-    with open(out / "cycles.csv", newline="") as file:
-        cycles = {c["cycle"]: c for c in csv.DictReader(file)}
+    cycles = {c["cycle"]: c for c in rows_of(out / "cycles.csv")}
     plans = collections.defaultdict(list)
-    with open(out / "plans.csv", newline="") as file:
-        for node in csv.DictReader(file):
-            plans[node["cycle"]].append({k: float(v) for k, v in node.items()})
+    for node in rows_of(out / "plans.csv"):
+        plans[node["cycle"]].append({k: float(v) for k, v in node.items()})
     faults = []
     for index, nodes in plans.items():
         if cycles[index]["status"] != "solved" or settings.get("planner.model") == "kinematic":

@@ -18,7 +18,7 @@ from typing import NamedTuple
 from measured import command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios, of_family
 from sensitivity import QUANTITIES
-from sweeps import head, interval, row, setting, swept
+from sweeps import head, interval, row, rows_of, setting, swept
 from verified_planner import REAL_TIME, arrives, number
 
 LEVELS = {"small": 0.1, "medium": 0.5, "large": 1.0}  # shares of the ranges
@@ -136,11 +136,6 @@ def drive_level(options, level, plain):
             rows = [rows_of(drive_folder(out, trial) / name) for name in ("cycles.csv", "plans.csv")]
             verified[trial["scenario"]] = crash_of(*rows, trial)
     return {t["scenario"]: t for t in trials}, verified
-
-
-def rows_of(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 class Crash(NamedTuple):

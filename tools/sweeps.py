@@ -17,8 +17,13 @@ def driven(program, scenario, planner, settings):
             command += ["--set", f"{key}={value}"]
         subprocess.run(command, check=True)
         out = pathlib.Path(folder)
-        with open(out / "cycles.csv", newline="") as file:
-            return json.loads((out / "summary.json").read_text()), list(csv.DictReader(file))
+        return json.loads((out / "summary.json").read_text()), rows_of(out / "cycles.csv")
+
+
+def rows_of(path):
+    """The rows of a CSV file."""
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def ended(summary):
@@ -28,8 +33,7 @@ def ended(summary):
 
 def trials(folder):
     """The rows of a sweep's trials.csv."""
-    with open(pathlib.Path(folder) / "trials.csv", newline="") as file:
-        return list(csv.DictReader(file))
+    return rows_of(pathlib.Path(folder) / "trials.csv")
 
 
 def swept(program, study, out, *arguments):

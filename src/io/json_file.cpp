@@ -24,12 +24,6 @@ Json json_numbers(const std::vector<double>& list) {
   return json;
 }
 
-Json json_table(const std::vector<std::vector<double>>& rows) {
-  Json json = Json::array();
-  for (const auto& row : rows) json.push_back(json_numbers(row));
-  return json;
-}
-
 Json json_point(const nlp::Start& point) {
   return {{"x", json_numbers(point.x)},
           {"y", json_numbers(point.y)},

@@ -13,7 +13,12 @@ using Json = nlohmann::ordered_json;
 /// JSON has no numbers that are not finite: they are text.
 Json json_number(double value);
 Json json_numbers(const std::vector<double>& list);
-Json json_table(const std::vector<std::vector<double>>& rows);
+template <class Row>
+Json json_table(const std::vector<Row>& rows) {
+  Json json = Json::array();
+  for (const auto& row : rows) json.push_back(json_numbers({row.begin(), row.end()}));
+  return json;
+}
 Json json_point(const nlp::Start& point);
 Json json_options(const nlp::Options& options);
 

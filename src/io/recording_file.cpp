@@ -47,13 +47,6 @@ std::vector<world::Obstacle> obstacles(const JsonReader& reader) {
   return result;
 }
 
-template <std::size_t N>
-Json json_rows(const std::vector<std::array<double, N>>& rows) {
-  Json json = Json::array();
-  for (const auto& row : rows) json.push_back(json_numbers({row.begin(), row.end()}));
-  return json;
-}
-
 template <class Row>
 std::vector<Row> rows(const JsonReader& reader, std::size_t count) {
   std::vector<Row> result;
@@ -136,8 +129,8 @@ std::string to_json(const RecordedMotion& motion) {
                   {"seen", json_numbers({p.seen_x, p.seen_y, p.seen_radius})}};
   json["obstacles"] = json_obstacles(p.obstacles);
   json["t"] = json_numbers(p.t);
-  json["states"] = json_rows(p.states);
-  json["controls"] = json_rows(p.controls);
+  json["states"] = json_table(p.states);
+  json["controls"] = json_table(p.controls);
   json["certificate"] = {{"verified", c.verified},
                          {"least_clearance", json_number(c.least_clearance)},
                          {"nearest", c.nearest},

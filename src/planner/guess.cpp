@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "local_frame.hpp"
 
 namespace slalom::planner {
 
@@ -92,10 +93,9 @@ void Guess::shift(const Request& request, const LastPlan& last) {
   }
   // Headings are within a turn at the start of each plan, so that a plan may begin a turn off the
   // last one.
-  constexpr double turn = 2 * std::numbers::pi;
-  const double turns = std::round((request.X0p[PSI] - guess_.states.front()[PSI]) / turn);
+  const double turns = whole_turns(request.X0p[PSI] - guess_.states.front()[PSI]);
   if (turns != 0)
-    for (auto& state : guess_.states) state[PSI] += turns * turn;
+    for (auto& state : guess_.states) state[PSI] += turns;
 }
 
 /// X(0) and its slacks inside their rows. After a plan X(0) keeps its offset from X0p and the

@@ -1,8 +1,17 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "slalom/planner/planner.hpp"
 
 namespace slalom::planner {
+
+/// The whole turns that are nearest to an angle [rad].
+inline double whole_turns(double angle) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return std::round(angle / turn) * turn;
+}
 
 /// The frame that a planner plans in. Places far from the origin (map coordinates, millions of
 /// metres) would leave few digits for metres, and headings that differ by whole turns are one. So

@@ -44,6 +44,18 @@ bool cut_short(nlp::Status status) {
   return status == nlp::Status::time_limit || status == nlp::Status::interrupted;
 }
 
+/// The point of a guess that is nearest to an obstacle, and its distance from the edge [m].
+std::pair<std::size_t, double> nearest_point(const ocp::Trajectory& guess,
+                                             const world::Obstacle& obstacle, double t_start) {
+  std::pair<std::size_t, double> nearest{0, INFINITY};
+  for (std::size_t k = 0; k < guess.tau.size(); ++k) {
+    const auto& x = guess.states[k];
+    const double d = world::distance(obstacle, x[X], x[Y], t_start + guess.time(k));
+    if (d < nearest.second) nearest = {k, d};
+  }
+  return nearest;
+}
+
 /// The guess with a bulge to one side (1: left) past the obstacle that it goes deepest into, as far
 /// as that takes. Its start stays.
 ocp::Trajectory bent(ocp::Trajectory guess, const world::Obstacle& obstacle, double t_start,
@@ -64,16 +76,7 @@ ocp::Trajectory bent(ocp::Trajectory guess, const world::Obstacle& obstacle, dou
         guess.states.back()[i] += share * (ends[1][i] - ends[0][i]);
     }
   }
-  std::size_t nearest = 0;
-  double least = INFINITY;
-  for (std::size_t k = 0; k < guess.tau.size(); ++k) {
-    const auto& x = guess.states[k];
-    const double d = world::distance(obstacle, x[X], x[Y], t_start + guess.time(k));
-    if (d < least) {
-      least = d;
-      nearest = k;
-    }
-  }
+  const std::size_t nearest = nearest_point(guess, obstacle, t_start).first;
   const auto& at = guess.states[nearest];
   const double t = t_start + guess.time(nearest);
   const double nx = -std::sin(at[PSI]), ny = std::cos(at[PSI]);  // to the left
@@ -310,15 +313,12 @@ void RecedingHorizon::try_sides(const Cycle& cycle, const ocp::Trajectory& guess
   const double margin = std::max(settings_.sm_start, settings_.sm_end);
   const world::Obstacle* blocks = nullptr;
   double least = INFINITY;
-  for (const auto& o : chosen_)
-    for (std::size_t k = 0; k < guess.tau.size(); ++k) {
-      const auto& x = guess.states[k];
-      const double d = world::distance(o, x[X], x[Y], cycle.request.t_start + guess.time(k));
-      if (d < least) {
-        least = d;
-        blocks = &o;
-      }
-    }
+  for (const auto& o : chosen_) {
+    const double d = nearest_point(guess, o, cycle.request.t_start).second;
+    if (d >= least) continue;
+    least = d;
+    blocks = &o;
+  }
   if (blocks == nullptr) return;
   best.carries = false;  // what is tried takes the multipliers' place
   for (const double side : {1.0, -1.0}) {

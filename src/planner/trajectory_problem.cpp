@@ -1,11 +1,11 @@
 #include "trajectory_problem.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "in_terms_of.hpp"
+#include "local_frame.hpp"
 
 namespace slalom::planner {
 
@@ -210,11 +210,8 @@ void TrajectoryProblem::update(const Request& request) {
     if (map_.model().role[i] != Role::derived) problem_.set_parameter(X0p_[i], request.X0p[i]);
   problem_.set_parameter(t_start_, request.t_start);
   problem_.set_parameter(t_planning_, request.t0);
-  if (goal_psi_) {  // the whole turns nearest to the start's heading
-    constexpr double turn = 2 * std::numbers::pi;
-    const double turns = std::round((request.X0p[PSI] - goal_.psi) / turn);
-    problem_.set_parameter(*goal_psi_, goal_.psi + turns * turn);
-  }
+  if (goal_psi_)  // in the turn that the start's heading is in
+    problem_.set_parameter(*goal_psi_, goal_.psi + whole_turns(request.X0p[PSI] - goal_.psi));
 }
 
 }  // namespace slalom::planner

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "slalom/vehicle/derived.hpp"
 #include "slalom/world/path_exists.hpp"
 
 namespace slalom::sim {
@@ -13,7 +14,6 @@ namespace {
 
 using namespace vehicle;
 
-constexpr double kGravity = 9.80665;     // [m/s^2]
 constexpr double kLoadTolerance = 0.05;  // of the weight
 constexpr double kSlowest = 5;           // a plan is not slower than this [m/s]
 

@@ -9,8 +9,6 @@
 namespace slalom::vehicle {
 namespace {
 
-constexpr double kGravity = 9.80665;  // [m/s^2]
-
 /// A setting, those it follows from, and how. `of` names others of these, too.
 struct Rule {
   std::string name;

@@ -9,20 +9,6 @@
 namespace slalom::planner {
 namespace {
 
-Scene moved(Scene scene, double dx, double dy) {
-  scene.first.X0p[vehicle::X] += dx;
-  scene.first.X0p[vehicle::Y] += dy;
-  scene.goal.x += dx;
-  scene.goal.y += dy;
-  scene.region.x_min += dx;
-  scene.region.x_max += dx;
-  for (auto& o : scene.obstacles) {
-    o.x += dx;
-    o.y += dy;
-  }
-  return scene;
-}
-
 TEST(LocalFrame, MapCoordinatesGiveThePlanOfTheOrigin) {
   const double dx = 122 * 4096.0, dy = 1318 * 4096.0;  // 5.0e5, 5.4e6: as UTM has them
   for (const auto& scene : {E_B(), E_C()}) {

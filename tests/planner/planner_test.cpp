@@ -183,20 +183,10 @@ TEST(Planner, MeasuredObstaclesAreThoseOfTheirCycleAlone) {
 
 TEST(Planner, MovedSceneGivesTheMovedPlan) {
   for (const auto& scene : {E_A(), E_B(), E_C()}) {
-    Scene moved = scene;
     const double dx = 10e3, dy = 7e3;
-    moved.first.X0p[X] += dx;
-    moved.first.X0p[Y] += dy;
-    moved.goal.x += dx;
-    moved.goal.y += dy;
-    moved.region.x_min += dx;
-    moved.region.x_max += dx;
-    for (auto& o : moved.obstacles) {
-      o.x += dx;
-      o.y += dy;
-    }
-    auto here = Planner(scene), there = Planner(moved);
-    Request request = scene.first, request_there = moved.first;
+    const Scene elsewhere = moved(scene, dx, dy);
+    auto here = Planner(scene), there = Planner(elsewhere);
+    Request request = scene.first, request_there = elsewhere.first;
     for (int cycle = 0; cycle < 3; ++cycle) {
       const Plan plan = here.plan(request), other = there.plan(request_there);
       expect_solved(other);

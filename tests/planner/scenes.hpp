@@ -71,6 +71,21 @@ inline Scene E_C() {
   return scene;
 }
 
+/// A scene elsewhere.
+inline Scene moved(Scene scene, double dx, double dy) {
+  scene.first.X0p[0] += dx;
+  scene.first.X0p[1] += dy;
+  scene.goal.x += dx;
+  scene.goal.y += dy;
+  scene.region.x_min += dx;
+  scene.region.x_max += dx;
+  for (auto& o : scene.obstacles) {
+    o.x += dx;
+    o.y += dy;
+  }
+  return scene;
+}
+
 /// How a plan's controls run between its points: linear, or as Hermite-Simpson has them, quadratic
 /// over each interval of two.
 enum class Controls { linear, quadratic };

@@ -62,6 +62,12 @@ double clearance(const Task& task, const Request& request, const Plan& plan) {
   return least;
 }
 
+void expect_same_controls(const Plan& one, const Plan& other) {
+  for (const double at : {1.2, 3.3})
+    for (std::size_t c = 0; c < kControls; ++c)
+      EXPECT_NEAR(control_signal(one).at(at)[c], control_signal(other).at(at)[c], 1e-12);
+}
+
 TEST(VerifiedPlanner, ItsFirstPlanIsVerifiedAndWhatTheCertificateSays) {
   const Task t = task();
   Planner planner(t);
@@ -86,9 +92,7 @@ TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {
   EXPECT_EQ(rest.rung, Rung::rest);
   EXPECT_TRUE(rest.certificate.verified);
   EXPECT_NEAR(rest.t_start + rest.tf, plan.t_start + plan.tf, 1e-9);
-  for (const double at : {1.2, 3.3})
-    for (std::size_t c = 0; c < kControls; ++c)
-      EXPECT_NEAR(control_signal(rest).at(at)[c], control_signal(plan).at(at)[c], 1e-12);
+  expect_same_controls(rest, plan);
 }
 
 TEST(VerifiedPlanner, WhereThePlanWasLateTheOneBeforeGoesOn) {
@@ -104,9 +108,7 @@ TEST(VerifiedPlanner, WhereThePlanWasLateTheOneBeforeGoesOn) {
   request.last_was_late = true;
   const Plan rest = planner.plan(request);
   EXPECT_EQ(rest.rung, Rung::rest);
-  for (const double at : {1.2, 3.3})
-    for (std::size_t c = 0; c < kControls; ++c)
-      EXPECT_NEAR(control_signal(rest).at(at)[c], control_signal(plan).at(at)[c], 1e-12);
+  expect_same_controls(rest, plan);
 }
 
 TEST(VerifiedPlanner, ARestFromAnotherStateIsDrivenAnewByThePlant) {

@@ -8,6 +8,9 @@
 
 namespace slalom::vehicle {
 
+/// Standard gravity [m/s^2] (ISO 80000-3).
+inline constexpr double kGravity = 9.80665;
+
 /// Settings that follow from those that `stated` names, and are not stated themselves: static axle
 /// loads of mass and axles, load transfer of these, the c.g.'s height and the track, and the
 /// offsets that make the axles' lateral forces vanish at zero slip (docs/formulation.md, section
