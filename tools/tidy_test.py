@@ -66,7 +66,9 @@ class Tidy(unittest.TestCase):
         for changed, code in (("src/one/one.cpp", 0), ("src/two/two.cpp", 1),
                               ("src/two/two_near.hpp", 1), ("docs/two.md", 0)):
             with unittest.mock.patch.object(tidy, "changed_files",
-                                            lambda _, name=changed: [pathlib.Path(name)]):
+                                            lambda _, name=changed: [pathlib.Path(name)]), \
+                    unittest.mock.patch.dict(tidy.os.environ):
+                tidy.os.environ.pop("SLALOM_TIDY", None)
                 ended, printed = self.run_on(texts, "--alone", "--changed")
             self.assertEqual(ended, code, changed + printed)
 
