@@ -31,10 +31,10 @@ timed() {
   return "$code"
 }
 
-run_ctest() { # PRESET TITLE
+run_ctest() { # PRESET TITLE JOBS
   local file=$PWD/build/tests-$1.xml tests bad out
   rm -f "$file"
-  timed "$2" ctest --preset "$1" -j "$jobs" --output-junit "$file"
+  timed "$2" ctest --preset "$1" -j "$3" --output-junit "$file"
   local code=$?
   if [ ! -f "$file" ]; then
     note_failure "$2: ctest did not run"
@@ -67,11 +67,14 @@ mkdir -p build
 notes=$(mktemp)
 trap 'rm -f "$notes"' EXIT
 start=$SECONDS
-if step "build with sanitizers" asan; then run_ctest asan "unit tests with sanitizers"; fi
+if step "build with sanitizers" asan; then run_ctest asan "unit tests with sanitizers" "$jobs"; fi
 if step "build with the thread sanitizer" tsan; then
-  run_ctest tsan "tests of threads with the thread sanitizer"
+  run_ctest tsan "tests of threads with the thread sanitizer" "$jobs"
 fi
-if step "release build" release; then run_ctest release "tests and checks of the release build"; fi
+# One more than there are processors: the wheel's and the command line's tests wait now and then.
+if step "release build" release; then
+  run_ctest release "tests and checks of the release build" $((jobs + 1))
+fi
 
 echo
 printf '%s\n' "${parts[@]}"

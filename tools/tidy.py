@@ -67,8 +67,12 @@ def touched(files, changed):
 
 
 def flags(command, files):
-    """A compile command without what it compiles; the files' own folders are looked in for headers."""
+    """A compile command without what it compiles and the compiler's precompiled headers; the files' own
+    folders are looked in for headers."""
     kept = command[:command.index("-o")] if "-o" in command else command[:]
+    while "-include" in kept:
+        at = kept.index("-include")
+        del kept[at:at + 2]
     for folder in sorted({file.parent for file in files}):
         kept += ["-iquote", str(folder)]
     return kept
