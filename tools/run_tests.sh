@@ -59,20 +59,30 @@ step() { # TITLE COMMAND...
   return 1
 }
 
-release() { cmake --preset release -DSLALOM_TESTS=ON && cmake --build --preset release -j "$jobs"; }
-asan() { cmake --preset asan -DSLALOM_TESTS=ON && cmake --build --preset asan -j "$jobs"; }
-tsan() { cmake --preset tsan -DSLALOM_TESTS=ON && cmake --build --preset tsan -j "$jobs"; }
+configure() { # all three at once: each by itself keeps less than one processor busy
+  local preset pids=() code=0
+  for preset in asan tsan release; do
+    cmake --preset "$preset" -DSLALOM_TESTS=ON >"$logs/$preset" 2>&1 &
+    pids+=($!)
+  done
+  for pid in "${pids[@]}"; do wait "$pid" || code=1; done
+  cat "$logs"/{asan,tsan,release}
+  return $code
+}
+build() { cmake --build --preset "$1" -j "$jobs"; }
 
 mkdir -p build
-notes=$(mktemp)
-trap 'rm -f "$notes"' EXIT
+logs=$(mktemp -d)
+notes=$logs/notes
+trap 'rm -rf "$logs"' EXIT
 start=$SECONDS
-if step "build with sanitizers" asan; then run_ctest asan "unit tests with sanitizers" "$jobs"; fi
-if step "build with the thread sanitizer" tsan; then
+step "configure" configure
+if step "build with sanitizers" build asan; then run_ctest asan "unit tests with sanitizers" "$jobs"; fi
+if step "build with the thread sanitizer" build tsan; then
   run_ctest tsan "tests of threads with the thread sanitizer" "$jobs"
 fi
 # One more than there are processors: the wheel's and the command line's tests wait now and then.
-if step "release build" release; then
+if step "release build" build release; then
   run_ctest release "tests and checks of the release build" $((jobs + 1))
 fi
 

@@ -68,9 +68,17 @@ class Search {
     to = from;
     if (from.t >= p_.t_max) return false;
     const double h = p_.dt / kParts;
+    // Speed and curvature do not depend on the place, and most moves fail by them: they come first.
+    std::array<double, kParts> v, kappa;
     for (int part = 0; part < kParts; ++part) {
-      to.v = std::clamp(to.v + push * h, p_.v_min, p_.v_max);
-      to.kappa += kappa_rate * h;
+      v[part] = to.v = std::clamp(to.v + push * h, p_.v_min, p_.v_max);
+      kappa[part] = to.kappa += kappa_rate * h;
+    }
+    const double most = std::min(p_.curvature, p_.lateral_acceleration / (to.v * to.v));
+    if (std::fabs(to.kappa) > most) return false;
+    for (int part = 0; part < kParts; ++part) {
+      to.v = v[part];
+      to.kappa = kappa[part];
       const double turned = to.v * to.kappa * h;
       to.x += to.v * h * std::cos(to.psi + turned / 2);
       to.y += to.v * h * std::sin(to.psi + turned / 2);
@@ -78,8 +86,7 @@ class Search {
       to.t += h;
       if (!free(to)) return false;
     }
-    const double most = std::min(p_.curvature, p_.lateral_acceleration / (to.v * to.v));
-    return std::fabs(to.kappa) <= most;
+    return true;
   }
 
   void add(const Place& p) {
