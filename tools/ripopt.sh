@@ -13,4 +13,4 @@ if [ ! -f "$stamp" ] || [ "$(cat "$stamp")" != "$package" ]; then
 fi
 export SLALOM_NL_SOLVER=$folder/package/pyomo_ripopt/bin/ripopt
 "$tests/test_planner" --gtest_filter='Nl.*'
-"$tests/test_ocp" --gtest_filter='Nl.*'
+"$tests/test_ocp_slow" --gtest_filter='Nl.*'
