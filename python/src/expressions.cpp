@@ -168,6 +168,25 @@ double evaluate(const Expr& e, const std::vector<std::pair<Expr, double>>& value
   return result;
 }
 
+/// A table of numbers or of expressions.
+template <class Value>
+void bind_spline(nb::module_& module) {
+  static const std::string documentation = std::string(doc::expr_cubic_spline) +
+                                           "\n\n`beyond` says how it goes on beyond its ends: "
+                                           "\"line\", of which solve warns when an answer "
+                                           "is there, or\n\"hold\" at the value there.";
+  module.def(
+      "cubic_spline",
+      [](const Expr& x, const std::vector<double>& knots, const std::vector<Value>& values,
+         const std::string& beyond) {
+        if (beyond != "line" && beyond != "hold")
+          throw InvalidValue("cubic_spline: beyond", "'" + beyond + "'", "'line' or 'hold'");
+        return expr::cubic_spline(x, knots, values,
+                                  beyond == "hold" ? expr::Beyond::hold : expr::Beyond::line);
+      },
+      "x"_a, "knots"_a, "values"_a, nb::kw_only(), "beyond"_a = "line", documentation.c_str());
+}
+
 }  // namespace
 
 void bind_expressions(nb::module_& module) {
@@ -236,14 +255,8 @@ void bind_expressions(nb::module_& module) {
   }
   module.def("select", &expr::select, "condition"_a, "if_positive"_a, "otherwise"_a,
              doc::expr_select);
-  module.def("cubic_spline",
-             nb::overload_cast<const Expr&, const std::vector<double>&, const std::vector<double>&>(
-                 &expr::cubic_spline),
-             "x"_a, "knots"_a, "values"_a, doc::expr_cubic_spline);
-  module.def("cubic_spline",
-             nb::overload_cast<const Expr&, const std::vector<double>&, const std::vector<Expr>&>(
-                 &expr::cubic_spline),
-             "x"_a, "knots"_a, "values"_a, doc::expr_cubic_spline);
+  bind_spline<double>(module);
+  bind_spline<Expr>(module);
 }
 
 }  // namespace slalom::python

@@ -112,10 +112,10 @@ PhasedStart start_of(const PhasedProblem& problem, const GridChoice& all, const 
   start.settings.options = options_of(options, keywords);
   for (std::size_t p = 0; p < own.size(); ++p) {
     const Problem& phase = problem.phases()[p];
-    start.settings.grids.push_back(
-        grid_of({choice(own[p], "mesh", all.mesh), choice(own[p], "scheme", all.scheme),
-                 points_of(own[p], all)},
-                problem.name() + ": phase " + phase.name()));
+    const auto grid = grid_of({choice(own[p], "mesh", all.mesh),
+                               choice(own[p], "scheme", all.scheme), points_of(own[p], all)},
+                              problem.name() + ": phase " + phase.name());
+    start.settings.grids.push_back(with_moments(phase, grid));
     const nb::object given = own[p].contains("guess") ? nb::object(own[p]["guess"])
                              : guess != nullptr       ? nb::cast(guess->phases[p])
                                                       : nb::none();
@@ -161,6 +161,7 @@ PhasedSolved solve(const Phases& phases_now, const MeshChoice& mesh, const Schem
   std::vector<PhasedSolved> all;
   for (auto& answer : answers) all.emplace_back(copy, std::move(answer), elapsed);
   PhasedSolved solved = all[best];
+  for (const auto& phase : solved.phases) warn_of(*phase.problem, phase.answer);
   if (starts > 1) solved.starts = std::move(all);
   return solved;
 }
@@ -213,6 +214,22 @@ void bind_problem_of_phases(nb::module_& module) {
           },
           "from_phase"_a, "to_phase"_a, nb::kw_only(), "without"_a = std::vector<std::string>(),
           "jumps"_a = Jumps(), connect_doc.c_str())
+      .def(
+          "share",
+          [](Phases& p, const std::string& name) {
+            p.take_over();
+            p.share(name);
+          },
+          "static_parameter"_a, doc::ocp_PhasedProblem_share)
+      .def(
+          "mayer",
+          [](Phases& p, const std::string& name, const ocp::Expr& term, bool maximise) {
+            p.mayer(name, maximise ? -term : term);
+          },
+          "name"_a, "term"_a, nb::kw_only(), "maximise"_a = false,
+          (std::string(doc::ocp_PhasedProblem_mayer) +
+           "\nWith `maximise` it is to be large: it counts with a minus, in the objective too.")
+              .c_str())
       .def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
            "points"_a = nb::none(), "phases"_a = nb::dict(), "backend"_a = "",
            "guess"_a = nb::none(), "warm_start"_a = nb::none(), "starts"_a = 1, "seed"_a = 1,
@@ -222,9 +239,9 @@ void bind_problem_of_phases(nb::module_& module) {
            "points, guess. `guess` and\n`warm_start` are earlier PhasedSolutions.");
 }
 
-ByName<double> links_of(const PhasedSolved& s) {
+ByName<double> by_name(const std::vector<std::pair<std::string, double>>& pairs) {
   nb::dict result;
-  for (const auto& [name, value] : s.answer.link_multipliers) result[name.c_str()] = value;
+  for (const auto& [name, value] : pairs) result[name.c_str()] = value;
   return result;
 }
 
@@ -262,7 +279,13 @@ void bind_solution_of_phases(nb::module_& module) {
       .def("__getitem__", &phase_of, "phase"_a, nb::rv_policy::reference_internal,
            "The Solution of a phase, by number or by name.")
       .def_ro("phases", &PhasedSolved::phases, doc::ocp_PhasedSolution_phases)
-      .def_prop_ro("link_multipliers", &links_of, doc::ocp_PhasedSolution_link_multipliers);
+      .def_prop_ro(
+          "cost_terms", [](const PhasedSolved& s) { return by_name(s.answer.cost_terms); },
+          doc::ocp_PhasedSolution_cost_terms)
+      .def_prop_ro(
+          "link_multipliers",
+          [](const PhasedSolved& s) { return by_name(s.answer.link_multipliers); },
+          doc::ocp_PhasedSolution_link_multipliers);
   bind_extras(type,
               "States and controls of all phases over time; a Matplotlib figure (extra 'plot').",
               "States and controls as a pandas DataFrame over phase and time (extra 'frame').");

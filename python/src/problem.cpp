@@ -52,6 +52,17 @@ ConstraintId constraint(const Problem& problem, const Which& which) {
   return named([&] { return problem.constraint_named(std::get<std::string>(which)); });
 }
 
+/// A time, or a share of the horizon.
+using At = std::optional<double>;
+
+std::optional<ocp::Moment> moment_of(const std::string& what, const At& time, const At& share) {
+  if (time && share)
+    throw InvalidValue(what, "both at and at_share", "a time or a share of the horizon");
+  if (time) return ocp::Moment::time(*time);
+  if (share) return ocp::Moment::share(*share);
+  return std::nullopt;
+}
+
 /// What softens a constraint, if Python names a norm.
 using Softness = std::optional<std::string>;
 
@@ -163,14 +174,23 @@ void def_constraint(nb::class_<Problem>& type, const char* name, const Add& add,
 }
 
 void bind_constraints(nb::class_<Problem>& type) {
+  static const std::string path_doc = std::string(doc::ocp_Problem_path) +
+                                      "\nWith `at`, a time, or `at_share` of the horizon, at that "
+                                      "moment alone; every mesh gets a node "
+                                      "there.";
   def_constraint(
       type, "path",
-      [](Problem& p, const std::string& name, const Expr& value, bool after_first, Limit lower,
-         Limit upper, Limit equal, const Softness& soft, double weight, double tolerance) {
-        const auto id = p.path(name, value, bounds(lower, upper, equal), points_of(after_first));
+      [](Problem& p, const std::string& name, const Expr& value, bool after_first, const At& at,
+         const At& at_share, Limit lower, Limit upper, Limit equal, const Softness& soft,
+         double weight, double tolerance) {
+        const auto row = bounds(lower, upper, equal);
+        const auto moment = moment_of("path " + name, at, at_share);
+        const auto id = moment ? p.path_at(name, value, *moment, row)
+                               : p.path(name, value, row, points_of(after_first));
         return softened(p, id, soft, weight, tolerance);
       },
-      doc::ocp_Problem_path, "name"_a, "value"_a, nb::kw_only(), "after_first"_a = false);
+      path_doc.c_str(), "name"_a, "value"_a, nb::kw_only(), "after_first"_a = false,
+      "at"_a = nb::none(), "at_share"_a = nb::none());
   def_constraint(
       type, "boundary",
       [](Problem& p, const std::string& name, const Expr& value, Limit lower, Limit upper,
@@ -221,17 +241,41 @@ void bind_terms(nb::class_<Problem>& type) {
   type.def("smooth_kinks", &ocp::smooth_kinks, doc::ocp_smooth_kinks);
   static const std::string maximised =
       "\nWith `maximise` it is to be large: it counts with a minus, in the objective too.";
-  using Add = void (Problem::*)(const std::string&, const Expr&);
-  const auto term = [](Add add) {
-    return [add](Problem& p, const std::string& name, const Expr& value, bool maximise) {
-      (p.*add)(name, maximise ? -value : value);
-    };
-  };
+  static const std::string at_moment =
+      "\nWith `at`, a time, or `at_share` of the horizon, it is a cost at that moment, of what "
+      "path may "
+      "use.";
+  static const std::string mayer_doc = doc::ocp_Problem_mayer + maximised + at_moment;
+  static const std::string lagrange_doc = doc::ocp_Problem_lagrange + maximised;
   type.def("dynamics", &Problem::dynamics, "state"_a, "rate"_a, doc::ocp_Problem_dynamics)
-      .def("mayer", term(&Problem::mayer), "name"_a, "term"_a, nb::kw_only(), "maximise"_a = false,
-           (std::string(doc::ocp_Problem_mayer) + maximised).c_str())
-      .def("lagrange", term(&Problem::lagrange), "name"_a, "integrand"_a, nb::kw_only(),
-           "maximise"_a = false, (std::string(doc::ocp_Problem_lagrange) + maximised).c_str());
+      .def(
+          "mayer",
+          [](Problem& p, const std::string& name, const Expr& value, bool maximise, const At& at,
+             const At& at_share) {
+            const Expr term = maximise ? -value : value;
+            if (const auto moment = moment_of("mayer " + name, at, at_share))
+              p.cost_at(name, term, *moment);
+            else
+              p.mayer(name, term);
+          },
+          "name"_a, "term"_a, nb::kw_only(), "maximise"_a = false, "at"_a = nb::none(),
+          "at_share"_a = nb::none(), mayer_doc.c_str())
+      .def(
+          "lagrange",
+          [](Problem& p, const std::string& name, const Expr& value, bool maximise) {
+            p.lagrange(name, maximise ? -value : value);
+          },
+          "name"_a, "integrand"_a, nb::kw_only(), "maximise"_a = false, lagrange_doc.c_str())
+      .def(
+          "breakpoint",
+          [](Problem& p, const At& at, const At& at_share) {
+            const auto moment = moment_of("breakpoint", at, at_share);
+            if (!moment)
+              throw InvalidValue(p.name() + ": breakpoint", "no moment", "at or at_share");
+            p.breakpoint(*moment);
+          },
+          "at"_a = nb::none(), nb::kw_only(), "at_share"_a = nb::none(),
+          doc::ocp_Problem_breakpoint);
 }
 
 void bind_ends(nb::class_<Problem>& type) {

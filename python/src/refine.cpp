@@ -66,6 +66,7 @@ OnePhase refine(const Problem& problem, double tolerance, const std::string& ref
       start.options, [&] { return ocp::refine(*refined.solution.problem, start, rules); });
   refined.solution.answer = std::move(refined.answer.solution);
   forget_stop(refined.solution.answer.options);
+  warn_of(problem, refined.solution.answer);
   return refined;
 }
 
@@ -84,6 +85,7 @@ PhasedAnswer refine_phases(const Phases& problem, double tolerance, const std::s
   auto [answer, elapsed] = run_released(start.settings.options,
                                         [&] { return ocp::refine(copy, start.settings, rules); });
   PhasedSolved solution(copy, std::move(answer.solution), elapsed);
+  for (const auto& phase : solution.phases) warn_of(*phase.problem, phase.answer);
   return {std::move(answer), std::move(solution)};
 }
 
@@ -141,7 +143,7 @@ void def_refine(nb::class_<Type>& type, const Function& function, const Keywords
            "Solves on one mesh after another, each from the last one's polynomials and "
            "multipliers, until\nevery interval's error, found by re-integration, is within "
            "`tolerance`. `refinement` \"h\" cuts\nintervals, \"hp\" raises the degree of lgr, "
-           "lgr_differential or lgl up to `max_points`, then cuts\ninto intervals of "
+           "lgr_differential, lgr_flipped or lgl up to `max_points`, then cuts\ninto intervals of "
            "`min_points`; no more than `max_meshes` meshes, none of more than `max_size`\npoints. "
            "`resolve_controls` goes on until jumps of the controls are resolved, and the "
            "objective too\nmoves by less than `tolerance`. The other keywords are those of solve, "

@@ -29,14 +29,11 @@ constexpr int kPoints = 4;
 
 /// Warns of points for schemes that all have a number of their own.
 void warn_of_unused_points(const SchemeChoice& choice, const std::string& where) {
-  const auto has_choice = [](const std::string& name) {
-    return ocp::scheme(name, 2).points != ocp::scheme(name, 3).points;
-  };
   const auto* one = std::get_if<std::string>(&choice);
   const auto names = one ? std::vector{*one} : std::get<std::vector<std::string>>(choice);
-  if (std::any_of(names.begin(), names.end(), has_choice)) return;
+  if (std::any_of(names.begin(), names.end(), ocp::has_choice_of_points)) return;
   warn(where + ": points do nothing with " + names.front() +
-       ", which has its own; lgr, lgr_differential and lgl have a choice");
+       ", which has its own; lgr, lgr_differential, lgr_flipped and lgl have a choice");
 }
 
 template <class List>
@@ -153,7 +150,7 @@ ocp::SolveSettings settings_of(const ocp::Problem& problem, const GridChoice& ch
                                const std::string& backend, nb::handle guess,
                                const Solved* warm_start, const nb::kwargs& options,
                                const std::vector<std::string>& keywords) {
-  const auto grid = grid_of(choice, problem.name());
+  const auto grid = with_moments(problem, grid_of(choice, problem.name()));
   ocp::SolveSettings settings;
   settings.mesh = grid.mesh;
   settings.scheme = grid.schemes;

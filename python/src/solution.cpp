@@ -152,6 +152,18 @@ ByName<double> scales(const Solved& s) {
   return result;
 }
 
+ByName<int> high_index(const Solved& s) {
+  nb::dict result;
+  for (const auto& [row, index] : s.answer.high_index) result[row.c_str()] = index;
+  return result;
+}
+
+ByName<double> beyond_tables(const Solved& s) {
+  nb::dict result;
+  for (const auto& [term, by] : s.answer.beyond_tables) result[term.c_str()] = by;
+  return result;
+}
+
 /// States and controls at the times `t`, a number or an array of any shape.
 ByName<nb::any> at(const Solved& s, const nb::object& t, bool hold) {
   const auto [shape, times] = times_of(s, t, hold);
@@ -196,6 +208,8 @@ void bind_trajectory(nb::class_<Solved>& type) {
            "What an expression of the problem's symbols comes to: one number a point of `t`, or at "
            "the times\ngiven; of ends, times and parameters alone, a number.")
       .def_prop_ro("scales", &scales, doc::ocp_Solution_scales)
+      .def_prop_ro("high_index", &high_index, doc::ocp_Solution_high_index)
+      .def_prop_ro("beyond_tables", &beyond_tables, doc::ocp_Solution_beyond_tables)
       .def_prop_ro(
           "t", [](const Solved& s) { return to_numpy(s.answer.time()); }, nb::rv_policy::move,
           doc::ocp_Solution_time)
@@ -260,6 +274,16 @@ void bind_trajectory(nb::class_<Solved>& type) {
 }
 
 }  // namespace
+
+void warn_of(const ocp::Problem& problem, const ocp::Solution& answer) {
+  for (const auto& [row, index] : answer.high_index)
+    warn(problem.name() + ": the equation '" + row + "' is of index " + std::to_string(index) +
+         ": controls meet it in derivative " + std::to_string(index - 1) +
+         " alone; hold that derivative instead, and the equation and its lower derivatives at t0");
+  for (const auto& [term, by] : answer.beyond_tables)
+    warn(problem.name() + ": " + term + " uses a table up to " + number(by) +
+         " beyond its ends, where it goes on as a line; beyond=\"hold\" holds its value there");
+}
 
 void bind_solution(nb::module_& module) {
   auto type = nb::class_<Solved>(module, "Solution", doc::ocp_Solution);

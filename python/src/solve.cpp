@@ -35,6 +35,7 @@ Solved solve(const Problem& problem, const MeshChoice& mesh, const SchemeChoice&
     forget_stop(one.answer.options);
   }
   Solved solved = all[best];
+  warn_of(problem, solved.answer);
   if (starts > 1) solved.starts = std::move(all);
   return solved;
 }

@@ -46,6 +46,9 @@ struct Solved {
   mutable std::shared_ptr<const ocp::Interpolant> interpolant_;
 };
 
+/// Warns of tables used beyond their ends, and of equations of a high index in what is not solved.
+void warn_of(const ocp::Problem& problem, const ocp::Solution& answer);
+
 /// What Python knows as Simulation: with the problem whose dynamics were integrated.
 struct Simulated {
   std::shared_ptr<const ocp::Problem> problem;

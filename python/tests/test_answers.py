@@ -1,6 +1,7 @@
 """Answers judged and interpolated from Python: closed forms, and what names them."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -175,6 +176,23 @@ def test_cubic_spline():
         assert spline.evaluate([(x, knot)]) == pytest.approx(value)
     with pytest.raises(slalom.InvalidValue, match="rise|increas"):
         slalom.cubic_spline(x, [0, 0], [1, 1])
+
+
+def test_a_table_beyond_its_ends():
+    def fall(**beyond):
+        p = slalom.Problem("fall")  # air as far up as the table goes, and on
+        h, v = p.state("h", initial=3, lower=-10), p.state("v", initial=0)
+        p.dynamics(h, v)
+        p.dynamics(v, -1 - slalom.cubic_spline(h, [0, 1, 2], [0.2, 0.1, 0], **beyond) * v)
+        return p.solve(mesh=5)
+
+    with pytest.warns(UserWarning, match="dynamics of v uses a table up to 1.0 beyond its ends"):
+        assert fall().beyond_tables == {"dynamics of v": pytest.approx(1)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert fall(beyond="hold").beyond_tables == {}
+    with pytest.raises(slalom.InvalidValue, match="'line' or 'hold'"):
+        fall(beyond="stop")
 
 
 def wall(**soft):
@@ -358,3 +376,18 @@ def test_conflicts_say_what_would_have_to_give():
     assert dict(s.conflicts)["final x"] == pytest.approx(-4, abs=0.01)
     assert dict(s.conflicts)["u"] == pytest.approx(4, abs=0.01)
     assert decay().solve(mesh=5).conflicts == []
+
+
+def test_an_equation_of_high_index_is_named():
+    p = slalom.Problem("pendulum")
+    x, y, vx, vy = (p.state(name, initial=value)
+                    for name, value in [("x", 0.6), ("y", -0.8), ("vx", 0), ("vy", 0)])
+    tension = p.control("tension")
+    p.dynamics(x, vx)
+    p.dynamics(y, vy)
+    p.dynamics(vx, -tension * x)
+    p.dynamics(vy, -tension * y - 9.81)
+    p.path("length", x**2 + y**2, equal=1)
+    with pytest.warns(UserWarning, match="'length' is of index 3: controls meet it in derivative 2"):
+        s = p.solve(mesh=10, max_iterations=20)
+    assert not s.solved and s.high_index == {"length": 3}

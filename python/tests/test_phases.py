@@ -114,6 +114,35 @@ def test_rows_added_to_a_phase_after_add_count():
     assert p.refine(mesh=4).status == "not_solved"
 
 
+def test_a_constant_and_a_cost_of_several_phases():
+    p = slalom.PhasedProblem("decay")  # x' = -k x fitted to exp(-t) at t = 1 and t = 3
+    ends = []
+    for number, (begin, end) in enumerate([(0, 1), (1, 3)]):
+        leg = slalom.Problem(f"leg {number}")
+        x, k = leg.state("x", initial=1 if number == 0 else None), leg.static_parameter("k", guess=0.3)
+        leg.dynamics(x, -k * x)
+        leg.initial_time(equal=begin)
+        leg.final_time(equal=end)
+        p.add(leg)
+        ends.append((leg.final(x), float(np.exp(-end))))
+    p.connect(0, 1)
+    with pytest.raises(slalom.InvalidValue, match="perhaps 'k'"):
+        p.share("kk")
+    p.share("k")
+    p.mayer("misfit", sum((value - measured)**2 for value, measured in ends))
+    with pytest.raises(slalom.InvalidValue, match="twice"):
+        p.mayer("misfit", ends[0][0])
+    s = p.solve(mesh=8)
+    assert s.solved and s.objective < 1e-9
+    assert s.cost_terms["misfit"] == pytest.approx(s.objective)
+    assert [s[n].static_parameters["k"] for n in (0, 1)] == pytest.approx([1, 1], rel=1e-4)
+    p.mayer("speed", 0.01 * ends[0][0], maximise=True)  # beside it, a slower decay
+    slower = p.solve(mesh=8)
+    assert slower.objective == pytest.approx(sum(slower.cost_terms.values()))
+    assert slower.cost_terms["speed"] == pytest.approx(-0.01 * slower[0].state("x")[-1])
+    assert slower[1].static_parameters["k"] < 1 - 1e-3
+
+
 def test_gaps_of_connected_phases():
     p = slalom.PhasedProblem("stages")
     masses = []

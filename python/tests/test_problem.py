@@ -218,3 +218,29 @@ def test_ten_lines_of_the_readme():
     names = {}
     exec(code, names)
     assert names["s"].objective == pytest.approx(4, rel=1e-2)
+
+
+def test_rows_and_costs_at_moments():
+    p = slalom.Problem("pinned")
+    x, u = p.state("x", initial=1, final=0.75), p.control("u")
+    p.dynamics(x, u)
+    p.lagrange("cost", x**2 + u**2)
+    p.path("pin", x, equal=0.9, at=0.75)
+    s = p.solve(mesh=10, scheme="lgr")  # at whose nodes controls may jump
+    assert s.solved and len(s.mesh) == 12 and s(0.75)["x"] == pytest.approx(0.9)
+    assert s.objective == pytest.approx(0.9205314415, rel=1e-5)  # as in phases: slalom problems
+    warm = p.solve(mesh=10, scheme="lgr", warm_start=s)
+    assert warm.solved and warm.iterations < s.iterations
+    p.mayer("near", 5 * (x - 1) ** 2, at_share=0.25)
+    p.mayer("far", x, maximise=True, at=0.5)
+    p.breakpoint(0.33)
+    again = p.solve(mesh=10)
+    assert 0.33 in again.mesh and again.cost_terms["far"] == pytest.approx(-again(0.5)["x"])
+    assert again.cost_terms["near"] == pytest.approx(5 * (again(0.25)["x"] - 1) ** 2)
+    with pytest.raises(slalom.InvalidValue, match="both at and at_share"):
+        p.mayer("twice", x, at=0.1, at_share=0.1)
+    with pytest.raises(slalom.InvalidValue, match="no moment"):
+        p.breakpoint()
+    p.path("late", x, lower=0, at=7)
+    with pytest.raises(slalom.InvalidValue, match="late: found the time 7"):
+        p.solve()

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "op.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::expr {
@@ -54,8 +55,9 @@ Expr pick(const Expr& x, const Vector& begins, const std::vector<Expr>& list, st
 }
 
 /// The spline of these values and second derivatives at the knots.
-Expr assemble(const Expr& x, const Vector& knots, const std::vector<Expr>& values,
-              const std::vector<Expr>& m) {
+Expr assemble(const Expr& at_x, const Vector& knots, const std::vector<Expr>& values,
+              const std::vector<Expr>& m, Beyond beyond) {
+  const Expr x = beyond == Beyond::hold ? min(max(at_x, knots.front()), knots.back()) : at_x;
   const std::size_t last = knots.size() - 1;
   // Pieces: the line before the first knot, one from each knot on, the last a line again.
   Vector begins;
@@ -81,21 +83,26 @@ Expr assemble(const Expr& x, const Vector& knots, const std::vector<Expr>& value
     return pick(x, begins, list, 0, list.size() - 1);
   };
   const Expr d = x - chosen(at);
-  return chosen(value) + d * (chosen(slope) + d * (chosen(second) + d * chosen(third)));
+  const Expr spline =
+      chosen(value) + d * (chosen(slope) + d * (chosen(second) + d * chosen(third)));
+  if (beyond == Beyond::hold) return spline;
+  // Of one value either way, so that Function leaves it away: room_in_tables() knows a table by it.
+  return select(min(x - knots.front(), knots.back() - x), spline, spline);
 }
 
 }  // namespace
 
-Expr cubic_spline(const Expr& x, const Vector& knots, const Vector& values) {
+Expr cubic_spline(const Expr& x, const Vector& knots, const Vector& values, Beyond beyond) {
   check(knots, values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
       throw InvalidValue("spline", fmt::format("{} at knot {}", values[i], i), "finite numbers");
   const Vector m = curvatures(knots, values);
-  return assemble(x, knots, {values.begin(), values.end()}, {m.begin(), m.end()});
+  return assemble(x, knots, {values.begin(), values.end()}, {m.begin(), m.end()}, beyond);
 }
 
-Expr cubic_spline(const Expr& x, const Vector& knots, const std::vector<Expr>& values) {
+Expr cubic_spline(const Expr& x, const Vector& knots, const std::vector<Expr>& values,
+                  Beyond beyond) {
   check(knots, values.size());
   std::vector<Expr> m(knots.size(), Expr(0));  // linear in the values
   for (std::size_t j = 0; j < knots.size(); ++j) {
@@ -105,7 +112,15 @@ Expr cubic_spline(const Expr& x, const Vector& knots, const std::vector<Expr>& v
     for (std::size_t i = 0; i < knots.size(); ++i)
       if (effect[i] != 0) m[i] = m[i] + effect[i] * values[j];
   }
-  return assemble(x, knots, values, m);
+  return assemble(x, knots, values, m, beyond);
+}
+
+std::vector<Expr> room_in_tables(const std::vector<Expr>& outputs) {
+  std::vector<Expr> rooms;
+  for (const Node* node : topological_order(outputs))
+    if (node->op() == Op::select && node->args()[1].same(node->args()[2]))
+      rooms.push_back(node->args()[0]);
+  return rooms;
 }
 
 }  // namespace slalom::expr

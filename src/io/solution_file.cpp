@@ -130,6 +130,7 @@ Json solution_json(const ocp::Solution& solution) {
                                  {"values", json_table(solution.collocated_costates.values)}};
   json["multipliers"] = at_points_json(solution.multipliers);
   json["excesses"] = at_points_json(solution.excesses);
+  json["beyond_tables"] = pairs_json(solution.beyond_tables);
   return json;
 }
 
@@ -178,6 +179,8 @@ ocp::Solution read_one(const JsonReader& reader) {
               solution.collocated_costates.tau.size(), "the points in 'tau'");
   solution.multipliers = read_at_points<ocp::Multipliers>(reader.at("multipliers"));
   solution.excesses = read_at_points<ocp::Excesses>(reader.at("excesses"));
+  // Lacking in files of versions before.
+  if (reader.has("beyond_tables")) solution.beyond_tables = read_pairs(reader.at("beyond_tables"));
   return solution;
 }
 
@@ -196,6 +199,7 @@ std::string to_json(const ocp::PhasedSolution& solution) {
   json["format"] = kPhasedFormat;
   put_outcome(solution, json);
   json["link_multipliers"] = pairs_json(solution.link_multipliers);
+  json["cost_terms"] = pairs_json(solution.cost_terms);
   json["phases"] = Json::array();
   for (const auto& phase : solution.phases) json["phases"].push_back(solution_json(phase));
   return dump(json);
@@ -219,6 +223,8 @@ ocp::PhasedSolution read_phased_solution(const std::string& file) {
   ocp::PhasedSolution solution;
   read_outcome(reader, solution);
   solution.link_multipliers = read_pairs(reader.at("link_multipliers"));
+  // Files written before problems of several phases had cost terms of their own lack them.
+  if (reader.has("cost_terms")) solution.cost_terms = read_pairs(reader.at("cost_terms"));
   const JsonReader phases = reader.at("phases");
   for (std::size_t p = 0; p < phases.size(); ++p) solution.phases.push_back(read_one(phases.at(p)));
   return solution;

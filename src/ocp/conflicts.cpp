@@ -113,4 +113,32 @@ std::vector<Conflict> conflicts(const PhasedProblem& problem, const PhasedSoluti
   return result;
 }
 
+std::vector<HighIndex> high_index(const Problem& problem) {
+  const auto& states = problem.states();
+  const auto meets_control = [&](const std::vector<Expr>& symbols) {
+    return std::any_of(problem.controls().begin(), problem.controls().end(), [&](const auto& u) {
+      return std::any_of(symbols.begin(), symbols.end(),
+                         [&](const Expr& symbol) { return symbol.same(u.symbol); });
+    });
+  };
+  std::vector<HighIndex> list;
+  for (const auto& row : problem.constraints()) {
+    if (!row.enabled || row.soft || row.kind != Problem::Kind::path ||
+        row.bounds.lower != row.bounds.upper)
+      continue;
+    auto symbols = expr::symbols_of({row.value});
+    int index = 1;
+    while (!meets_control(symbols) && index <= static_cast<int>(states.size())) {
+      std::vector<Expr> rates;
+      for (const auto& state : states)
+        for (const Expr& symbol : symbols)
+          if (symbol.same(state.symbol)) rates.push_back(state.rate);
+      symbols = expr::symbols_of(rates);
+      ++index;
+    }
+    if (index >= 3 && meets_control(symbols)) list.push_back({row.name, index});
+  }
+  return list;
+}
+
 }  // namespace slalom::ocp

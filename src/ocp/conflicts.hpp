@@ -13,4 +13,7 @@ std::vector<Conflict> conflicts(const Problem& problem,
 /// The same of all phases and links.
 std::vector<Conflict> conflicts(const PhasedProblem& problem, const PhasedSolution& solution);
 
+/// Equations along the horizon of index 3 or more, by what their symbols' rates depend on.
+std::vector<HighIndex> high_index(const Problem& problem);
+
 }  // namespace slalom::ocp

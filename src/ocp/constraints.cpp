@@ -1,8 +1,13 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "between_points.hpp"
 #include "draft.hpp"
+#include "slalom/base/error.hpp"
+#include "slalom/ocp/moments.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -80,14 +85,16 @@ void add_ends(Draft& draft) {
     std::vector<std::size_t> rows;
     for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c) {
       const auto& row = draft.problem.constraints()[c];
-      if (absent(row, Problem::Kind::boundary) || draft.symbols.end_of(row.value, row.name) != end)
+      if (absent(row, Problem::Kind::boundary) || row.moment ||
+          draft.symbols.end_of(row.value, row.name) != end)
         continue;
       rows.push_back(c);
       outputs.push_back({row.name, row.value});
     }
     std::vector<std::size_t> terms;
     for (const auto& cost : draft.problem.costs())
-      if (cost.enabled && !cost.lagrange && draft.symbols.end_of(cost.value, cost.name) == end) {
+      if (cost.enabled && !cost.lagrange && !cost.moment &&
+          draft.symbols.end_of(cost.value, cost.name) == end) {
         terms.push_back(draft.term_index(cost.name));
         outputs.push_back({cost.name, cost.value});
       }
@@ -100,6 +107,35 @@ void add_ends(Draft& draft) {
     for (std::size_t i = 0; i < terms.size(); ++i)
       draft.use(batch, rows.size() + i, 0, kNone, terms[i], 1);
   }
+}
+
+std::size_t point_at(const Draft& draft, const std::string& name, Moment moment) {
+  const double share = draft.problem.share_of(name, moment);
+  const auto& breaks = draft.mesh.breakpoints();
+  for (std::size_t k = 0; k < breaks.size(); ++k)
+    if (std::fabs(breaks[k] - share) <= kAtMoment) return draft.out.layout.node_point[k];
+  throw InvalidValue(draft.problem.name() + ": " + name,
+                     fmt::format("no node of the mesh at the share {} of the horizon", share),
+                     "a mesh that with_moments() made");
+}
+
+/// Rows and cost terms at a moment.
+void add_moments(Draft& draft) {
+  const auto batch_at = [&](const std::string& name, const Expr& value, std::size_t point) {
+    Lanes lanes;
+    lanes.points = {point};
+    return draft.add_batch({{name, value}}, lanes);
+  };
+  for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c) {
+    const auto& row = draft.problem.constraints()[c];
+    if (absent(row, Problem::Kind::boundary) || !row.moment) continue;
+    const std::size_t point = point_at(draft, row.name, *row.moment);
+    add_constraint(draft, batch_at(row.name, row.value, point), 0, 0, {row.name}, {c, 0, point});
+  }
+  for (const auto& cost : draft.problem.costs())
+    if (cost.enabled && cost.moment)
+      draft.use(batch_at(cost.name, cost.value, point_at(draft, cost.name, *cost.moment)), 0, 0,
+                kNone, draft.term_index(cost.name), 1);
 }
 
 /// What the excesses of a soft constraint cost.
@@ -160,6 +196,7 @@ void add_constraints(Draft& draft) {
   if (!outputs.empty()) use_paths(draft, draft.add_batches(outputs, Points::after_first), 0, paths);
   add_families(draft);
   add_ends(draft);
+  add_moments(draft);
   for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c)
     if (draft.problem.constraints()[c].soft &&
         !absent(draft.problem.constraints()[c], draft.problem.constraints()[c].kind))

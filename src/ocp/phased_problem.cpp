@@ -33,6 +33,41 @@ void PhasedProblem::link(const std::string& name, const Expr& value, Bounds boun
   links_.push_back({name, value, bounds});
 }
 
+void PhasedProblem::share(const std::string& static_parameter) {
+  const Problem* before = nullptr;
+  bool shared = false;
+  std::vector<std::string> known;
+  for (const auto& phase : phases_)
+    for (const auto& parameter : phase.static_parameters()) {
+      known.push_back(parameter.name);
+      if (parameter.name != static_parameter) continue;
+      if (before != nullptr) {
+        const auto& other = before->static_parameters();
+        const auto same = std::find_if(other.begin(), other.end(),
+                                       [&](const auto& p) { return p.name == static_parameter; });
+        link(fmt::format("{} of {} and {}", static_parameter, before->name(), phase.name()),
+             same->symbol - parameter.symbol);
+        shared = true;
+      }
+      before = &phase;
+    }
+  if (shared) return;
+  const auto nearest = nearest_name(static_parameter, known);
+  throw InvalidValue(
+      name_ + ": share",
+      before == nullptr ? "no static parameter '" + static_parameter + "'"
+                        : fmt::format("'{}' of {} alone", static_parameter, before->name()),
+      before != nullptr || nearest.empty() ? "the name of a static parameter of two phases or more"
+                                           : "perhaps '" + nearest + "'");
+}
+
+void PhasedProblem::mayer(const std::string& name, const Expr& term) {
+  for (const auto& known : costs_)
+    if (known.name == name)
+      throw InvalidValue(name_, "the cost term '" + name + "' twice", "names that differ");
+  costs_.push_back({name, term});
+}
+
 void PhasedProblem::replace(std::size_t number, Problem with) {
   const Problem& now = phase(number, "replace");
   if (with.name() != now.name() || !with.time().same(now.time()))

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "constant_rows.hpp"
+#include "links.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/expr/evaluator.hpp"
-#include "slalom/expr/function.hpp"
 
 namespace slalom::ocp {
 
@@ -21,84 +21,6 @@ namespace {
 std::uint32_t narrow(std::size_t n) {
   return static_cast<std::uint32_t>(n);
 }
-
-/// Where a phase's part of each list begins.
-struct Offsets {
-  std::size_t variables = 0, rows = 0, stages = 0, jacobian = 0, hessian = 0;
-};
-
-/// All links as one function of the ends' variables.
-class Links {
- public:
-  Links(const PhasedProblem& problem, const std::vector<std::unique_ptr<Transcription>>& parts,
-        const std::vector<Offsets>& offsets) {
-    std::vector<Expr> values, symbols;
-    for (const auto& link : problem.links()) values.push_back(link.value);
-    std::vector<char> touched(parts.size(), parts.size() == 1);
-    for (const auto& symbol : expr::symbols_of(values)) {
-      symbols.push_back(symbol);
-      const auto [p, at] = find(problem, parts, symbol);
-      touched[p] = 1;
-      variables_.push_back(offsets[p].variables + at);
-      scales_.push_back(parts[p]->structure().variable_scale[at]);
-    }
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (!touched[p])
-        throw InvalidValue(problem.name() + ": phase " + problem.phases()[p].name(), "no link",
-                           "a link with another phase");
-    function_ = expr::Function(symbols, {}, values);
-    evaluator_.emplace(function_, 1);
-    evaluator_->prepare({.values = true, .jacobian = true, .hessian = true});
-    inputs_.resize(symbols.size());
-    for (std::size_t i = 0; i < inputs_.size(); ++i) evaluator_->set_variable(i, &inputs_[i], true);
-  }
-
-  /// 1 over the largest slope of each link by a scaled variable, where these are at their units.
-  std::vector<double> row_scales() {
-    for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i] = scales_[i];
-    evaluator_->evaluate({.values = true, .jacobian = true});
-    std::vector<double> most(function_.outputs(), 0.0);
-    for (std::size_t e = 0; e < function_.jacobian_pattern().size(); ++e) {
-      const auto [row, col] = function_.jacobian_pattern()[e];
-      most[row] = std::max(most[row], std::fabs(evaluator_->jacobian()[e]) * scales_[col]);
-    }
-    for (double& scale : most) scale = std::isfinite(scale) && scale > 0 ? 1 / scale : 1;
-    return most;
-  }
-
-  const expr::Function& function() const { return function_; }
-  std::size_t variable(std::size_t i) const { return variables_[i]; }
-  double scale(std::size_t i) const { return scales_[i]; }
-
-  void evaluate(std::span<const double> x, std::span<const double> y, nlp::Parts parts) {
-    for (std::size_t i = 0; i < inputs_.size(); ++i) inputs_[i] = scales_[i] * x[variables_[i]];
-    if (parts.hessian) std::copy(y.begin(), y.end(), evaluator_->weights().begin());
-    evaluator_->evaluate({parts.values, parts.derivatives, parts.hessian});
-  }
-  const expr::Evaluator& results() const { return *evaluator_; }
-  std::vector<Expr> formulas(const std::vector<Expr>& variables) const {
-    std::vector<Expr> inputs;
-    for (std::size_t i = 0; i < inputs_.size(); ++i)
-      inputs.push_back(scales_[i] * variables[variables_[i]]);
-    return function_(inputs, {});
-  }
-
- private:
-  /// The phase that has the symbol, and its variable there.
-  static std::pair<std::size_t, std::size_t> find(
-      const PhasedProblem& problem, const std::vector<std::unique_ptr<Transcription>>& parts,
-      const Expr& symbol) {
-    for (std::size_t p = 0; p < parts.size(); ++p)
-      if (const auto variable = parts[p]->end_variable(symbol)) return {p, *variable};
-    throw InvalidValue(problem.name() + ": links", "the symbol '" + symbol.name() + "'",
-                       "end values, times, static parameters and integrals of its phases");
-  }
-
-  expr::Function function_;
-  std::optional<expr::Evaluator> evaluator_;
-  std::vector<std::size_t> variables_;
-  std::vector<double> scales_, inputs_;
-};
 
 }  // namespace
 
@@ -131,8 +53,10 @@ class PhasedTranscription::Impl {
       take_over(p, parts, out);
     }
     const auto links = y.empty() ? y : y.subspan(first_link);
-    for (std::size_t l = 0; l < links.size(); ++l) link_weights_[l] = links[l] * link_scale_[l];
-    links_->evaluate(x, link_weights_, parts);
+    for (std::size_t l = 0; l < links.size(); ++l) weights_[l] = links[l] * link_scale_[l];
+    std::fill(weights_.begin() + static_cast<std::ptrdiff_t>(link_scale_.size()), weights_.end(),
+              sigma);
+    links_->evaluate(x, weights_, parts);
     add_results(parts, out);
     return check_links(parts, out);
   }
@@ -144,6 +68,12 @@ class PhasedTranscription::Impl {
     for (std::size_t l = 0; l < link_scale_.size(); ++l)
       rows[first_link + l] = links_->results().values()[l] * link_scale_[l];
     return rows;
+  }
+
+  std::vector<double> cost_terms(std::span<const double> x) {
+    links_->evaluate(x, {}, {.values = true});
+    const auto values = links_->results().values();
+    return {values.begin() + static_cast<std::ptrdiff_t>(link_scale_.size()), values.end()};
   }
 
   std::span<const double> variables_of(std::size_t p, std::span<const double> x) const {
@@ -172,7 +102,10 @@ class PhasedTranscription::Impl {
       append(all.rows, formulas->rows);
       all.objective += formulas->objective;
     }
-    append(all.rows, links_->formulas(all.variables));
+    const auto own = links_->formulas(all.variables);
+    const auto costs = own.begin() + static_cast<std::ptrdiff_t>(link_scale_.size());
+    all.rows.insert(all.rows.end(), own.begin(), costs);
+    all.objective = std::accumulate(costs, own.end(), all.objective);
     return all;
   }
 
@@ -231,10 +164,12 @@ class PhasedTranscription::Impl {
   void add_links() {
     const expr::Function& f = links_->function();
     link_scale_ = links_->row_scales();
-    link_weights_.resize(link_scale_.size());
+    weights_.resize(f.outputs());
+    link_scale_.resize(problem_.links().size());
     structure.rows = first_link + problem_.links().size();
     std::vector<std::size_t> stage(problem_.links().size(), structure.stages);
     for (const auto& entry : f.jacobian_pattern()) {
+      if (entry.row >= stage.size()) continue;  // of a cost term
       const std::size_t variable = links_->variable(entry.col);
       stage[entry.row] =
           std::min<std::size_t>(stage[entry.row], structure.variable_stage[variable]);
@@ -296,15 +231,23 @@ class PhasedTranscription::Impl {
   void add_results(nlp::Parts parts, nlp::Evaluation& out) const {
     const expr::Evaluator& at = links_->results();
     const expr::Function& f = links_->function();
-    if (parts.values)
-      for (std::size_t l = 0; l < link_scale_.size(); ++l)
+    const std::size_t links = link_scale_.size();
+    if (parts.values) {
+      for (std::size_t l = 0; l < links; ++l)
         out.rows[first_link + l] = at.values()[l] * link_scale_[l];
-    if (parts.derivatives)
+      for (std::size_t c = links; c < f.outputs(); ++c) out.objective += at.values()[c];
+    }
+    if (parts.derivatives) {
+      std::size_t next = links_jacobian_;
       for (std::size_t e = 0; e < f.jacobian_pattern().size(); ++e) {
         const auto [row, col] = f.jacobian_pattern()[e];
-        out.jacobian[links_jacobian_ + e] =
-            at.jacobian()[e] * links_->scale(col) * link_scale_[row];
+        const double slope = at.jacobian()[e] * links_->scale(col);
+        if (row < links)
+          out.jacobian[next++] = slope * link_scale_[row];
+        else
+          out.gradient[links_->variable(col)] += slope;
       }
+    }
     if (parts.hessian)
       for (std::size_t e = 0; e < f.hessian_pattern().size(); ++e) {
         const auto& entry = f.hessian_pattern()[e];
@@ -313,9 +256,14 @@ class PhasedTranscription::Impl {
       }
   }
   nlp::Fault check_links(nlp::Parts parts, const nlp::Evaluation& out) const {
-    if (parts.values)
+    if (parts.values) {
       for (std::size_t r = first_link; r < structure.rows; ++r)
         if (!std::isfinite(out.rows[r])) return {"link " + row_name(r), "the phases' ends", ""};
+      const auto values = links_->results().values();
+      for (std::size_t c = 0; c < problem_.costs().size(); ++c)
+        if (!std::isfinite(values[link_scale_.size() + c]))
+          return {"cost " + problem_.costs()[c].name, "the phases' ends", ""};
+    }
     if (parts.derivatives)
       for (std::size_t e = links_jacobian_; e < out.jacobian.size(); ++e)
         if (!std::isfinite(out.jacobian[e]))
@@ -332,7 +280,8 @@ class PhasedTranscription::Impl {
 
   std::vector<Offsets> offsets_;
   std::optional<Links> links_;
-  std::vector<double> link_scale_, link_weights_;
+  std::vector<double> link_scale_;
+  std::vector<double> weights_;             ///< of the links, then of the cost terms
   std::size_t links_jacobian_ = 0;          ///< first entry of the links' Jacobian
   std::vector<std::size_t> links_hessian_;  ///< place of each entry of the links' Hessian
   std::vector<nlp::Evaluation> at_;         ///< of each phase
@@ -359,6 +308,9 @@ nlp::Start PhasedTranscription::part_of(std::size_t phase, const nlp::Start& poi
 }
 std::size_t PhasedTranscription::first_link() const {
   return impl_->first_link;
+}
+std::vector<double> PhasedTranscription::cost_terms(std::span<const double> x) {
+  return impl_->cost_terms(x);
 }
 const nlp::Structure& PhasedTranscription::structure() const {
   return impl_->structure;

@@ -4,6 +4,7 @@
 
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
+#include "slalom/ocp/moments.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "solved.hpp"
 
@@ -31,7 +32,7 @@ void copy_scales(const Problem& from, Problem& to) {
 class Prepared::Impl {
  public:
   Impl(const Problem& problem, const SolveSettings& settings)
-      : grid_{settings.mesh, settings.scheme},
+      : given_{settings.mesh, settings.scheme},
         options_(settings.options),
         guess_(settings.guess),
         solver_(nlp::make_solver(settings.backend)) {
@@ -64,13 +65,14 @@ class Prepared::Impl {
 
  private:
   void transcribe(const Problem& problem) {
+    grid_ = with_moments(problem, given_);
     Problem scaled = with_scales(problem, begin(problem, grid_, guess_, nullptr).guess);
     transcription_ = std::make_unique<Transcription>(scaled, grid_.mesh, grid_.schemes);
     problem_ = std::move(scaled);
   }
 
   Problem problem_{""};
-  PhasedTranscription::Grid grid_;
+  PhasedTranscription::Grid given_, grid_;  ///< grid_ with the problem's moments
   nlp::Options options_;
   Trajectory guess_;
   std::unique_ptr<nlp::Solver> solver_;

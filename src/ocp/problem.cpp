@@ -73,14 +73,24 @@ Problem::Problem(std::string name)
       t0_(Expr::symbol("t0")),
       tf_(Expr::symbol("tf")),
       t0_variable_{t0_, "t0", Bounds::equal(0), kAutomaticScale, 0},
-      tf_variable_{tf_, "tf", Bounds::equal(1), kAutomaticScale, 1},
-      names_{"time", "tau", "t0", "tf"} {}
+      tf_variable_{tf_, "tf", Bounds::equal(1), kAutomaticScale, 1} {}
 
 void Problem::claim_name(const std::string& name) {
   if (name.empty()) throw InvalidValue(name_, "an empty name", "a name");
+  for (const char* time : {"t", "time", "tau", "t0", "tf"})
+    if (name == time)
+      throw InvalidValue(name_, "the name '" + name + "'",
+                         "another, for it stands for a time in guesses and answers");
   if (std::find(names_.begin(), names_.end(), name) != names_.end())
     throw InvalidValue(name_, "the name '" + name + "' twice", "names that differ");
   names_.push_back(name);
+}
+
+void Problem::claim_cost_name(const std::string& name) const {
+  if (name.empty()) throw InvalidValue(name_, "an empty name", "a name");
+  for (const auto& cost : costs_)
+    if (cost.name == name)
+      throw InvalidValue(name_, "the cost term '" + name + "' twice", "names that differ");
 }
 
 Expr Problem::state(const std::string& name, Bounds bounds, double scale) {
@@ -185,12 +195,12 @@ void Problem::dynamics(const Expr& state, const Expr& rate) {
 }
 
 void Problem::mayer(const std::string& name, const Expr& term) {
-  claim_name(name);
+  claim_cost_name(name);
   costs_.push_back({name, term, false, true});
 }
 
 void Problem::lagrange(const std::string& name, const Expr& integrand) {
-  claim_name(name);
+  claim_cost_name(name);
   costs_.push_back({name, integrand, true, true});
 }
 
@@ -200,6 +210,49 @@ ConstraintId Problem::path(const std::string& name, const Expr& value, Bounds bo
   check_row(name_ + ": path " + name, bounds);
   constraints_.push_back({name, Kind::path, value, bounds, points, true, {}, {}, {}, {}});
   return {constraints_.size() - 1};
+}
+
+void Problem::cost_at(const std::string& name, const Expr& term, Moment moment) {
+  claim_cost_name(name);
+  costs_.push_back({name, term, false, true, moment});
+}
+
+ConstraintId Problem::path_at(const std::string& name, const Expr& value, Moment moment,
+                              Bounds bounds) {
+  claim_name(name);
+  check_row(name_ + ": path " + name, bounds);
+  constraints_.push_back({name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}, {}});
+  constraints_.back().moment = moment;
+  return {constraints_.size() - 1};
+}
+
+double Problem::share_of(const std::string& what, Moment moment) const {
+  const std::string where = name_ + ": " + what;
+  if (moment.is_share) {
+    if (!(moment.value >= 0 && moment.value <= 1))
+      throw InvalidValue(where, fmt::format("the share {} of the horizon", moment.value),
+                         "one from 0 to 1");
+    return moment.value;
+  }
+  const Bounds &t0 = t0_variable_.bounds, &tf = tf_variable_.bounds;
+  if (t0.lower != t0.upper || tf.lower != tf.upper)
+    throw InvalidValue(where, fmt::format("the time {} where t0 or tf is free", moment.value),
+                       "a share of the horizon, or fixed ends");
+  if (!(moment.value >= t0.lower && moment.value <= tf.lower && t0.lower < tf.lower))
+    throw InvalidValue(where, fmt::format("the time {}", moment.value),
+                       fmt::format("one from t0 = {} to tf = {}", t0.lower, tf.lower));
+  return (moment.value - t0.lower) / (tf.lower - t0.lower);
+}
+
+std::vector<double> Problem::moments() const {
+  std::vector<double> shares;
+  for (const auto& cost : costs_)
+    if (cost.enabled && cost.moment) shares.push_back(share_of(cost.name, *cost.moment));
+  for (const auto& row : constraints_)
+    if (row.enabled && row.moment) shares.push_back(share_of(row.name, *row.moment));
+  for (const Moment& moment : breakpoints_) shares.push_back(share_of("breakpoint", moment));
+  std::sort(shares.begin(), shares.end());
+  return shares;
 }
 
 ConstraintId Problem::boundary(const std::string& name, const Expr& value, Bounds bounds) {

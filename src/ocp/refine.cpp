@@ -20,10 +20,6 @@ constexpr double kObjectiveTolerance = 10;
 /// What an interval's errors are at least for their share of that to mean anything.
 constexpr double kSolversError = 1e-10;
 
-bool has_degrees(const Scheme& scheme) {
-  return scheme.name == "lgr" || scheme.name == "lgr_differential" || scheme.name == "lgl";
-}
-
 /// The n of lgr(n) and the like.
 int points_of(const Scheme& scheme) {
   return static_cast<int>(scheme.points.size()) - (scheme.name == "lgl" ? 0 : 1);
@@ -46,9 +42,9 @@ void check(const std::string& problem, const RefineRules& rules,
   for (const auto& grid : grids) {
     grid.schemes.check(grid.mesh);
     for (std::size_t k = 0; k < grid.mesh.intervals() && rules.refinement == Refinement::hp; ++k)
-      if (!has_degrees(grid.schemes.of(k)))
+      if (!has_choice_of_points(grid.schemes.of(k).name))
         throw InvalidValue(where + "hp", "the scheme " + grid.schemes.of(k).name,
-                           "lgr, lgr_differential or lgl, which have degrees");
+                           "lgr, lgr_differential, lgr_flipped or lgl, which have degrees");
   }
 }
 

@@ -73,17 +73,20 @@ namespace {
 
 /// x_i - x_0 - h times the integral, up to point i, of the rates' interpolant through the points
 /// from `first` to `last`; for every point but the first.
-Scheme integrated(std::string name, int order, std::vector<double> points, std::size_t last) {
+Scheme integrated(std::string name, int order, std::vector<double> points, std::size_t first,
+                  std::size_t last) {
   const std::size_t size = points.size();
-  const Interpolation rates(
-      std::vector<double>(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(last + 1)));
+  const auto at = [&](std::size_t i) { return points.begin() + static_cast<std::ptrdiff_t>(i); };
+  const Interpolation rates(std::vector<double>(at(first), at(last + 1)));
   Scheme scheme{std::move(name), order, std::move(points), {}, {}, {}};
   for (std::size_t i = 1; i < size; ++i) {
     auto& state = scheme.state.emplace_back(size, 0.0);
     state[0] = -1;
     state[i] = 1;
-    scheme.rate.push_back(rates.integrals(0, scheme.points[i]));
-    scheme.rate.back().resize(size, 0.0);
+    const auto integrals = rates.integrals(0, scheme.points[i]);
+    auto& rate = scheme.rate.emplace_back(size, 0.0);
+    std::copy(integrals.begin(), integrals.end(),
+              rate.begin() + static_cast<std::ptrdiff_t>(first));
   }
   scheme.weight = scheme.rate.back();
   return scheme;
@@ -105,7 +108,14 @@ std::vector<double> radau_points(int n) {
 
 Scheme lgr(int n) {
   auto points = radau_points(n);
-  return integrated("lgr", 2 * n - 1, std::move(points), static_cast<std::size_t>(n) - 1);
+  return integrated("lgr", 2 * n - 1, std::move(points), 0, static_cast<std::size_t>(n) - 1);
+}
+
+Scheme lgr_flipped(int n) {
+  const auto radau = radau_points(n);
+  std::vector<double> points{0};
+  for (std::size_t i = radau.size() - 1; i-- > 0;) points.push_back(1 - radau[i]);
+  return integrated("lgr_flipped", 2 * n - 1, std::move(points), 1, static_cast<std::size_t>(n));
 }
 
 Scheme lgr_differential(int n) {
@@ -123,14 +133,23 @@ Scheme lgr_differential(int n) {
 Scheme lgl(int n) {
   auto points = to_unit(legendre_gauss_lobatto(n).points);
   const std::size_t last = points.size() - 1;
-  return integrated("lgl", 2 * n - 2, std::move(points), last);
+  return integrated("lgl", 2 * n - 2, std::move(points), 0, last);
 }
 
 const std::vector<std::string>& scheme_names() {
-  static const std::vector<std::string> names = {
-      "backward_euler",   "trapezoidal", "hermite_simpson", "hermite_simpson_compressed", "lgr",
-      "lgr_differential", "lgl"};
+  static const std::vector<std::string> names = {"backward_euler",
+                                                 "trapezoidal",
+                                                 "hermite_simpson",
+                                                 "hermite_simpson_compressed",
+                                                 "lgr",
+                                                 "lgr_differential",
+                                                 "lgr_flipped",
+                                                 "lgl"};
   return names;
+}
+
+bool has_choice_of_points(const std::string& name) {
+  return name == "lgr" || name == "lgr_differential" || name == "lgr_flipped" || name == "lgl";
 }
 
 Scheme scheme(const std::string& name, int points) {
@@ -140,6 +159,7 @@ Scheme scheme(const std::string& name, int points) {
   if (name == "hermite_simpson_compressed") return hermite_simpson_compressed();
   if (name == "lgr") return lgr(points);
   if (name == "lgr_differential") return lgr_differential(points);
+  if (name == "lgr_flipped") return lgr_flipped(points);
   if (name == "lgl") return lgl(points);
   const std::string nearest = nearest_name(name, scheme_names());
   throw InvalidValue("scheme", "'" + name + "'",

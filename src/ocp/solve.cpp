@@ -8,6 +8,7 @@
 #include "moved.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
+#include "slalom/ocp/moments.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "solved.hpp"
@@ -92,10 +93,10 @@ void check_count(const PhasedProblem& problem, const char* what, const List& lis
 namespace {
 
 Solution solve_once(const Problem& problem, const SolveSettings& settings) {
-  const PhasedTranscription::Grid grid{settings.mesh, settings.scheme};
+  const auto grid = with_moments(problem, {settings.mesh, settings.scheme});
   const Beginning beginning = begin(problem, grid, settings.guess, settings.previous);
   const Problem scaled = with_scales(problem, beginning.guess);
-  Transcription transcription(scaled, settings.mesh, settings.scheme);
+  Transcription transcription(scaled, grid.mesh, grid.schemes);
   const bool warm = settings.previous == nullptr && !settings.warm_start.x.empty();
   const nlp::Start start = warm ? from_user(settings.warm_start, transcription.structure())
                                 : start_of(transcription, beginning);
@@ -118,6 +119,7 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
   std::vector<Beginning> beginnings;
   PhasedProblem scaled = problem;
   for (std::size_t p = 0; p < phases && p < grids.size(); ++p) {
+    grids[p] = with_moments(problem.phases()[p], grids[p]);
     beginnings.push_back(begin(problem.phases()[p], grids[p],
                                settings.guesses.empty() ? Trajectory{} : settings.guesses[p],
                                previous == nullptr ? nullptr : &previous->phases[p]));
@@ -157,6 +159,9 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
     const std::size_t row = transcription.first_link() + l;
     solution.link_multipliers.emplace_back(problem.links()[l].name, point.y[row] * row_scale[row]);
   }
+  const auto costs = transcription.cost_terms(point.x);
+  for (std::size_t c = 0; c < costs.size(); ++c)
+    solution.cost_terms.emplace_back(problem.costs()[c].name, costs[c]);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
   return solution;
 }

@@ -3,6 +3,7 @@
 #include "conflicts.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/interpolant.hpp"
+#include "slalom/ocp/values.hpp"
 
 namespace slalom::ocp {
 
@@ -31,6 +32,8 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
   solution.control_names = names_of(problem.controls());
   solution.static_parameter_names = names_of(problem.static_parameters());
   solution.slack_names = names_of(problem.slacks());
+  if (solution.status != nlp::Status::solved) solution.high_index = high_index(problem);
+  solution.beyond_tables = beyond_tables(problem, solution);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(problem, solution.multipliers);
 }
 

@@ -49,6 +49,9 @@ void check_same(const Problem& before, const Problem& now) {
     if (!same_soft(before.constraints()[i].soft, now.constraints()[i].soft))
       throw InvalidValue(before.name(), now.constraints()[i].name + " softened otherwise",
                          "the norm and tolerance that were transcribed; else a new transcription");
+  if (now.moments() != before.moments())
+    throw InvalidValue(before.name(), "another moment of a row or a cost term",
+                       "those that were transcribed; else a new transcription");
   check_switch(before.constraints(), now.constraints());
   check_switch(before.costs(), now.costs());
 }

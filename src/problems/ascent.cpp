@@ -142,7 +142,7 @@ Statement delta_three() {
     mass = end - burn.dropped;
   }
   for (std::size_t k = 0; k + 1 < kBurns.size(); ++k)
-    all.connect(k, k + 1, {.jumps = {{"m", -kBurns[k].dropped}}});
+    all.connect(k, k + 1, {.without = {}, .jumps = {{"m", -kBurns[k].dropped}}});
   return {all, guesses};
 }
 

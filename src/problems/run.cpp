@@ -5,15 +5,10 @@
 namespace slalom::problems {
 namespace {
 
-/// Schemes of any degree, for which refinement is hp.
-bool has_degrees(const std::string& scheme) {
-  return scheme == "lgr" || scheme == "lgr_differential" || scheme == "lgl";
-}
-
 /// Of several points an interval, fewer intervals do.
 int first_intervals(const Entry& entry, const RunSettings& settings) {
   if (settings.intervals != 0) return settings.intervals;
-  return has_degrees(settings.scheme) ? (entry.intervals + 1) / 2 : entry.intervals;
+  return ocp::has_choice_of_points(settings.scheme) ? (entry.intervals + 1) / 2 : entry.intervals;
 }
 
 ocp::RefineRules rules_of(const Entry& entry, const RunSettings& settings) {
@@ -21,7 +16,7 @@ ocp::RefineRules rules_of(const Entry& entry, const RunSettings& settings) {
   rules.tolerance = settings.tolerance != 0 ? settings.tolerance : entry.refinement;
   rules.resolve_controls = entry.resolve_controls;
   if (!settings.refined) rules.max_meshes = 1;
-  if (has_degrees(settings.scheme)) rules.refinement = ocp::Refinement::hp;
+  if (ocp::has_choice_of_points(settings.scheme)) rules.refinement = ocp::Refinement::hp;
   return rules;
 }
 

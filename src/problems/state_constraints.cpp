@@ -20,12 +20,12 @@ Statement bryson_denham() {
 
 Statement beam() {
   Problem p("beam");
-  const Expr x = p.state("x", {-0.05, 0.05}), t = p.state("t", {-1, 1}), u = p.control("u");
-  p.dynamics(x, sin(t));
-  p.dynamics(t, u);
-  p.lagrange("energy", square(u) + 350 * cos(t));
+  const Expr x = p.state("x", {-0.05, 0.05}), angle = p.state("angle", {-1, 1}), u = p.control("u");
+  p.dynamics(x, sin(angle));
+  p.dynamics(angle, u);
+  p.lagrange("energy", square(u) + 350 * cos(angle));
   fixed(p, x, 0, 0);
-  fixed(p, t, 0, 0);
+  fixed(p, angle, 0, 0);
   return {p,
           {{0,
             1,

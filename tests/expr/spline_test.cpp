@@ -122,5 +122,40 @@ TEST(Splines, OfExpressionsAreThoseOfTheirNumbers) {
   EXPECT_THROW((void)cubic_spline(x, {1, 2}, std::vector<Expr>{x}), InvalidValue);
 }
 
+TEST(Spline, HoldsBeyondItsEndsWhereAskedTo) {
+  const Expr x = Expr::symbol("x");
+  const Function f({x}, {},
+                   {cubic_spline(x, {0, 1, 3}, std::vector{1.0, 2.0, -1.0}, Beyond::hold)});
+  const auto at = [&f](double number) {
+    double value = 0, slope = 0;
+    f.evaluate(1, {&number, 1}, {}, {}, {.values = true, .jacobian = true}, {&value, 1},
+               {&slope, 1}, {});
+    return std::pair(value, slope);
+  };
+  EXPECT_EQ(at(-2), std::pair(1.0, 0.0));
+  EXPECT_DOUBLE_EQ(at(5).first, -1);
+  EXPECT_EQ(at(5).second, 0);
+  EXPECT_DOUBLE_EQ(at(1).first, 2);
+}
+
+TEST(Spline, TablesInAGraphSayHowMuchRoomTheyHave) {
+  const Expr x = Expr::symbol("x"), y = Expr::symbol("y");
+  const Expr one = cubic_spline(x * x, {1, 2}, std::vector{0.0, 1.0});
+  const Expr two = cubic_spline(one + y, {0, 4}, std::vector{0.0, 1.0});
+  const Expr held = cubic_spline(y, {0, 4}, std::vector{0.0, 1.0}, Beyond::hold);
+  const auto rooms = room_in_tables({sin(two) + one, select(x, y, 2 * y), held});
+  ASSERT_EQ(rooms.size(), 2u);
+  const Function room({x, y}, {}, rooms);
+  const auto at = [&room](double a, double b) {
+    std::vector<double> values(2);
+    room.evaluate(1, std::vector{a, b}, {}, {}, {.values = true}, values, {}, {});
+    return values;
+  };
+  EXPECT_EQ(at(2, 0), (std::vector{-2.0, 1.0}));  // x^2 = 4 and 3 + 0: beyond by 2, inside by 1
+  // What tells a table costs nothing: the function is that of the spline alone.
+  const Expr wave = sin(x);
+  EXPECT_EQ(simplified({select(x, wave, wave)}).front().node()->op(), Op::sin);
+}
+
 }  // namespace
 }  // namespace slalom::expr

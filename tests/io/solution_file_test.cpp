@@ -65,6 +65,7 @@ ocp::PhasedProblem two_phases() {
   both.add(first);
   both.add(second);
   both.connect(0, 1);
+  both.mayer("ends", square(first.states()[0].final_symbol));
   return both;
 }
 
@@ -146,6 +147,8 @@ TEST_F(SolutionFile, KeepsPhasesAndLinks) {
   EXPECT_EQ(to_json(again), to_json(solution));
   ASSERT_EQ(again.phases.size(), 2u);
   EXPECT_EQ(again.link_multipliers, solution.link_multipliers);
+  ASSERT_EQ(again.cost_terms.size(), 1u);
+  EXPECT_EQ(again.cost_terms, solution.cost_terms);
   EXPECT_TRUE(same_bits(again.phases[1].state("x"), solution.phases[1].state("x")));
   EXPECT_NE(refusal([&] { (void)read_solution(path("p.json")); })
                 .find("p.json: format: found 'slalom solution of phases 1', expected 'slalom "

@@ -159,5 +159,46 @@ TEST(DependentRows, ThatDynamicsAllButKeepAreNamed) {
   EXPECT_EQ(solution.conflicts.front().name, "norm");
 }
 
+/// A pendulum in Cartesian coordinates: its length is met by the tension in the second derivative.
+Problem pendulum(bool by_acceleration) {
+  Problem p("pendulum");
+  const Expr x = p.state("x"), y = p.state("y"), vx = p.state("vx"), vy = p.state("vy");
+  const Expr tension = p.control("tension"), push = p.control("push", {-5, 5});
+  p.dynamics(x, vx);
+  p.dynamics(y, vy);
+  p.dynamics(vx, -tension * x + push);
+  p.dynamics(vy, -tension * y - 9.81);
+  p.initial_bounds(x, Bounds::equal(0));
+  p.initial_bounds(y, Bounds::equal(-1));
+  p.initial_bounds(vx, Bounds::equal(0));
+  p.initial_bounds(vy, Bounds::equal(0));
+  p.final_bounds(x, Bounds::equal(0.5));
+  p.lagrange("effort", square(push));
+  if (by_acceleration)
+    p.path("length",
+           square(vx) + square(vy) + x * push - tension * (square(x) + square(y)) - 9.81 * y,
+           Bounds::equal(0));
+  else
+    p.path("length", square(x) + square(y), Bounds::equal(1));
+  return p;
+}
+
+TEST(HighIndex, IsSaidOfWhatIsNotSolvedByIt) {
+  nlp::Options few;
+  few.max_iterations = 5;
+  const Solution solution = solve(pendulum(false), {.options = few});
+  ASSERT_FALSE(solution.solved());
+  ASSERT_EQ(solution.high_index.size(), 1u);
+  EXPECT_EQ(solution.high_index[0].name, "length");
+  EXPECT_EQ(solution.high_index[0].index, 3);
+  // Stated as it advises, the same motion is found, and nothing is said.
+  const Solution stated = solve(pendulum(true));
+  ASSERT_TRUE(stated.solved()) << stated.residuals.worst_constraint;
+  EXPECT_TRUE(stated.high_index.empty());
+  const auto& end = stated.trajectory.states.back();
+  EXPECT_NEAR(end[0] * end[0] + end[1] * end[1], 1, 1e-4);
+  EXPECT_TRUE(solve(pendulum(true), {.options = few}).high_index.empty());
+}
+
 }  // namespace
 }  // namespace slalom::ocp

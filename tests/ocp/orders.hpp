@@ -100,8 +100,9 @@ inline std::string label(const Scheme& scheme) {
 inline std::vector<OrderRow> measure_orders() {
   std::vector<OrderRow> table;
   for (const auto& form : closed_forms())
-    for (const Scheme& scheme : {backward_euler(), trapezoidal(), lgr(2), lgr_differential(2),
-                                 hermite_simpson(), hermite_simpson_compressed(), lgr(3), lgl(4)})
+    for (const Scheme& scheme :
+         {backward_euler(), trapezoidal(), lgr(2), lgr_differential(2), lgr_flipped(2),
+          hermite_simpson(), hermite_simpson_compressed(), lgr(3), lgl(4)})
       for (const bool uniform : {true, false}) {
         std::vector<double> objective, states, costates;
         for (int n : kIntervals) {

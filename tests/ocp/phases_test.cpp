@@ -130,12 +130,60 @@ TEST(Phases, LinksMayBeNonlinearAndInequalities) {
   EXPECT_NEAR(solution.objective, 0.5, 1e-6);
 }
 
+TEST(Phases, ACostMayJoinWhatNoLinkDoes) {
+  // From 1 to where it costs least, three pieces apart: effort u^2 over 3 s and (x(0) - 2 x(3))^2.
+  PhasedProblem all("far apart");
+  for (int k = 0; k < 3; ++k) {
+    Problem p("piece " + std::to_string(k));
+    const Expr x = p.state("x"), u = p.control("u");
+    p.dynamics(x, u);
+    p.lagrange("effort", square(u));
+    p.initial_time(Bounds::equal(k), k);
+    p.final_time(Bounds::equal(k + 1), k + 1);
+    if (k == 0) p.initial_bounds(x, Bounds::equal(1));
+    all.add(p);
+  }
+  all.connect(0, 1);
+  all.connect(1, 2);
+  const auto& phases = all.phases();
+  all.mayer("ends",
+            square(phases[0].states()[0].initial_symbol - 2 * phases[2].states()[0].final_symbol));
+  const PhasedSolution solution = solve(all);
+  ASSERT_TRUE(solution.solved()) << solution.residuals.worst_constraint;
+  // With x(3) = 1 + d: d^2 / 3 + (1 + 2 d)^2 is least at d = -6 / 13, and 1 / 13 there.
+  EXPECT_NEAR(solution.phases[2].state("x").back(), 7.0 / 13, 1e-6);
+  EXPECT_NEAR(solution.objective, 1.0 / 13, 1e-8);
+  ASSERT_EQ(solution.cost_terms.size(), 1u);
+  EXPECT_NEAR(solution.cost_terms[0].second, 1.0 / 169, 1e-6);
+}
+
+TEST(Phases, ASharedConstantIsOneAndTheSame) {
+  PhasedProblem both("shared");
+  for (int k = 0; k < 3; ++k) {
+    Problem p("p" + std::to_string(k));
+    const Expr x = p.state("x"), speed = p.static_parameter("speed", {-10, 10}, 1);
+    p.dynamics(x, speed);
+    p.lagrange("off", square(x - k));
+    p.initial_bounds(x, Bounds::equal(0));
+    both.add(p);
+  }
+  EXPECT_NE(refusal([&] { both.share("sped"); }).find("perhaps 'speed'"), std::string::npos);
+  both.share("speed");
+  const PhasedSolution solution = solve(both);
+  ASSERT_TRUE(solution.solved()) << solution.residuals.worst_constraint;
+  // The integrals of (c t - k)^2 over k = 0, 1, 2 are c^2 - 3 c + 5 together: least at c = 3 / 2.
+  for (const auto& phase : solution.phases) EXPECT_NEAR(phase.static_parameter("speed"), 1.5, 1e-6);
+  EXPECT_NEAR(solution.objective, 2.75, 1e-6);
+}
+
 TEST(Phases, DerivativesOfLinksMatchDifferences) {
   PhasedProblem problem = cut_regulator(3);
   const auto& phases = problem.phases();
   problem.link("odd", sin(phases[0].states()[0].final_symbol * phases[2].states()[0].final_symbol),
                {-2, 2});
   problem.link("same phase", square(phases[1].states()[0].final_symbol), {-2, 9});
+  problem.mayer("far apart",
+                sin(phases[0].states()[0].initial_symbol * phases[2].states()[0].final_symbol));
   PhasedTranscription t(problem, {{Mesh::uniform(2)}, {Mesh::uniform(3)}, {Mesh::uniform(1)}});
   const auto& shape = t.structure();
   std::vector<double> x(shape.variables), y(shape.rows);
@@ -206,8 +254,8 @@ TEST(Phases, ErrorsSayWhatAndTheRule) {
   EXPECT_EQ(refusal([&] {
               PhasedTranscription(both, {{}, {}});
             }),
-            "both: links: found the symbol 'x', expected end values, times, static parameters and "
-            "integrals of its phases");
+            "both: links and cost terms: found the symbol 'x', expected end values, times, static "
+            "parameters and integrals of its phases");
   Problem other("other");
   (void)other.state("z");
   PhasedProblem strangers("strangers");

@@ -37,8 +37,14 @@ TEST(ProblemErrors, Names) {
   EXPECT_EQ(refusal([&] { line.problem.parameter("x", 1); }), twice);
   EXPECT_EQ(refusal([&] { line.problem.slack("x", End::final, {}); }), twice);
   EXPECT_EQ(refusal([&] { line.problem.static_parameter("x", {}, 0); }), twice);
-  EXPECT_EQ(refusal([&] { line.problem.mayer("x", line.x); }), twice);
-  EXPECT_EQ(refusal([&] { line.problem.lagrange("x", line.x); }), twice);
+  // Cost terms have names of their own.
+  line.problem.mayer("x", line.x);
+  const std::string again = "line: found the cost term 'x' twice, expected names that differ";
+  EXPECT_EQ(refusal([&] { line.problem.mayer("x", line.x); }), again);
+  EXPECT_EQ(refusal([&] { line.problem.lagrange("x", line.x); }), again);
+  EXPECT_EQ(refusal([&] { line.problem.state("t"); }),
+            "line: found the name 't', expected another, for it stands for a time in guesses and "
+            "answers");
   EXPECT_EQ(refusal([&] { line.problem.path("x", line.x, {}); }), twice);
   EXPECT_EQ(refusal([&] { line.problem.boundary("x", line.x, {}); }), twice);
   EXPECT_EQ(refusal([&] { line.problem.path_family("x", {}, line.x, {}); }), twice);

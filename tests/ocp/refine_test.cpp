@@ -107,7 +107,7 @@ TEST(Refinement, RefusesSettingsThatCannotBe) {
   RefineRules rules{.refinement = Refinement::hp};
   EXPECT_EQ(refusal([&] { (void)refine(form.problem, {}, rules); }),
             "linear regulator: refinement: hp: found the scheme hermite_simpson, expected lgr, "
-            "lgr_differential or lgl, which have degrees");
+            "lgr_differential, lgr_flipped or lgl, which have degrees");
   rules = {};
   rules.tolerance = std::nan("");
   EXPECT_EQ(refusal([&] { (void)refine(form.problem, {}, rules); }),

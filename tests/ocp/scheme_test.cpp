@@ -53,6 +53,7 @@ std::vector<Scheme> all_schemes() {
   for (const int n : {1, 2, 3, 5, 30}) {
     list.push_back(lgr(n));
     list.push_back(lgr_differential(n));
+    list.push_back(lgr_flipped(n));
     if (n > 1) list.push_back(lgl(n));
   }
   return list;
@@ -125,8 +126,18 @@ TEST(Scheme, LobattoOfTwoAndThreePointsAreTheOldOnes) {
     EXPECT_NEAR(simpson.rate[1][j], hermite_simpson().rate[1][j], 1e-15);
 }
 
+TEST(Scheme, FlippedRadauOfOnePointIsBackwardEulerAndOfMoreTheMirrorImage) {
+  EXPECT_EQ(lgr_flipped(1).rate, backward_euler().rate);
+  const Scheme ahead = lgr(4), back = lgr_flipped(4);
+  for (std::size_t j = 0; j < 5; ++j) EXPECT_NEAR(back.points[j], 1 - ahead.points[4 - j], 1e-15);
+  EXPECT_FALSE(back.collocates(0));
+  EXPECT_TRUE(back.collocates(4));
+}
+
 TEST(Scheme, ByName) {
   for (const auto& name : scheme_names()) EXPECT_EQ(scheme(name, 3).name, name);
+  for (const auto& name : scheme_names())
+    EXPECT_EQ(has_choice_of_points(name), scheme(name, 3).points != scheme(name, 4).points) << name;
   EXPECT_EQ(scheme("lgl", 7).points.size(), 7u);
   EXPECT_EQ(refusal([] { (void)scheme("trapezodial"); }),
             "scheme: found 'trapezodial', expected perhaps 'trapezoidal'");

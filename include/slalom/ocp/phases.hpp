@@ -15,7 +15,8 @@
 namespace slalom::ocp {
 
 /// Several phases, each an optimal-control problem with states, controls, times and parameters of
-/// its own, and the links between their ends. The objective is the sum of the phases' objectives.
+/// its own, and the links between their ends. The objective is the sum of the phases' objectives
+/// and of cost terms of its own.
 /// All set-up errors are exceptions that name the phase and the offending item.
 class PhasedProblem {
  public:
@@ -28,6 +29,12 @@ class PhasedProblem {
   /// A constraint between phases: an expression of initial(), final(), initial_time(),
   /// final_time(), static parameters and integrals of any of them.
   void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));
+  /// Makes the static parameter of that name one and the same in all phases that have one. Throws
+  /// InvalidValue unless at least two phases have it.
+  void share(const std::string& static_parameter);
+  /// A cost term of what link() may use, of any of the phases; the objective is the sum of the
+  /// phases' objectives and of these.
+  void mayer(const std::string& name, const Expr& term);
   /// What connect() does not make continuous.
   struct Gaps {
     std::vector<std::string> without;  ///< states left alone; "time" too may stand here
@@ -47,6 +54,7 @@ class PhasedProblem {
   const std::string& name() const { return name_; }
   const std::vector<Problem>& phases() const { return phases_; }
   const std::vector<Link>& links() const { return links_; }
+  const std::vector<Problem::CostTerm>& costs() const { return costs_; }
 
  private:
   const Problem& phase(std::size_t number, const char* what) const;
@@ -54,6 +62,7 @@ class PhasedProblem {
   std::string name_;
   std::vector<Problem> phases_;
   std::vector<Link> links_;
+  std::vector<Problem::CostTerm> costs_;
 };
 
 /// A phased problem made into one stage-structured NLP. The phases' stages follow one after the
@@ -77,6 +86,8 @@ class PhasedTranscription final : public nlp::Problem {
   nlp::Start part_of(std::size_t phase, const nlp::Start& point) const;
   /// First row of the links, in their order.
   std::size_t first_link() const;
+  /// The problem's own cost terms at a point, in their order.
+  std::vector<double> cost_terms(std::span<const double> x);
 
   const nlp::Structure& structure() const override;
   const nlp::Limits& limits() const override;

@@ -35,6 +35,16 @@ enum class Points { all, after_first };
 /// The end of the horizon at which a slack lives.
 enum class End { initial, final };
 
+/// A moment within the horizon: a time, which needs fixed ends of the horizon, or a share of it.
+struct Moment {
+  double value = 0;
+  bool is_share = false;
+
+  static Moment time(double t) { return {t, false}; }
+  static Moment share(double tau) { return {tau, true}; }  ///< 0 at t0, 1 at tf
+  bool operator==(const Moment&) const = default;
+};
+
 /// How a control runs within an interval of the mesh.
 enum class ControlForm {
   scheme,    ///< as the scheme's polynomial through the collocated points
@@ -119,6 +129,12 @@ class Problem {
   /// mayer may use.
   ConstraintId path(const std::string& name, const Expr& value, Bounds bounds,
                     Points points = Points::all);
+  /// A cost term at one moment, of what path() may use; every mesh gets a node there.
+  void cost_at(const std::string& name, const Expr& term, Moment moment);
+  /// A constraint at one moment, of what path() may use; every mesh gets a node there.
+  ConstraintId path_at(const std::string& name, const Expr& value, Moment moment, Bounds bounds);
+  /// Puts a node of every mesh at a moment, such as one at which the dynamics step.
+  void breakpoint(Moment moment) { breakpoints_.push_back(moment); }
   /// A constraint on an expression of what mayer may use.
   ConstraintId boundary(const std::string& name, const Expr& value, Bounds bounds);
 
@@ -193,6 +209,7 @@ class Problem {
     Expr value;
     bool lagrange = false;
     bool enabled = true;
+    std::optional<Moment> moment = std::nullopt;  ///< of cost_at
   };
   enum class Kind { path, boundary, family };
   struct Constraint {
@@ -207,6 +224,7 @@ class Problem {
     std::vector<std::vector<double>> member_values;
     std::optional<Soft> soft;
     double scale = kAutomaticScale;
+    std::optional<Moment> moment = std::nullopt;  ///< of path_at, whose kind is `boundary`
 
     double unit() const { return scale != kAutomaticScale ? scale : 1; }
   };
@@ -220,11 +238,19 @@ class Problem {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<CostTerm>& costs() const { return costs_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
+  /// The shares of the horizon at which rows and cost terms that are switched on, and breakpoints,
+  /// want a node, rising. Throws InvalidValue for a moment outside the horizon, and for a time
+  /// where an end of the horizon is free.
+  std::vector<double> moments() const;
+  /// The share of one of them.
+  double share_of(const std::string& what, Moment moment) const;
   const Variable& t0() const { return t0_variable_; }
   const Variable& tf() const { return tf_variable_; }
 
  private:
+  /// Throws InvalidValue where the name is not free; cost terms have names of their own.
   void claim_name(const std::string& name);
+  void claim_cost_name(const std::string& name) const;
   std::size_t state_index(const Expr& state, const char* what) const;
   Constraint& constraint(ConstraintId id);
 
@@ -239,6 +265,7 @@ class Problem {
   std::vector<Parameter> parameters_;
   std::vector<CostTerm> costs_;
   std::vector<Constraint> constraints_;
+  std::vector<Moment> breakpoints_;
   std::vector<std::string> names_;
 };
 

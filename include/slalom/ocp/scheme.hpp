@@ -63,6 +63,10 @@ Scheme lgr(int n);
 /// The same points and polynomial in differentiation form: sum_j D_ij x_j - h f_i (ibid., section
 /// 4.1).
 Scheme lgr_differential(int n);
+/// Flipped Radau points, which include the interval's end and not its begin, in integration form
+/// (Radau IIA; Hairer & Wanner 1996, section IV.5). The end of the horizon is collocated, its begin
+/// is not; n = 1 is backward Euler. Order 2 n - 1.
+Scheme lgr_flipped(int n);
 /// Legendre-Gauss-Lobatto collocation at n >= 2 points, which include both ends, in integration
 /// form (Lobatto IIIA; Hairer, Norsett & Wanner 1993, section II.7). Order 2 n - 2; n = 2 is the
 /// trapezoidal rule, n = 3 Hermite-Simpson's.
@@ -70,7 +74,9 @@ Scheme lgl(int n);
 
 /// The names scheme() knows.
 const std::vector<std::string>& scheme_names();
-/// By name; `points` is for lgr, lgr_differential and lgl. Throws InvalidValue for another name,
+/// Whether the scheme of that name has any number of points.
+bool has_choice_of_points(const std::string& name);
+/// By name; `points` is for those that have a choice. Throws InvalidValue for another name,
 /// naming the nearest.
 Scheme scheme(const std::string& name, int points = 4);
 

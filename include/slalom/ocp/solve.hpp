@@ -23,6 +23,12 @@ struct Conflict {
   double change = 0;  ///< of its bound [its unit]: > 0 upwards, < 0 downwards, 0 not known
 };
 
+/// An equation along the horizon that controls meet in a derivative alone.
+struct HighIndex {
+  std::string name;  ///< of the constraint
+  int index = 3;  ///< 1 more than that derivative's order, as of a differential-algebraic equation
+};
+
 /// How to solve a problem; the defaults suit a smooth one.
 struct SolveSettings {
   Mesh mesh = Mesh::uniform(40);
@@ -51,10 +57,17 @@ struct Solution {
   CollocatedCostates collocated_costates;
   std::vector<Multipliers> multipliers;  ///< of constraints and bounds, by name
   std::vector<Excesses> excesses;        ///< of soft constraints, by name
-  nlp::Residuals residuals;              ///< recomputed from the point; names the worst constraint
+  /// Where a table (expr::cubic_spline) goes on as a line beyond its knots: the term, such as
+  /// "dynamics of v", and how far beyond at most [unit of the table's x].
+  std::vector<std::pair<std::string, double>> beyond_tables;
+  nlp::Residuals residuals;  ///< recomputed from the point; names the worst constraint
   /// Of an infeasible problem or one with too few freedoms, as interior_point finds them: what
   /// stands against each other, first what would have to give least in its own scale.
   std::vector<Conflict> conflicts;
+  /// Of an answer that is not solved: what Newton's method can seldom solve as it stands. Hold the
+  /// derivative that a control meets instead, and the equation and its lower derivatives at t0
+  /// (Gear & Petzold, SIAM J. Numer. Anal. 21, 1984).
+  std::vector<HighIndex> high_index;
   nlp::Options options;  ///< those it was solved with
   std::string backend;   ///< the one that solved it, with its factorisation
   nlp::Start point;      ///< of the NLP, for warm starts
@@ -105,6 +118,8 @@ struct PhasedSolution {
   nlp::Fault fault;
   double objective = 0;
   std::vector<Solution> phases;  ///< each with its own share of the objective
+  std::vector<std::pair<std::string, double>>
+      cost_terms;  ///< of the problem itself, not of a phase
   /// For each link: the change of J* per change of its bounds, with the sign of nlp::Start.
   std::vector<std::pair<std::string, double>> link_multipliers;
   nlp::Residuals residuals;

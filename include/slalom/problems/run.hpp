@@ -11,7 +11,7 @@ namespace slalom::problems {
 /// How to solve a problem of the library.
 struct RunSettings {
   std::string scheme = "hermite_simpson";  ///< one of ocp::scheme_names()
-  int points = 4;                          ///< of lgr, lgr_differential and lgl
+  int points = 4;                          ///< of schemes that have a choice
   int intervals = 0;         ///< of the first mesh, of each phase; 0: the problem's own number
   double tolerance = 0;      ///< of the refinement; 0: the problem's own
   bool refined = true;       ///< false: only the first mesh is solved
