@@ -1,4 +1,5 @@
 #include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/moments.hpp"
 #include "slalom/ocp/starts.hpp"
 
 #include <map>

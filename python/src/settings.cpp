@@ -5,6 +5,7 @@
 
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
+#include "slalom/ocp/moments.hpp"
 
 namespace slalom::python {
 namespace {

@@ -2,6 +2,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "binding.hpp"
@@ -89,7 +90,13 @@ Simulated simulate(const Problem& problem, const nb::object& x0, const nb::objec
   check_at_most(steps, 1'000'000, problem.name() + ": simulate: steps");
   Simulated result;
   result.problem = std::make_shared<const Problem>(problem);
-  result.answer = ocp::simulate(problem, begin_of(problem, x0), controls_of(problem, controls),
+  Controls driven = controls_of(problem, controls);
+  Released released;  // looked at with the interpreter's lock held, which laws in Python need
+  driven.law = [law = driven.law, &released](double t, std::span<const double> x) {
+    if (released.interrupted()) released.raise_if_interrupted();
+    return law(t, x);
+  };
+  result.answer = ocp::simulate(problem, begin_of(problem, x0), driven,
                                 {.t0 = t0, .tf = tf, .steps = steps, .tolerance = tolerance});
   return result;
 }

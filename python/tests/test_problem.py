@@ -189,6 +189,18 @@ def test_interrupt_stops_a_solve():
     assert time.monotonic() - started < 60
 
 
+def test_interrupt_stops_a_simulation():
+    p = slalom.Problem("fast")
+    x, v = p.state("x"), p.state("v")
+    p.dynamics(x, v)
+    p.dynamics(v, -1e12 * x)
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        p.simulate([1, 0], {}, tf=1000, steps=1)
+    assert time.monotonic() - started < 30
+
+
 def test_other_threads_run_during_a_solve():
     p = bryson_denham()
     solver = threading.Thread(target=lambda: p.solve(mesh=8000))

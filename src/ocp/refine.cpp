@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "slalom/base/error.hpp"
@@ -15,6 +16,8 @@ namespace {
 /// Most pieces that one refinement cuts an interval into: errors far from the asymptotic regime
 /// tell little.
 constexpr int kMostPieces = 5;
+/// Points that take off less than this factor of an interval's error are in vain.
+constexpr double kLeastFall = 4;
 /// Times the tolerance: what all errors together may make of the objective, relative to it.
 constexpr double kObjectiveTolerance = 10;
 /// What an interval's errors are at least for their share of that to mean anything.
@@ -73,6 +76,38 @@ Fate raise(const Scheme& scheme, double excess, const RefineRules& rules) {
           ocp::scheme(scheme.name, rules.min_points)};
 }
 
+/// What one phase's meshes so far tell of its intervals.
+class History {
+ public:
+  /// Whether something in an interval steps or bends, which no polynomial follows: more points took
+  /// little off its error, or did so in an interval around it (Liu, Hager & Rao, J. Franklin Inst.
+  /// 352(10), 2015).
+  bool bends(double begin, double end, int points, double error) {
+    for (const auto& [from, to] : bent_)
+      if (from <= begin && end <= to) return true;
+    const auto at = last_.find({begin, end});
+    if (at == last_.end() || at->second.points >= points || error <= at->second.error / kLeastFall)
+      return false;
+    bent_.emplace_back(begin, end);
+    return true;
+  }
+  /// To be called when the next mesh is known.
+  void note(const Solution& solution, const ErrorEstimate& errors) {
+    last_.clear();
+    const auto& breaks = solution.mesh.breakpoints();
+    for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+      last_[{breaks[k], breaks[k + 1]}] = {points_of(solution.scheme.of(k)), errors.interval[k]};
+  }
+
+ private:
+  struct Interval {
+    int points = 0;
+    double error = 0;
+  };
+  std::map<std::pair<double, double>, Interval> last_;
+  std::vector<std::pair<double, double>> bent_;
+};
+
 /// A control's error falls as h^2 (unresolved_controls).
 Fate cut_for_control(const Scheme& scheme, double excess) {
   const double pieces = std::ceil(std::sqrt(excess));
@@ -113,7 +148,7 @@ class Shares {
 
 PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimate& errors,
                                     const Shares& shares, const std::vector<double>& unresolved,
-                                    const RefineRules& rules) {
+                                    History& history, const RefineRules& rules) {
   const auto& breaks = solution.mesh.breakpoints();
   std::vector<double> next{0};
   std::vector<Scheme> schemes;
@@ -125,7 +160,9 @@ PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimat
             ? cut_for_control(scheme, std::max(excess, unresolved[k] / rules.tolerance))
         : excess <= 1                       ? Fate{1, scheme}
         : rules.refinement == Refinement::h ? cut(scheme, excess)
-                                            : raise(scheme, excess, rules);
+        : history.bends(breaks[k], breaks[k + 1], points_of(scheme), errors.interval[k])
+            ? Fate{kMostPieces, ocp::scheme(scheme.name, rules.min_points)}
+            : raise(scheme, excess, rules);
     for (int piece = 1; piece <= fate.pieces; ++piece) {
       const double share = static_cast<double>(piece) / fate.pieces;
       next.push_back(piece == fate.pieces ? breaks[k + 1]
@@ -272,6 +309,7 @@ template <class Solves>
 RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answer& answer,
                  std::vector<ErrorEstimate>& errors, std::vector<MeshRecord>& meshes) {
   check(solves.name(), rules, solves.grids());
+  std::vector<History> histories(solves.grids().size());
   for (int mesh = 1;; ++mesh) {
     auto now = solves.solve();
     if (mesh > 1 && !now.solved()) now = solves.solve_anew();
@@ -293,7 +331,8 @@ RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answe
     std::size_t size = 0;
     const auto phases = Solves::phases(answer);
     for (std::size_t p = 0; p < phases.size(); ++p) {
-      grids.push_back(next_grid(*phases[p], errors[p], shares, unresolved[p], rules));
+      grids.push_back(next_grid(*phases[p], errors[p], shares, unresolved[p], histories[p], rules));
+      histories[p].note(*phases[p], errors[p]);
       size += points(grids.back());
     }
     if (size > static_cast<std::size_t>(rules.max_size)) return RefineStatus::size_limit;

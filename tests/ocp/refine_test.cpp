@@ -42,7 +42,8 @@ TEST(Refinement, ReachesTheToleranceByEverySchemeAndBothWays) {
   };
   for (const Scheme& scheme : {trapezoidal(), hermite_simpson(), lgr(2), lgl(3)})
     reach(scheme, Refinement::h);
-  for (const Scheme& scheme : {lgr(2), lgr_differential(2), lgl(3)}) reach(scheme, Refinement::hp);
+  for (const Scheme& scheme : {lgr(2), lgr_differential(2), lgr_flipped(2), lgl(3)})
+    reach(scheme, Refinement::hp);
 }
 
 TEST(Refinement, PutsPointsWhereTheSolutionIsFastAndStartsFromTheLastMesh) {
@@ -192,6 +193,32 @@ TEST(Refinement, LooksAtWhatErrorsMakeOfTheObjective) {
   EXPECT_GT(std::fabs(off), 0.1) << "though its states are accurate to";
   EXPECT_LT(estimate_errors(p, coarse).largest, 1e-4);
   EXPECT_NEAR(estimate_errors(p, coarse).objective, off, 0.1 * std::fabs(off));
+}
+
+/// A drag that steps where no mesh has a node: x' = -x, from t = 0.37 on -3 x, with an effort.
+Problem stepping(bool declared) {
+  Problem p("stepping");
+  const Expr x = p.state("x"), u = p.control("u");
+  p.dynamics(x, u - select(p.time() - 0.37, 3 * x, x));
+  p.lagrange("cost", square(x - 1) + 0.1 * square(u));
+  p.initial_bounds(x, Bounds::equal(1));
+  if (declared) p.breakpoint(Moment::time(0.37));
+  return p;
+}
+
+TEST(Refinement, RaisesNoDegreesAtAStepInVain) {
+  const RefineRules rules{.tolerance = 1e-5, .refinement = Refinement::hp, .max_meshes = 30};
+  const SolveSettings start{.mesh = Mesh::uniform(4), .scheme = lgr(3)};
+  const Refined found = refine(stepping(false), start, rules);
+  EXPECT_EQ(found.status, RefineStatus::converged) << found.table();
+  EXPECT_LE(found.meshes.size(), 9u) << found.table();
+  EXPECT_LE(found.meshes.back().points, 120u);
+  // The node is seen by the interval before it alone, with the value from before the step.
+  const SolveSettings flipped{.mesh = Mesh::uniform(4), .scheme = lgr_flipped(3)};
+  const Refined declared = refine(stepping(true), flipped, rules);
+  EXPECT_EQ(declared.status, RefineStatus::converged);
+  EXPECT_LE(declared.meshes.size(), 2u) << declared.table();
+  EXPECT_NEAR(found.solution.objective, declared.solution.objective, 1e-5);
 }
 
 }  // namespace
