@@ -216,9 +216,9 @@
       drives.forEach((drive, i) => this.showPlan(i, drive.cycleAt(t)));
     }
 
-    /** A curve's value at t; none after its drive's end. */
+    /** A curve's value at t; none when its drive is over. */
     valueOf({ drive, times, values }, t) {
-      if (t > drive.end + 1e-9) return null;
+      if (drive.overAt(t)) return null;
       const at = slalom.sampleAt({ t: times, v: values }, t);
       return at && at.v;
     }

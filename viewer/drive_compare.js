@@ -26,14 +26,16 @@
     const { format } = drives[0].data;
     const element = new DOMParser().parseFromString(text, 'text/html').getElementById('drive-data');
     if (!element) throw new Error(`found no drive, ${EXPECTED}`);
+    const damaged = new Error(`found a drive that is damaged, ${EXPECTED}`);
     let data;
     try {
       data = JSON.parse(element.textContent);
     } catch {
-      throw new Error(`found a drive that is damaged, ${EXPECTED}`);
+      throw damaged;
     }
     if (Array.isArray(data)) throw new Error(`found ${data.length} drives, expected the page of one`);
     if (data.format !== format) throw new Error(`format: found ${data.format ? `"${data.format}"` : 'none'}, expected "${format}"`);
+    if (!data.plant?.t) throw damaged;
     if (!data.plant.t.length) throw new Error('found a drive in which nothing was driven');
     return data;
   }

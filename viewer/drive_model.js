@@ -85,8 +85,14 @@
       return sampleAt(this.data.plant, t);
     }
 
-    /** The cycle whose plan is being driven at t, or null while the vehicle goes straight on. */
+    /** Whether the drive is over at t: that of the other goes on. */
+    overAt(t) {
+      return t > this.end + 1e-9;
+    }
+
+    /** The cycle whose plan is being driven at t; null while the vehicle goes straight on, and when the drive is over. */
     cycleAt(t) {
+      if (this.overAt(t)) return null;
       const i = lastAtOrBefore(this.takeover, t + 1e-9);
       return i < 0 ? null : this.driven[i];
     }

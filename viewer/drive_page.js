@@ -10,7 +10,7 @@
   const speed = document.getElementById('speed');
   let playing = false;
   let last = 0;
-  let shownCycles = [];
+  let shownStates = [];
 
   function setTime(t) {
     slalom.now = Math.min(Math.max(t, span.start), span.end);
@@ -47,13 +47,14 @@
   /** What the plans being driven are. */
   function showCycles() {
     const cycles = drives.map((drive) => drive.cycleAt(slalom.now));
-    if (cycles.length === shownCycles.length && cycles.every((cycle, i) => cycle === shownCycles[i])) return;
-    shownCycles = cycles;
+    const states = drives.map((drive, i) => drive.overAt(slalom.now) || cycles[i]);
+    if (states.length === shownStates.length && states.every((state, i) => state === shownStates[i])) return;
+    shownStates = states;
     const words = new Set(cycles.map(ghostWords));
     document.getElementById('ghost-words').textContent = words.size === 1 ? [...words][0] : ghostWords(null);
     document.getElementById('cycle').innerHTML = drives.map((drive, i) => {
       const head = drives.length > 1 ? `<h3><i class="swatch drive" style="background:var(--${drive.colour})"></i>${drive.letter} ${escape(drive.name)}</h3>` : '';
-      return `<div>${head}${cycleWords(cycles[i])}</div>`;
+      return `<div>${head}${drive.overAt(slalom.now) ? `<p class="sub">${escape(drive.data.outcome_words)}: the drive is over.</p>` : cycleWords(cycles[i])}</div>`;
     }).join('');
   }
 
@@ -168,7 +169,7 @@
   function refresh() {
     slider.min = String(span.start);
     slider.max = String(Math.max(span.end, span.start + 1e-9));
-    shownCycles = [];
+    shownStates = [];
     compare.show();
     stage.survey();
     showMarks();

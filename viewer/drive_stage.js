@@ -11,7 +11,7 @@
   /** A course that is wider than it is high has a stage that is, too, above the charts. */
   const WIDE = 1.3;
   /** Of the stage's sides, the share that two vehicles may be apart in. */
-  const APART = 0.6;
+  const APART = 0.35;
   const colour = {};
   /** What everything is drawn with; x() and y() go from metres to pixels. */
   const view = {
@@ -43,7 +43,7 @@
     camera.scale = Math.min(view.width / (box.x1 - box.x0), (view.height - 60) / (box.y1 - box.y0)) * 0.96;
   }
 
-  /** Looks a little ahead of the vehicle, so that the plan is in view; as much as both sides allow. Two stay in view. */
+  /** Looks a little ahead of the vehicle, so that the plan is in view; as much as both sides allow. Two that drive stay in view. */
   function follow(samples) {
     if (!samples.length) return fitCourse();
     const { width, height } = view;
@@ -63,7 +63,7 @@
     if (layers.path) slalom.drawPath(view, drive, t);
   };
   const over = (drive, cycle, sample, t) => {
-    if (cycle && layers.plan && t <= drive.end + 1e-9) slalom.drawPlan(view, drive, cycle);
+    if (cycle && layers.plan) slalom.drawPlan(view, drive, cycle);
     if (!sample) return;
     slalom.drawVehicle(view, drive, sample);
     if (drive.data.outcome !== 'goal' && t > drive.end - 1e-9) slalom.drawEnd(view, drive, sample);
@@ -72,7 +72,7 @@
   function draw(t) {
     now = t;
     const at = drives.map((drive) => ({ drive, sample: drive.sampleAt(t), cycle: drive.cycleAt(t) }));
-    if (camera.mode === 'follow') follow(at.map((one) => one.sample).filter(Boolean));
+    if (camera.mode === 'follow') follow(at.filter((one) => one.sample && !one.drive.overAt(t)).map((one) => one.sample));
     if (camera.mode === 'course') fitCourse();
     course.ground(view);
     course.goals(view);

@@ -35,7 +35,7 @@ constexpr int kTimeDigits = 6;
 
 // What a page carries at the most, so that one of an hour's drive opens at once: samples of the
 // plant, nodes of all plans together, and cycles with the terms of their cost.
-constexpr std::size_t kMostSamples = 12'000, kMostNodes = 24'000, kMostTerms = 2'000;
+constexpr std::size_t kMostSamples = 11'000, kMostNodes = 24'000, kMostTerms = 2'000;
 
 /// Which of `count` entries are kept of at most `most`: evenly, the first and last among them.
 std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
