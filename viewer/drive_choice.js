@@ -54,11 +54,10 @@
     refresh();
     toAddress();
   });
-  // A click beside an open menu closes it.
-  document.addEventListener('pointerdown', (event) => {
-    const details = menu.closest('details');
-    if (!details.contains(event.target)) details.open = false;
-  });
+  // A click beside an open menu closes it, as Escape does.
+  const details = menu.closest('details');
+  document.addEventListener('pointerdown', (event) => { if (!details.contains(event.target)) details.open = false; });
+  document.addEventListener('keydown', (event) => { if (event.key === 'Escape') details.open = false; });
 
   slalom.choice = { timeInAddress, fromAddress, refresh };
 })(window.slalom = window.slalom || {});

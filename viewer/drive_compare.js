@@ -85,11 +85,12 @@
   function showHead() {
     const differing = differences();
     const names = drives.map((drive) => escape(drive.name));
+    const marks = drives.flatMap((drive) => drive.data.marks.map((mark) => `<p class="mark">${key(drive)}: ${escape(mark.text)}</p>`));
     document.title = `${drives.map((drive) => drive.name).join(' · ')} · compared`;
     document.querySelector('.top').innerHTML = `<div class="name both"><p class="kicker">Slalom · two drives compared</p>
       <h1>${names[0]} <span class="with">and</span> ${names[1]}</h1></div>
       ${differing.length ? `<p class="mark both" id="differing">The scenarios differ: ${escape(differing.join('; '))}</p>` : ''}
-      <div class="both scroll">${table()}</div>`;
+      <div class="both scroll">${table()}</div>${marks.join('')}`;
   }
 
   function showSettings() {

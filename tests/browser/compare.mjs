@@ -62,6 +62,9 @@ describe('the page of two drives', () => {
       assert.equal((await lookAt(page, ['vermilion'])).vermilion.count, 0);
       assert.deepEqual(new Set(await page.evaluate(() => window.slalom.course.scene().obstacles.map((o) => o.ink))), new Set(['muted']));
       assert.match(await textOf(page, '.settings'), /planner\.w_t/);
+      const marks = [['A', a], ['B', b]].flatMap(([letter, s]) => s.marks.map((m) => `${letter}: ${m.text}`));
+      assert.ok(marks.length > 0);
+      assert.deepEqual(await page.$$eval('.top .mark', (all) => all.map((m) => m.textContent)), marks);
       assert.equal((await page.$$('#cycle h3')).length, 2);
       await page.screenshot({ path: join(out, 'compare-same.png'), fullPage: true });
       assert.deepEqual(complaints, []);
@@ -99,17 +102,22 @@ describe('the page of two drives', () => {
     }
   });
 
-  test('fits a narrow screen', async () => {
-    const browser = await openBrowser({ width: 600, height: 900 });
-    try {
-      const { page, complaints } = await browser.open(compared('compare-same', otherDir, driveDir));
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-      assert.ok(wide <= 0, `${wide} pixels too wide`);
-      assert.deepEqual(complaints, []);
-    } finally {
-      await browser.close();
-    }
-  });
+  for (const [width, height] of [[1280, 720], [600, 900]]) {
+    test(`fits a screen of ${width} pixels`, async () => {
+      const browser = await openBrowser({ width, height });
+      try {
+        const { page, complaints } = await browser.open(compared('compare-same', otherDir, driveDir), '#t=3');
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.ok(wide <= 0, `${wide} pixels too wide`);
+        const over = await page.$$eval('figcaption', (all) => all.filter((c) => c.scrollWidth > c.clientWidth).map((c) => c.textContent));
+        assert.deepEqual(over, []);
+        await page.screenshot({ path: join(out, `compare-${width}.png`) });
+        assert.deepEqual(complaints, []);
+      } finally {
+        await browser.close();
+      }
+    });
+  }
 });
 
 describe('a page dropped onto that of a drive', () => {

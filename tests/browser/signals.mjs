@@ -45,6 +45,10 @@ describe('the signals of a drive', () => {
     assert.equal(await hashOf(page), '#t=2');
     await page.mouse.click(5, 5);
     assert.ok(!(await page.isVisible('#signals')), 'a click beside the menu closes it');
+    await page.click('.choose summary');
+    assert.ok(await page.isVisible('#signals'));
+    await page.keyboard.press('Escape');
+    assert.ok(!(await page.isVisible('#signals')), 'Escape closes it');
   }));
 
   test('are all on offer, each with its unit, and all can be drawn', () => on(join(verifiedDir, 'report.html'), '#t=8', async (page) => {
