@@ -2,26 +2,26 @@
 (function (slalom) {
   'use strict';
 
-  const { data, start, end, number } = slalom;
+  const { drives, span, number, signals, offset, offsetText } = slalom;
   const SVG = 'http://www.w3.org/2000/svg';
   const margin = { left: 42, right: 8, top: 6, bottom: 18 };
-  const deg = 180 / Math.PI;
   const charts = [];
   let onSeek = () => {};
   /** The stretch of time that the charts show [s]. */
-  const shown = { from: start, to: end };
+  const shown = { from: span.start, to: span.end };
   const SHORTEST = 0.1;
 
   const length = () => Math.max(shown.to - shown.from, 1e-9);
 
   /** Zooms all charts about a time, no further than the drive. */
   function zoomTime(factor, about) {
+    const { start, end } = span;
     const long = Math.min(Math.max(length() * factor, Math.min(SHORTEST, end - start)), end - start);
     const share = (about - shown.from) / length();
     shown.from = Math.min(Math.max(about - share * long, start), end - long);
     shown.to = shown.from + long;
     layout();
-    moveTo(slalom.now || start);
+    moveTo(slalom.now);
   }
 
   function element(name, attributes, parent) {
@@ -31,42 +31,12 @@
     return node;
   }
 
-  const scaled = (values, factor) => values.map((v) => (v === null ? null : v * factor));
-  const cubic = (c, u) => ((c[0] * u + c[1]) * u + c[2]) * u + c[3];
-
-  /** What is drawn: one entry a chart. `planned` names a column of the plan with its factor. */
-  function specifications() {
-    const p = data.plant;
-    const v = data.vehicle;
-    const limit = (value, label, hard, side) => ({ value, label, hard, side });
-    return [
-      { what: 'Speed', symbol: 'ux', unit: 'm/s', digits: 2, series: [{ label: '', values: p.ux, colour: '--blue' }],
-        limits: [limit(v.ux_max, 'bound')], planned: ['ux', 1] },
-      { what: 'Acceleration', symbol: 'ax', unit: 'm/s²', digits: 2, series: [{ label: '', values: p.ax, colour: '--blue' }],
-        limits: [{ values: p.ux.map((u) => cubic(v.ax_max, u)), label: 'limits at this speed' },
-          { values: p.ux.map((u) => cubic(v.ax_min, u)) }], planned: ['ax', 1] },
-      { what: 'Steering angle', symbol: 'sa', unit: '°, left positive', digits: 2, series: [{ label: '', values: scaled(p.sa, deg), colour: '--blue' }],
-        limits: [limit(v.sa_max * deg, 'bound'), limit(-v.sa_max * deg)], zero: true, planned: ['sa', deg] },
-      { what: 'Steering rate', symbol: 'sr', unit: '°/s', digits: 2, series: [{ label: '', values: scaled(p.sr, deg), colour: '--blue' }],
-        limits: [limit(v.sr_max * deg, 'bound'), limit(-v.sr_max * deg)], zero: true, planned: ['sr', deg] },
-      { what: 'Wheel loads', unit: 'kN', digits: 1, floor: 0,
-        series: [['rl', '--blue', 'RL'], ['rr', '--vermilion', 'RR'], ['fl', '--green', 'FL'], ['fr', '--purple', 'FR']]
-          .map(([key, colour, label]) => ({ label, values: scaled(p['Fz_' + key], 1e-3), colour })),
-        limits: [limit(v.Fz_min / 1000, number(v.Fz_min, 0) + ' N, least in a plan'),
-          limit(data.loop.Fz_failure / 1000, number(data.loop.Fz_failure, 0) + ' N, failure', true, 'left')] },
-      { what: 'Clearance', unit: 'm beyond the crash edge', digits: 2, top: 20,
-        series: [{ label: '', values: p.clearance, colour: '--blue' }],
-        limits: [limit(0, 'crash', true)] },
-      { what: 'Solve time', unit: 's, each cycle', digits: 3, bars: true, wide: true },
-    ];
-  }
-
   /** Least and greatest of what is drawn, widened to whole ticks. */
-  function domain(spec) {
+  function domain(spec, curves, limits) {
     let lo = Infinity;
     let hi = -Infinity;
-    for (const s of spec.series) {
-      for (const v of s.values) {
+    for (const { values } of curves) {
+      for (const v of values) {
         if (v === null || !Number.isFinite(v)) continue;
         lo = Math.min(lo, v);
         hi = Math.max(hi, v);
@@ -76,7 +46,7 @@
     if (spec.top !== undefined) hi = Math.max(Math.min(hi, spec.top), Math.min(lo, spec.top) + 1);
     if (spec.floor !== undefined) lo = Math.min(lo, spec.floor);
     if (spec.zero) { lo = Math.min(lo, 0); hi = Math.max(hi, 0); }
-    for (const l of spec.limits) {
+    for (const l of limits) {
       // A limit that is near what was driven comes into the picture; a far one stays outside.
       const values = l.values || [l.value];
       const span = Math.max(hi - lo, 1e-3);
@@ -85,17 +55,23 @@
         if (v < lo && lo - v < 0.6 * span) lo = v;
       }
     }
-    const pad = Math.max((hi - lo) * 0.06, 1e-3 * Math.max(Math.abs(hi), 1e-3));
+    const pad = Math.max((hi - lo) * 0.06, 1e-3 * Math.min(Math.max(Math.abs(hi), 1e-3), 1e3));
     return [spec.floor !== undefined && lo === spec.floor ? lo : lo - pad, hi + pad];
   }
 
   class Chart {
     constructor(spec, parent) {
       this.spec = spec;
+      this.what = (drives.length > 1 && spec.comparedWhat) || spec.what;
+      this.curves = signals.curves(spec);
+      this.limits = signals.limits(spec);
+      this.prepare();
+      this.offset = this.log ? 0 : offset(...this.range);
       this.figure = document.createElement('figure');
-      this.figure.className = 'chart card' + (spec.wide ? ' wide' : '');
+      this.figure.className = 'chart card';
+      const unit = `${spec.unit}${this.offset ? ', ' + offsetText(this.offset) : ''}`;
       const caption = document.createElement('figcaption');
-      caption.innerHTML = `<span class="what">${spec.what}${spec.symbol ? ` <span class="unit">${spec.symbol}</span>` : ''} <span class="unit">[${spec.unit}]</span></span><span class="values"></span>`;
+      caption.innerHTML = `<span class="what">${this.what}${spec.symbol ? ` <span class="unit">${spec.symbol}</span>` : ''} <span class="unit">[${unit}]</span></span><span class="values"></span>`;
       this.figure.appendChild(caption);
       this.values = caption.querySelector('.values');
       this.svg = element('svg', { role: 'img', 'aria-label': this.describe() }, null);
@@ -105,13 +81,13 @@
     }
 
     describe() {
-      const { spec } = this;
-      if (spec.bars) return `${spec.what} of each planning cycle beside the execution horizon of ${data.loop.tex} s`;
-      const all = spec.series.flatMap((s) => s.values).filter((v) => v !== null);
-      if (!all.length) return `${spec.what} over time, empty`;
+      const { spec, what } = this;
+      if (spec.bars) return `${what} of each planning cycle beside the execution horizon of ${drives[0].data.loop.tex} s`;
+      const all = this.curves.flatMap((s) => s.values).filter((v) => v !== null);
+      if (!all.length) return `${what} over time, empty`;
       const lo = all.reduce((a, b) => Math.min(a, b));
       const hi = all.reduce((a, b) => Math.max(a, b));
-      return `${spec.what} over time, from ${number(lo, spec.digits)} to ${number(hi, spec.digits)} ${spec.unit}`;
+      return `${what} over time, from ${number(lo, spec.digits)} to ${number(hi, spec.digits)} ${spec.unit}`;
     }
 
     x(t) {
@@ -130,7 +106,7 @@
       this.height = Math.max(rect.height, 60);
       this.svg.setAttribute('viewBox', `0 0 ${this.width} ${this.height}`);
       this.svg.replaceChildren();
-      this.prepare();
+      this.shownPlans = [];
       this.axes();
       const id = 'clip-' + charts.indexOf(this);
       const clip = element('clipPath', { id }, element('defs', {}, this.svg));
@@ -141,19 +117,19 @@
       this.content();
       this.cursor = element('g', { class: 'cursor' }, this.svg);
       element('line', { y1: margin.top, y2: this.height - margin.bottom }, this.cursor);
-      this.dots = (this.spec.series || []).map((s) => element('circle', { r: 3.5, style: `fill:var(${s.colour})` }, this.cursor));
+      this.dots = (this.asBars ? [] : this.curves).map((s) => element('circle', { r: 3.5, style: `fill:var(${s.colour})` }, this.cursor));
     }
 
     prepare() {
       this.log = false;
-      this.range = domain(this.spec);
+      this.range = domain(this.spec, this.curves, this.limits);
     }
 
     axes() {
       const bottom = this.height - margin.bottom;
       const marks = this.yTicks();
       for (const v of marks) {
-        const y = Math.round(this.y(v)) + 0.5;
+        const y = Math.round(this.y(v + this.offset)) + 0.5;
         element('line', { class: 'grid', x1: margin.left, x2: this.width - margin.right, y1: y, y2: y }, this.svg);
         element('text', { x: margin.left - 6, y: y + 3.5, 'text-anchor': 'end' }, this.svg).textContent = this.tickText(v, marks);
       }
@@ -167,17 +143,22 @@
     }
 
     yTicks() {
-      return slalom.ticks(this.range[0], this.range[1], Math.max(Math.round(this.height / 38), 2));
+      return slalom.ticks(this.range[0] - this.offset, this.range[1] - this.offset, Math.max(Math.round(this.height / 38), 2));
     }
 
     tickText(v, marks) {
       return number(v, Math.max(0, -Math.floor(Math.log10(marks.step || 1) + 1e-9)));
     }
 
+    /** When each drive reached its goal, or ended otherwise. */
     events() {
-      const mark = (t, kind) => element('line', { class: 'event ' + kind, x1: this.x(t), x2: this.x(t), y1: margin.top, y2: this.height - margin.bottom }, this.plot);
-      if (data.goal_time !== null) mark(data.goal_time, 'goal');
-      if (data.outcome !== 'goal' && data.plant.t.length) mark(end, 'bad');
+      for (const drive of drives) {
+        const { data, end } = drive;
+        const mark = (t, usual) => element('line', { class: 'event', style: `stroke:var(--${drive.ink(usual)})`,
+          x1: this.x(t), x2: this.x(t), y1: margin.top, y2: this.height - margin.bottom }, this.plot);
+        if (data.goal_time !== null) mark(data.goal_time, 'green');
+        if (data.outcome !== 'goal' && data.plant.t.length) mark(end, 'vermilion');
+      }
     }
 
     path(times, values) {
@@ -192,16 +173,19 @@
     }
 
     content() {
-      const { spec } = this;
-      for (const l of spec.limits) {
-        const values = l.values || data.plant.t.map(() => l.value);
-        element('path', { class: 'limit' + (l.hard ? ' hard' : ''), d: this.path(data.plant.t, values) }, this.plot);
+      for (const l of this.limits) {
+        const times = l.values ? l.drive.data.plant.t : [span.start, span.end];
+        element('path', { class: 'limit' + (l.hard ? ' hard' : ''), d: this.path(times, l.values || [l.value, l.value]) }, this.plot);
       }
       // Under the curves: a limit is named where a curve comes near it.
-      for (const l of spec.limits) if (l.label) this.limitLabel(l);
-      this.planned = element('path', { class: 'planned' }, this.plot);
-      for (const s of spec.series) {
-        element('path', { class: 'series', style: `stroke:var(${s.colour})`, d: this.path(data.plant.t, s.values) }, this.plot);
+      this.limits.forEach((l, i) => { if (l.label && this.limits.findIndex((o) => o.label === l.label) === i) this.limitLabel(l); });
+      this.planned = drives.map((drive) => element('path', { class: 'planned', style: `stroke:var(--${drive.ink('orange')})` }, this.plot));
+      this.draw();
+    }
+
+    draw() {
+      for (const { times, values, colour } of this.curves) {
+        element('path', { class: 'series', style: `stroke:var(${colour})`, d: this.path(times, values) }, this.plot);
       }
     }
 
@@ -217,23 +201,26 @@
     }
 
     moveTo(t) {
-      const { spec } = this;
-      const sample = { t: data.plant.t };
-      spec.series.forEach((s, i) => { sample[i] = s.values; });
-      const at = slalom.sampleAt(sample, t);
-      const x = this.x(t);
       this.placeCursor(t);
+      const x = this.x(t);
       const inside = t >= shown.from && t <= shown.to;
-      spec.series.forEach((s, i) => {
-        const v = at ? at[i] : null;
+      const at = this.curves.map((curve) => this.valueOf(curve, t));
+      at.forEach((v, i) => {
         const dot = this.dots[i];
         const seen = inside && v !== null && v <= this.range[1] && v >= this.range[0];
         dot.setAttribute('visibility', seen ? 'visible' : 'hidden');
         if (seen) { dot.setAttribute('cx', x); dot.setAttribute('cy', this.y(v)); }
       });
-      this.values.innerHTML = spec.series.map((s, i) =>
-        `<span>${s.label ? `<em style="color:var(${s.colour})">${s.label}</em> ` : ''}<b>${number(at ? at[i] : null, spec.digits)}</b></span>`).join('');
-      this.showPlan(slalom.cycleAt(t));
+      this.values.innerHTML = this.curves.map((s, i) =>
+        `<span>${s.label ? `<em style="color:var(${s.colour})">${s.label}</em> ` : ''}<b>${number(at[i], this.spec.digits)}</b></span>`).join('');
+      drives.forEach((drive, i) => this.showPlan(i, drive.cycleAt(t)));
+    }
+
+    /** A curve's value at t; none when its drive is over. */
+    valueOf({ drive, times, values }, t) {
+      if (drive.overAt(t)) return null;
+      const at = slalom.sampleAt({ t: times, v: values }, t);
+      return at && at.v;
     }
 
     placeCursor(t) {
@@ -241,11 +228,11 @@
       for (const end of ['x1', 'x2']) this.cursor.firstChild.setAttribute(end, this.x(t));
     }
 
-    showPlan(cycle) {
-      if (!this.spec.planned || cycle === this.shownPlan) return;
-      this.shownPlan = cycle;
+    showPlan(i, cycle) {
+      if (!this.spec.planned || cycle === this.shownPlans[i]) return;
+      this.shownPlans[i] = cycle;
       const [name, factor] = this.spec.planned;
-      this.planned.setAttribute('d', cycle ? this.path(cycle.plan.t.map((s) => s + cycle.plan.t_start), scaled(cycle.plan[name], factor)) : '');
+      this.planned[i].setAttribute('d', cycle ? this.path(cycle.plan.t.map((s) => s + cycle.plan.t_start), signals.scaled(cycle.plan[name], factor)) : '');
     }
 
     listen() {
@@ -261,7 +248,7 @@
         event.preventDefault();
         zoomTime(Math.exp((event.deltaY || event.deltaX) * 0.0015), timeAt(event));
       }, { passive: false });
-      this.svg.addEventListener('dblclick', () => zoomTime(Infinity, start));
+      this.svg.addEventListener('dblclick', () => zoomTime(Infinity, span.start));
       this.svg.addEventListener('pointerdown', (event) => {
         down = true;
         this.svg.setPointerCapture(event.pointerId);
@@ -273,13 +260,19 @@
     }
   }
 
-  /** Solve time of each cycle as a bar over the time it ran in, beside the execution horizon. */
+  /**
+   * Solve time of each cycle over the time it ran in, beside the execution horizon: as bars, or as
+   * curves where drives are compared.
+   */
   class SolveChart extends Chart {
+    get asBars() {
+      return drives.length === 1;
+    }
+
     prepare() {
-      this.cycles = data.cycles.filter((c) => c.index > 0);
-      const times = this.cycles.map((c) => c.wall).filter((v) => v > 0);
+      const times = this.curves.flatMap((c) => c.values).filter((v) => v > 0);
       const least = times.reduce((a, b) => Math.min(a, b), Infinity);
-      const most = times.reduce((a, b) => Math.max(a, b), data.loop.tex);
+      const most = times.reduce((a, b) => Math.max(a, b), Math.max(...drives.map((d) => d.data.loop.tex)));
       this.log = times.length > 0 && most / least > 8;
       this.range = this.log ? [Math.pow(10, Math.floor(Math.log10(least) - 0.15)), most * 1.6] : [0, most * 1.18];
     }
@@ -300,46 +293,62 @@
       return v < 1e-4 ? v.toExponential(0).replace('-', '−') : String(Number(v.toPrecision(1)));
     }
 
-    content() {
+    draw() {
+      if (!this.asBars) {
+        super.draw();
+        return;
+      }
       const bottom = this.height - margin.bottom;
-      this.bars = this.cycles.map((c) => {
+      const [{ clocked, end }] = drives;
+      this.bars = new Map(clocked.map((c) => {
         const x0 = this.x(c.t0);
         const x1 = this.x(Math.min(c.t0 + c.tex, end));
         const y = Math.min(this.y(c.wall), bottom - 1);
-        return element('rect', { x: x0 + 0.5, width: Math.max(x1 - x0 - 1, 1), y, height: bottom - y,
-          class: c.solved ? 'bar' : 'bar bad' }, this.plot);
-      });
-      const y = this.y(data.loop.tex);
-      element('line', { class: 'limit hard', x1: margin.left, x2: this.width - margin.right, y1: y, y2: y }, this.plot);
-      element('text', { class: 'limit-label', x: this.width - margin.right - 3, y: y - 3, 'text-anchor': 'end' }, this.svg)
-        .textContent = `execution horizon tex ${data.loop.tex} s`;
+        return [c, element('rect', { x: x0 + 0.5, width: Math.max(x1 - x0 - 1, 1), y, height: bottom - y,
+          class: c.solved ? 'bar' : 'bar bad' }, this.plot)];
+      }));
     }
 
     moveTo(t) {
+      if (!this.asBars) {
+        super.moveTo(t);
+        return;
+      }
       this.placeCursor(t);
-      const current = slalom.solvingAt(t);
-      this.bars.forEach((bar, i) => bar.classList.toggle('now', this.cycles[i] === current));
+      const current = drives[0].solvingAt(t);
+      if (this.now) this.bars.get(this.now).classList.remove('now');
+      if (current) this.bars.get(current).classList.add('now');
+      this.now = current;
       this.values.innerHTML = current
         ? `<span>cycle ${current.index} <b>${number(current.wall, 3)}</b></span><span class="unit">CPU ${number(current.cpu, 3)}</span>`
         : '<span>–</span>';
     }
   }
 
-  function build(seek) {
-    onSeek = seek;
+  /** Draws the charts of these signals, and of the drives there are now, anew. */
+  function show(specs) {
     const parent = document.getElementById('charts');
-    for (const spec of specifications()) charts.push(new (spec.bars ? SolveChart : Chart)(spec, parent));
+    parent.replaceChildren();
+    charts.length = 0;
+    Object.assign(shown, { from: span.start, to: span.end });
+    for (const spec of specs) charts.push(new (spec.bars ? SolveChart : Chart)(spec, parent));
     layout();
-    new ResizeObserver(() => { layout(); moveTo(slalom.now || start); }).observe(parent);
+    moveTo(slalom.now);
+  }
+
+  /** `seek` is called with the time [s] that is pointed at. */
+  function listen(seek) {
+    onSeek = seek;
+    new ResizeObserver(() => { layout(); moveTo(slalom.now); }).observe(document.getElementById('charts'));
   }
 
   function layout() {
-    for (const chart of charts) { chart.shownPlan = undefined; chart.layout(); }
+    for (const chart of charts) chart.layout();
   }
 
   function moveTo(t) {
     for (const chart of charts) chart.moveTo(t);
   }
 
-  slalom.charts = { build, moveTo };
+  slalom.charts = { show, listen, moveTo };
 })(window.slalom = window.slalom || {});

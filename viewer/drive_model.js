@@ -1,11 +1,12 @@
-// The drive as data: reads what the page carries and answers questions about an instant.
+// The drives as data: reads what the page carries and answers questions about an instant.
 (function (slalom) {
   'use strict';
 
-  const data = JSON.parse(document.getElementById('drive-data').textContent);
-  const plant = data.plant;
-  const start = plant.t.length ? plant.t[0] : 0;
-  const end = plant.t.length ? Math.max(plant.t[plant.t.length - 1], start) : 0;
+  /** One drive, or two that are compared. */
+  const drives = [];
+  /** From when to when there is something to see of any of them [s]. */
+  const span = { start: 0, end: 0 };
+  const COLOURS = ['blue', 'orange'];
 
   /** Index of the last element of the ascending `values` that is <= v; -1 before the first. */
   function lastAtOrBefore(values, v) {
@@ -38,28 +39,6 @@
     return sample;
   }
 
-  const driven = data.cycles.filter((c) => c.used && c.plan.t.length);
-  const takeover = driven.map((c) => c.plan.t_start);
-
-  /** The cycle whose plan is being driven at t, or null while the vehicle goes straight on. */
-  function cycleAt(t) {
-    const i = lastAtOrBefore(takeover, t + 1e-9);
-    return i < 0 ? null : driven[i];
-  }
-
-  /** When the next plan takes over from that of a planner that verifies; others' are drawn whole. */
-  function cutAt(cycle) {
-    const next = cycle.rung ? driven[driven.indexOf(cycle) + 1] : undefined;
-    return next ? next.plan.t_start : Infinity;
-  }
-
-  /** The cycle that is being solved while the vehicle drives through t, or null. */
-  function solvingAt(t) {
-    const clocked = data.cycles.filter((c) => c.index > 0);
-    const i = lastAtOrBefore(clocked.map((c) => c.t0), t + 1e-9);
-    return i < 0 ? null : clocked[i];
-  }
-
   /** Centre of an obstacle at absolute time t. */
   function obstacleAt(o, t) {
     return { x: o.x + o.vx * t, y: o.y + o.vy * t };
@@ -70,38 +49,92 @@
   }
 
   /** Velocity of the front axle's centre; section 1 of the formulation. */
-  function velocity(p, k) {
-    const lateral = p.v[k] + data.vehicle.la * p.r[k];
+  function velocity(vehicle, p, k) {
+    const lateral = p.v[k] + vehicle.la * p.r[k];
     const c = Math.cos(p.psi[k]);
     const s = Math.sin(p.psi[k]);
     return [p.ux[k] * c - lateral * s, p.ux[k] * s + lateral * c];
   }
 
-  /** Points along a plan with their absolute times: cubic Hermite between its nodes, whose slopes the model gives. */
-  function planPath(plan) {
-    const points = [];
-    for (let k = 0; k + 1 < plan.t.length; ++k) {
-      const h = plan.t[k + 1] - plan.t[k];
-      const [ax, ay] = velocity(plan, k);
-      const [bx, by] = velocity(plan, k + 1);
-      for (let j = 0; j < 8; ++j) {
-        const s = j / 8;
-        const s2 = s * s;
-        const s3 = s2 * s;
-        const h00 = 2 * s3 - 3 * s2 + 1;
-        const h10 = s3 - 2 * s2 + s;
-        const h01 = 3 * s2 - 2 * s3;
-        const h11 = s3 - s2;
-        points.push([
-          h00 * plan.x[k] + h10 * h * ax + h01 * plan.x[k + 1] + h11 * h * bx,
-          h00 * plan.y[k] + h10 * h * ay + h01 * plan.y[k + 1] + h11 * h * by,
-          plan.t_start + plan.t[k] + s * h,
-        ]);
-      }
+  class Drive {
+    constructor(data, index) {
+      this.data = data;
+      this.letter = 'AB'[index];
+      this.colour = COLOURS[index];
+      const { t } = data.plant;
+      this.start = t.length ? t[0] : 0;
+      this.end = t.length ? Math.max(t[t.length - 1], this.start) : 0;
+      this.driven = data.cycles.filter((c) => c.used && c.plan.t.length);
+      this.takeover = this.driven.map((c) => c.plan.t_start);
+      /** The cycles on the clock: not the warm-up. */
+      this.clocked = data.cycles.filter((c) => c.index > 0);
+      this.clockedFrom = this.clocked.map((c) => c.t0);
     }
-    const n = plan.t.length - 1;
-    if (n >= 0) points.push([plan.x[n], plan.y[n], plan.t_start + plan.t[n]]);
-    return points;
+
+    get name() {
+      return `${this.data.scenario} with ${this.data.planner.name}`;
+    }
+
+    /** One drive has a colour for each kind of thing; of two, each has its own for all that is its. */
+    ink(usual) {
+      return drives.length > 1 ? this.colour : usual;
+    }
+
+    /** The plant at absolute time t [s]; null when nothing was recorded. */
+    sampleAt(t) {
+      return sampleAt(this.data.plant, t);
+    }
+
+    /** Whether the drive is over at t: that of the other goes on. */
+    overAt(t) {
+      return t > this.end + 1e-9;
+    }
+
+    /** The cycle whose plan is being driven at t; null while the vehicle goes straight on, and when the drive is over. */
+    cycleAt(t) {
+      if (this.overAt(t)) return null;
+      const i = lastAtOrBefore(this.takeover, t + 1e-9);
+      return i < 0 ? null : this.driven[i];
+    }
+
+    /** When the next plan takes over from that of a planner that verifies; others' are drawn whole. */
+    cutAt(cycle) {
+      const next = cycle.rung ? this.driven[this.driven.indexOf(cycle) + 1] : undefined;
+      return next ? next.plan.t_start : Infinity;
+    }
+
+    /** The cycle that is being solved while the vehicle drives through t, or null. */
+    solvingAt(t) {
+      const i = lastAtOrBefore(this.clockedFrom, t + 1e-9);
+      return i < 0 ? null : this.clocked[i];
+    }
+
+    /** Points along a plan with their absolute times: cubic Hermite between its nodes, whose slopes the model gives. */
+    planPath(plan) {
+      const points = [];
+      for (let k = 0; k + 1 < plan.t.length; ++k) {
+        const h = plan.t[k + 1] - plan.t[k];
+        const [ax, ay] = velocity(this.data.vehicle, plan, k);
+        const [bx, by] = velocity(this.data.vehicle, plan, k + 1);
+        for (let j = 0; j < 8; ++j) {
+          const s = j / 8;
+          const s2 = s * s;
+          const s3 = s2 * s;
+          const h00 = 2 * s3 - 3 * s2 + 1;
+          const h10 = s3 - 2 * s2 + s;
+          const h01 = 3 * s2 - 2 * s3;
+          const h11 = s3 - s2;
+          points.push([
+            h00 * plan.x[k] + h10 * h * ax + h01 * plan.x[k + 1] + h11 * h * bx,
+            h00 * plan.y[k] + h10 * h * ay + h01 * plan.y[k + 1] + h11 * h * by,
+            plan.t_start + plan.t[k] + s * h,
+          ]);
+        }
+      }
+      const n = plan.t.length - 1;
+      if (n >= 0) points.push([plan.x[n], plan.y[n], plan.t_start + plan.t[n]]);
+      return points;
+    }
   }
 
   /** The box around everything there is to see on the course [m]. */
@@ -113,13 +146,14 @@
       box.y0 = Math.min(box.y0, y - ry);
       box.y1 = Math.max(box.y1, y + ry);
     };
-    add(data.start.x, data.start.y, 5, 5);
-    add(data.goal.x, data.goal.y, data.goal.sigma, data.goal.sigma);
-    for (let i = 0; i < plant.t.length; ++i) add(plant.x[i], plant.y[i], 4, 4);
-    for (const o of data.obstacles) add(o.x, o.y, o.grown.a, o.grown.b);
-    const r = data.region;
-    if (r.x_min !== null) box.x0 = Math.min(box.x0, r.x_min - 2);
-    if (r.x_max !== null) box.x1 = Math.max(box.x1, r.x_max + 2);
+    for (const { data: { start, goal, plant, obstacles, region: r } } of drives) {
+      add(start.x, start.y, 5, 5);
+      add(goal.x, goal.y, goal.sigma, goal.sigma);
+      for (let i = 0; i < plant.t.length; ++i) add(plant.x[i], plant.y[i], 4, 4);
+      for (const o of obstacles) add(o.x, o.y, o.grown.a, o.grown.b);
+      if (r.x_min !== null) box.x0 = Math.min(box.x0, r.x_min - 2);
+      if (r.x_max !== null) box.x1 = Math.max(box.x1, r.x_max + 2);
+    }
     return box;
   }
 
@@ -147,8 +181,38 @@
     return out;
   }
 
+  /**
+   * What the labels of an axis from lo to hi leave out, to be said once: zero, but the nearest round
+   * number where places are so far from zero that labels would be all digits.
+   */
+  function offset(lo, hi) {
+    const length = Math.max(hi - lo, 1);
+    if (Math.max(Math.abs(lo), Math.abs(hi)) < Math.max(1e4, 20 * length)) return 0;
+    const power = Math.pow(10, Math.ceil(Math.log10(length)));
+    return Math.round((lo + hi) / 2 / power) * power;
+  }
+
+  /** An offset as an axis says it: "+5.4e6"; nothing for none. */
+  function offsetText(value) {
+    if (value === 0) return '';
+    return (value < 0 ? '−' : '+') + Math.abs(value).toExponential().replace('e+', 'e');
+  }
+
+  /**
+   * Adds a drive by its data; of two that are there, it takes the place of the second. What is drawn
+   * has to be told.
+   */
+  function add(data) {
+    const index = Math.min(drives.length, COLOURS.length - 1);
+    drives[index] = new Drive(data, index);
+    span.start = Math.min(...drives.map((d) => d.start));
+    span.end = Math.max(...drives.map((d) => d.end));
+  }
+
+  const element = document.getElementById('drive-data');
+  [JSON.parse(element.textContent)].flat().forEach(add);
+
   Object.assign(slalom, {
-    data, start, end, driven, lastAtOrBefore, sampleAt, cycleAt, cutAt, solvingAt, obstacleAt, moves, planPath,
-    courseBox, number, escape, ticks,
+    drives, span, add, lastAtOrBefore, sampleAt, obstacleAt, moves, courseBox, number, escape, ticks, offset, offsetText,
   });
 })(window.slalom = window.slalom || {});

@@ -2,7 +2,7 @@
 (function (slalom) {
   'use strict';
 
-  const { data, start, end, number, escape, stage, charts, verification } = slalom;
+  const { drives, span, number, escape, stage, charts, choice, compare, verification } = slalom;
   const slider = document.getElementById('time');
   const timeText = document.getElementById('time-text');
   const readout = document.getElementById('readout');
@@ -10,24 +10,29 @@
   const speed = document.getElementById('speed');
   let playing = false;
   let last = 0;
-  let shownCycle;
+  let shownStates = [];
 
   function setTime(t) {
-    slalom.now = Math.min(Math.max(t, start), end);
+    slalom.now = Math.min(Math.max(t, span.start), span.end);
     slider.value = String(slalom.now);
     slider.setAttribute('aria-valuetext', number(slalom.now, 2) + ' seconds');
-    timeText.innerHTML = `<b>${number(slalom.now, 2)}</b> of ${number(end, 2)} s`;
+    timeText.innerHTML = `<b>${number(slalom.now, 2)}</b> of ${number(span.end, 2)} s`;
     stage.draw(slalom.now);
     charts.moveTo(slalom.now);
     showState();
-    showCycle();
+    showCycles();
+  }
+
+  function stateWords(drive) {
+    const s = drive.sampleAt(slalom.now);
+    if (!s) return 'nothing was driven';
+    const place = `x ${number(s.x, 2)} m   y ${number(s.y, 2)} m`;
+    if (drives.length > 1) return `${drive.letter}   ${place}`;
+    return `${place}\nheading ${number(s.psi * 180 / Math.PI, 1)}°   yaw rate ${number(s.r * 180 / Math.PI, 1)}°/s`;
   }
 
   function showState() {
-    const s = slalom.sampleAt(data.plant, slalom.now);
-    readout.textContent = s
-      ? `x ${number(s.x, 2)} m   y ${number(s.y, 2)} m\nheading ${number(s.psi * 180 / Math.PI, 1)}°   yaw rate ${number(s.r * 180 / Math.PI, 1)}°/s`
-      : 'nothing was driven';
+    readout.textContent = drives.map(stateWords).join('\n');
   }
 
   function fact(name, value) {
@@ -39,22 +44,32 @@
       ${cycle.terms.map(([name, value]) => `<span>${escape(name)} <b>${number(value, 3)}</b></span>`).join('')}</div>`;
   }
 
-  /** What the plan being driven is, in words and numbers. */
-  function showCycle() {
-    const cycle = slalom.cycleAt(slalom.now);
-    if (cycle === shownCycle) return;
-    shownCycle = cycle;
-    const words = document.getElementById('ghost-words');
-    const panel = document.getElementById('cycle');
-    if (!cycle) {
-      words.textContent = 'where the plan expects obstacles';
-      panel.innerHTML = '<p class="sub">None yet: the vehicle goes straight on at constant speed until the first plan takes over.</p>';
-      return;
-    }
-    const plan = cycle.plan;
-    const held = plan.held !== null;
-    words.textContent = held ? 'obstacles as the plan holds them' : cycle.rung ? 'obstacles along the plan and at its end' : 'obstacles at the plan’s nodes and end';
-    panel.innerHTML = `<div class="row"><dl>
+  /** What the plans being driven are. */
+  function showCycles() {
+    const cycles = drives.map((drive) => drive.cycleAt(slalom.now));
+    const states = drives.map((drive, i) => drive.overAt(slalom.now) || cycles[i]);
+    if (states.length === shownStates.length && states.every((state, i) => state === shownStates[i])) return;
+    shownStates = states;
+    const words = new Set(cycles.map(ghostWords));
+    document.getElementById('ghost-words').textContent = words.size === 1 ? [...words][0] : ghostWords(null);
+    document.getElementById('cycle').innerHTML = drives.map((drive, i) => {
+      const head = drives.length > 1 ? `<h3><i class="swatch drive" style="background:var(--${drive.colour})"></i>${drive.letter} ${escape(drive.name)}</h3>` : '';
+      return `<div>${head}${drive.overAt(slalom.now) ? `<p class="sub">${escape(drive.data.outcome_words)}: the drive is over.</p>` : cycleWords(cycles[i])}</div>`;
+    }).join('');
+  }
+
+  /** Where the dashed outlines on the stage are. */
+  function ghostWords(cycle) {
+    if (!cycle) return 'where the plan expects obstacles';
+    if (cycle.plan.held !== null) return 'obstacles as the plan holds them';
+    return cycle.rung ? 'obstacles along the plan and at its end' : 'obstacles at the plan’s nodes and end';
+  }
+
+  /** A plan in words and numbers. */
+  function cycleWords(cycle) {
+    if (!cycle) return '<p class="sub">None yet: the vehicle goes straight on at constant speed until the first plan takes over.</p>';
+    const { plan } = cycle;
+    return `<div class="row"><dl>
       ${fact('Cycle', cycle.index)}
       ${fact('Planned during', `${number(cycle.t0, 2)} – ${number(cycle.t0 + cycle.tex, 2)} s`)}
       ${fact('Horizon tf', `${number(plan.tf, 2)} s`)}
@@ -64,7 +79,7 @@
       ${cycle.blocks ? fact('What blocks', escape(cycle.blocks)) : ''}
       ${cycle.passage ? fact('Between nodes', `${number(cycle.passage[0], 2)} m into the margin of ${escape(cycle.passage[1])}`) : ''}
       ${fact('Goal', cycle.goal_in_range ? 'in range' : 'out of range')}
-      ${fact('Obstacles', held ? `held where they are at ${number(plan.held, 2)} s` : 'move as predicted')}
+      ${fact('Obstacles', plan.held !== null ? `held where they are at ${number(plan.held, 2)} s` : 'move as predicted')}
       ${cycle.worst ? fact('Largest violation', `${escape(cycle.worst)} <small>${cycle.violation === null ? '' : cycle.violation.toExponential(1)}</small>`) : ''}
       ${verification.facts(cycle).map(([name, value]) => fact(name, value)).join('')}
       </dl></div>
@@ -73,11 +88,11 @@
   }
 
   function setPlaying(on) {
-    playing = on && end > start;
+    playing = on && span.end > span.start;
     document.body.classList.toggle('playing', playing);
     playButton.setAttribute('aria-label', playing ? 'Pause' : 'Play');
     if (!playing) return;
-    if (slalom.now >= end) setTime(start);
+    if (slalom.now >= span.end) setTime(span.start);
     last = performance.now();
     requestAnimationFrame(frame);
   }
@@ -87,7 +102,7 @@
     const t = slalom.now + Math.max(at - last, 0) / 1000 * Number(speed.value);
     last = at;
     setTime(t);
-    if (t >= end) setPlaying(false); else requestAnimationFrame(frame);
+    if (t >= span.end) setPlaying(false); else requestAnimationFrame(frame);
   }
 
   function seek(t) {
@@ -97,7 +112,9 @@
 
   /** The next or last instant at which a plan takes over. */
   function neighbour(direction) {
-    const times = [start, ...data.cycles.filter((c) => c.used).map((c) => c.plan.t_start), end];
+    const { start, end } = span;
+    const plans = drives.flatMap(({ data }) => data.cycles.filter((c) => c.used).map((c) => c.plan.t_start));
+    const times = [start, ...plans.sort((a, b) => a - b), end];
     return direction > 0
       ? times.find((t) => t > slalom.now + 1e-6) ?? end
       : [...times].reverse().find((t) => t < slalom.now - 1e-6) ?? start;
@@ -110,8 +127,8 @@
       ' ': () => setPlaying(!playing),
       ArrowLeft: () => seek(event.shiftKey ? neighbour(-1) : slalom.now - 0.1),
       ArrowRight: () => seek(event.shiftKey ? neighbour(1) : slalom.now + 0.1),
-      Home: () => seek(start),
-      End: () => seek(end),
+      Home: () => seek(span.start),
+      End: () => seek(span.end),
       f: () => stage.setMode('follow'),
       c: () => stage.setMode('course'),
       '+': () => stage.zoom(1.3),
@@ -126,36 +143,53 @@
     action();
   }
 
-  function addMark(t, kind, title) {
-    const mark = document.createElement('i');
-    mark.className = kind;
-    mark.title = title;
-    mark.style.left = `${(100 * (t - start)) / Math.max(end - start, 1e-9)}%`;
-    document.getElementById('marks').appendChild(mark);
+  /** Marks on the time line: what happened when. */
+  function showMarks() {
+    const line = document.getElementById('marks');
+    line.replaceChildren();
+    for (const drive of drives) {
+      const { data, end } = drive;
+      const add = (t, kind, title) => {
+        const mark = document.createElement('i');
+        mark.className = kind;
+        mark.title = (drives.length > 1 ? `${drive.letter}: ` : '') + title;
+        mark.style.left = `${(100 * (t - span.start)) / Math.max(span.end - span.start, 1e-9)}%`;
+        if (drives.length > 1) mark.style.background = `var(--${drive.colour})`;
+        line.appendChild(mark);
+      };
+      if (data.goal_time !== null) add(data.goal_time, 'goal', 'goal reached');
+      if (data.least_clearance_t !== null) add(data.least_clearance_t, 'near', 'least clearance');
+      if (data.outcome !== 'goal' && data.plant.t.length) add(end, 'bad', data.outcome);
+      for (const m of data.marks) for (const t of m.times) add(Math.min(t, end), 'bad', m.text);
+      for (const c of drive.clocked) if (!c.solved) add(Math.min(c.t0 + c.tex, end), 'bad', 'not solved' + (c.blocks ? ': ' + c.blocks : ''));
+    }
   }
 
-  function addMarks() {
-    if (data.goal_time !== null) addMark(data.goal_time, 'goal', 'goal reached');
-    if (data.least_clearance_t !== null) addMark(data.least_clearance_t, 'near', 'least clearance');
-    if (data.outcome !== 'goal' && data.plant.t.length) addMark(end, 'bad', data.outcome);
-    for (const m of data.marks) for (const t of m.times) addMark(Math.min(t, end), 'bad', m.text);
-    for (const c of data.cycles) if (c.index > 0 && !c.solved) addMark(Math.min(c.t0 + c.tex, end), 'bad', 'not solved' + (c.blocks ? ': ' + c.blocks : ''));
+  /** Shows the drives that there are now, from the time it was at. */
+  function refresh() {
+    slider.min = String(span.start);
+    slider.max = String(Math.max(span.end, span.start + 1e-9));
+    shownStates = [];
+    compare.show();
+    stage.survey();
+    showMarks();
+    verification.show();
+    choice.refresh();
+    setTime(slalom.now);
   }
 
-  slider.min = String(start);
-  slider.max = String(Math.max(end, start + 1e-9));
-  slalom.now = start;
-  charts.build(seek);
-  addMarks();
+  // report.html#t=3.2 opens the page at that instant.
+  window.addEventListener('hashchange', () => {
+    if (choice.fromAddress()) choice.refresh();
+    setTime(choice.timeInAddress() ?? slalom.now);
+  });
+  choice.fromAddress();
+  slalom.now = choice.timeInAddress() ?? span.start;
+  charts.listen(seek);
+  compare.listen(refresh);
   slider.addEventListener('input', () => seek(Number(slider.value)));
   playButton.addEventListener('click', () => setPlaying(!playing));
   playButton.addEventListener('keyup', (event) => { if (event.key === ' ') event.preventDefault(); });
   document.addEventListener('keydown', onKey);
-  // report.html#t=3.2 opens the page at that instant.
-  const fromAddress = () => {
-    const match = /^#t=(-?[\d.]+)$/.exec(location.hash);
-    setTime(match ? Number(match[1]) : slalom.now);
-  };
-  window.addEventListener('hashchange', fromAddress);
-  fromAddress();
+  refresh();
 })(window.slalom = window.slalom || {});

@@ -1,9 +1,82 @@
-// Parts of the top view: the vehicle, and the whole course in a corner.
+// What a drive shows on the stage: vehicle, path, plan; and the whole course in a corner.
 (function (slalom) {
   'use strict';
 
-  const { data } = slalom;
-  const { obstacles, vehicle, goal } = data;
+  const { ellipse } = slalom.course;
+
+  /** Of path and plan [pixels]: finer where the course is seen from far. */
+  const lineWidth = (view) => Math.min(Math.max(view.camera.scale * 0.7, 1.2), 2.5);
+
+  function trace(ctx, points) {
+    ctx.beginPath();
+    points.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+    ctx.stroke();
+  }
+
+  function drawPath(view, drive, t) {
+    const { ctx, colour } = view;
+    const { plant } = drive.data;
+    const sample = drive.sampleAt(t);
+    if (!sample) return;
+    ctx.strokeStyle = colour[drive.ink('blue')];
+    ctx.lineWidth = lineWidth(view);
+    ctx.lineJoin = 'round';
+    ctx.beginPath();
+    const last = slalom.lastAtOrBefore(plant.t, t);
+    for (let i = 0; i <= last; ++i) {
+      if (i === 0) ctx.moveTo(view.x(plant.x[i]), view.y(plant.y[i])); else ctx.lineTo(view.x(plant.x[i]), view.y(plant.y[i]));
+    }
+    ctx.lineTo(view.x(sample.x), view.y(sample.y));
+    ctx.stroke();
+  }
+
+  /** Solid as far as it is driven before the next plan takes over, dashed after that. */
+  function drawPlan(view, drive, cycle) {
+    const { ctx, colour } = view;
+    const { plan } = cycle;
+    const cut = drive.cutAt(cycle);
+    const points = drive.planPath(plan).map(([x, y, t]) => [view.x(x), view.y(y), t]);
+    const kept = points.findIndex((p) => p[2] > cut + 1e-9);
+    const end = kept < 0 ? points.length : kept;
+    const line = lineWidth(view);
+    ctx.strokeStyle = colour[drive.ink('orange')];
+    ctx.fillStyle = ctx.strokeStyle;
+    ctx.lineWidth = line;
+    trace(ctx, points.slice(0, end));
+    ctx.setLineDash([3 * line, 3 * line]);
+    trace(ctx, points.slice(Math.max(end - 1, 0)));
+    ctx.setLineDash([]);
+    // A verified motion has a node at each of its many samples: only its end says anything.
+    for (let k = cycle.rung ? Math.max(plan.t.length - 1, 0) : 0; k < plan.t.length; ++k) {
+      ctx.beginPath();
+      ctx.arc(view.x(plan.x[k]), view.y(plan.y[k]), (k === plan.t.length - 1 ? 2 : 1.3) * line, 0, 2 * Math.PI);
+      ctx.fill();
+      ctx.strokeStyle = colour.card;
+      ctx.lineWidth = line / 2;
+      ctx.stroke();
+    }
+  }
+
+  function drawRange(view, drive, plan) {
+    const { ctx, colour } = view;
+    const range = drive.data.planner.L_range;
+    ctx.strokeStyle = colour[drive.ink('muted')];
+    ctx.lineWidth = 1.25;
+    ctx.setLineDash([2, 4]);
+    ellipse(view, plan.x[0], plan.y[0], range, range);
+    ctx.stroke();
+    ctx.setLineDash([]);
+  }
+
+  /** A ring where the drive ended other than at the goal. */
+  function drawEnd(view, drive, sample) {
+    const { ctx, colour } = view;
+    ctx.strokeStyle = colour[drive.ink('vermilion')];
+    ctx.lineWidth = 3;
+    ctx.beginPath();
+    ctx.arc(view.x(sample.x), view.y(sample.y), 17, 0, 2 * Math.PI);
+    ctx.stroke();
+  }
 
   function roundRect(ctx, x, y, w, h, r) {
     ctx.beginPath();
@@ -15,18 +88,17 @@
     ctx.closePath();
   }
 
-  /**
-   * The vehicle with the front axle's centre, its reference point, at (px, py) of the canvas.
-   * Never smaller than 16 pixels.
-   */
-  function drawVehicle(ctx, colour, sample, px, py, scale) {
-    const s = Math.max(scale, 16 / vehicle.length);
+  /** The vehicle, its reference point the front axle's centre; never smaller than 16 pixels. */
+  function drawVehicle(view, drive, sample) {
+    const { ctx, colour } = view;
+    const { vehicle } = drive.data;
+    const s = Math.max(view.camera.scale, 16 / vehicle.length);
     const wheelbase = (vehicle.la + vehicle.lb) * s;
     const l = vehicle.length * s;
     const w = vehicle.width * s;
     const front = Math.max((l - wheelbase) / 2, 0);
     ctx.save();
-    ctx.translate(px, py);
+    ctx.translate(view.x(sample.x), view.y(sample.y));
     ctx.rotate(-sample.psi);
     ctx.fillStyle = colour.tyre;
     for (const [x, angle] of [[0, sample.sa], [-wheelbase, 0]]) {
@@ -39,7 +111,7 @@
       }
     }
     roundRect(ctx, front - l, -w / 2 + 0.06 * s, l, w - 0.12 * s, 0.22 * w);
-    ctx.fillStyle = colour.blue;
+    ctx.fillStyle = colour[drive.ink('blue')];
     ctx.fill();
     ctx.strokeStyle = colour.card;
     ctx.lineWidth = 1.25;
@@ -64,8 +136,8 @@
   }
 
   /** The whole course in a corner at time t, with a frame around what the camera shows. */
-  function drawMap(ctx, colour, box, sample, t, camera) {
-    const { width, height } = camera;
+  function drawMap(view, at, t) {
+    const { ctx, colour, camera, width, height, box, scene } = view;
     const w = box.x1 - box.x0;
     const h = box.y1 - box.y0;
     const k = Math.min((width * 0.14) / w, (height * 0.55) / h);
@@ -84,24 +156,26 @@
     ctx.lineWidth = 1;
     ctx.stroke();
     ctx.clip();
-    ctx.fillStyle = colour.green;
     ctx.globalAlpha = 0.3;
-    ctx.fillRect(mx(goal.x - goal.sigma), my(goal.y + goal.sigma), 2 * goal.sigma * k, 2 * goal.sigma * k);
+    for (const goal of scene.goals) {
+      ctx.fillStyle = colour[goal.ink];
+      ctx.fillRect(mx(goal.x - goal.sigma), my(goal.y + goal.sigma), 2 * goal.sigma * k, 2 * goal.sigma * k);
+    }
     ctx.globalAlpha = 1;
-    ctx.fillStyle = colour.vermilion;
-    for (const o of obstacles) {
+    for (const o of scene.obstacles) {
       const p = slalom.obstacleAt(o, t);
+      ctx.fillStyle = colour[o.ink];
       ctx.beginPath();
       ctx.ellipse(mx(p.x), my(p.y), Math.max(o.a * k, 1), Math.max(o.b * k, 1), 0, 0, 2 * Math.PI);
       ctx.fill();
     }
-    ctx.strokeStyle = colour.blue;
-    ctx.lineWidth = 1;
-    ctx.beginPath();
-    data.plant.x.forEach((x, i) => (i ? ctx.lineTo(mx(x), my(data.plant.y[i])) : ctx.moveTo(mx(x), my(data.plant.y[i]))));
-    ctx.stroke();
-    if (sample) {
-      ctx.fillStyle = colour.blue;
+    for (const { drive, sample } of at) {
+      const { x, y } = drive.data.plant;
+      ctx.strokeStyle = colour[drive.ink('blue')];
+      ctx.lineWidth = 1;
+      trace(ctx, x.map((px, i) => [mx(px), my(y[i])]));
+      if (!sample) continue;
+      ctx.fillStyle = ctx.strokeStyle;
       ctx.beginPath();
       ctx.arc(mx(sample.x), my(sample.y), 3.5, 0, 2 * Math.PI);
       ctx.fill();
@@ -112,5 +186,5 @@
     ctx.restore();
   }
 
-  Object.assign(slalom, { drawVehicle, drawMap });
+  Object.assign(slalom, { drawPath, drawPlan, drawRange, drawEnd, drawVehicle, drawMap });
 })(window.slalom = window.slalom || {});

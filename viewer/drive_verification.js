@@ -3,20 +3,18 @@
 (function (slalom) {
   'use strict';
 
-  const { data, start, end, number, escape } = slalom;
+  const { drives, span, number, escape } = slalom;
 
   /** Best first, as the planner chooses: the words of the legend. */
   const RUNGS = { new: 'new', rest: 'rest of the last', least_bad: 'least bad, unverified' };
 
-  const verifies = data.cycles.some((c) => c.rung);
-
   /** Colours the time line by the plan being driven; plans of one rung in a row are one piece. */
-  function showStrip() {
-    const strip = document.getElementById('rungs');
-    const length = Math.max(end - start, 1e-9);
+  function strip(drive) {
+    const strip = document.createElement('div');
+    const share = (t) => (100 * (t - span.start)) / Math.max(span.end - span.start, 1e-9);
     let last = null;
-    for (const cycle of slalom.driven) {
-      const from = (100 * (cycle.plan.t_start - start)) / length;
+    for (const cycle of drive.driven) {
+      const from = share(cycle.plan.t_start);
       if (last) last.style.right = `${100 - from}%`;
       if (last && last.className === cycle.rung) continue;
       last = document.createElement('i');
@@ -24,17 +22,24 @@
       last.style.left = `${from}%`;
       strip.appendChild(last);
     }
-    if (last) last.style.right = '0';
+    if (last) last.style.right = `${100 - share(drive.end)}%`;
+    return strip;
   }
 
-  function showLegend() {
-    const legend = document.getElementById('rung-legend');
-    const clocked = data.cycles.filter((c) => c.index > 0);
+  function legend(drive) {
     const keys = Object.entries(RUNGS).map(([rung, words]) =>
-      `<span class="key"><i class="swatch rung ${rung}"></i>${words} <b>${clocked.filter((c) => c.rung === rung).length}</b></span>`);
-    legend.innerHTML = `<span>Plans:</span>${keys.join('')}`;
-    legend.hidden = false;
-    document.getElementById('plan-words').textContent = 'plan, dashed from the next swap on';
+      `<span class="key"><i class="swatch rung ${rung}"></i>${words} <b>${drive.clocked.filter((c) => c.rung === rung).length}</b></span>`);
+    return `<span>Plans${drives.length > 1 ? ` of ${drive.letter}` : ''}:</span>${keys.join('')}`;
+  }
+
+  /** The strips and their legend, of the drives there are now whose planners verify. */
+  function show() {
+    const verifying = drives.filter((drive) => drive.data.cycles.some((c) => c.rung));
+    document.getElementById('rungs').replaceChildren(...verifying.map(strip));
+    const words = document.getElementById('rung-legend');
+    words.innerHTML = verifying.map(legend).join('');
+    words.hidden = !verifying.length;
+    if (verifying.length) document.getElementById('plan-words').textContent = 'plan, dashed from the next swap on';
   }
 
   /** Names and values for the panel of a cycle. */
@@ -64,9 +69,5 @@
       <tbody>${rows.join('')}</tbody></table></div>`;
   }
 
-  if (verifies) {
-    showStrip();
-    showLegend();
-  }
-  slalom.verification = { facts, table };
+  slalom.verification = { show, facts, table };
 })(window.slalom = window.slalom || {});

@@ -12,6 +12,7 @@ void add_sweep(CLI::App& app, Command& run);
 void add_merge(CLI::App& app, Command& run);
 void add_study_report(CLI::App& app, Command& run);
 void add_replay(CLI::App& app, Command& run);
+void add_compare(CLI::App& app, Command& run);
 void add_make_scenarios(CLI::App& app, Command& run);
 void add_check(CLI::App& app, Command& run);
 void add_list(CLI::App& app, Command& run);

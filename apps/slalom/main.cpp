@@ -68,6 +68,7 @@ int run_app(int argc, char** argv) {
   app::add_merge(cli, run);
   app::add_study_report(cli, run);
   app::add_replay(cli, run);
+  app::add_compare(cli, run);
   app::add_make_scenarios(cli, run);
   app::add_check(cli, run);
   app::add_list(cli, run);

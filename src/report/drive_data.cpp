@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "slalom/sim/marks.hpp"
+#include "slalom/sim/verification.hpp"
+#include "words.hpp"
 
 namespace slalom::report {
 namespace {
@@ -33,7 +35,7 @@ constexpr int kTimeDigits = 6;
 
 // What a page carries at the most, so that one of an hour's drive opens at once: samples of the
 // plant, nodes of all plans together, and cycles with the terms of their cost.
-constexpr std::size_t kMostSamples = 12'000, kMostNodes = 24'000, kMostTerms = 2'000;
+constexpr std::size_t kMostSamples = 11'000, kMostNodes = 24'000, kMostTerms = 2'000;
 
 /// Which of `count` entries are kept of at most `most`: evenly, the first and last among them.
 std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
@@ -76,11 +78,44 @@ Json scenario_data(const sim::Scenario& scenario) {
                   {"sm_crash", scenario.loop.sm_crash},
                   {"Fz_failure", scenario.loop.Fz_failure}};
   const auto& planner = scenario.planner;
-  json["planner"] = {{"L_range", planner.L_range}};
+  json["planner"] = {{"name", planner.name}, {"L_range", planner.L_range}};
   json["planner"]["margins"] = planner.method == planner::Method::verified
                                    ? Json::array({planner.verified_clearance})
                                    : Json::array({planner.sm_start, planner.sm_end});
   return json;
+}
+
+/// The values of a table of settings, by name, as files have them.
+template <class S>
+Json values(const OptionTable<S>& table, const S& settings) {
+  Json json;
+  for (const auto& entry : table.entries()) json[entry.info.name] = to_string(entry.get(settings));
+  return json;
+}
+
+/// All settings by the section of a scenario file that has them.
+Json settings_data(const sim::Scenario& scenario) {
+  return {{"planner", values(planner::setting_options(), scenario.planner)},
+          {"loop", values(sim::loop_options(), scenario.loop)},
+          {"plant", values(sim::plant_options(), scenario.plant)},
+          {"sensing", values(sim::sensing_options(), scenario.sensing)},
+          {"vehicle", values(vehicle::parameter_options(), scenario.vehicle)},
+          {"start", values(vehicle::state_options(), scenario.start)}};
+}
+
+/// What two drives are compared by.
+Json summary_data(const sim::Drive& drive) {
+  const auto times = solve_times(drive);
+  const auto verification = sim::verification(drive);
+  return {{"goal_time", drive.goal_time ? exact(*drive.goal_time) : Json(nullptr)},
+          {"mean_speed", exact(mean_speed(drive))},
+          {"least_clearance", exact(drive.least_clearance)},
+          {"least_wheel_load", drive.plant.empty() ? Json(nullptr) : exact(drive.least_wheel_load)},
+          {"solve_time_median", exact(median(times))},
+          {"solve_time_max", exact(greatest(times))},
+          {"cycles", times.size()},
+          {"cycles_unsolved", sim::unsolved(drive).cycles},
+          {"cycles_unverified", verification ? Json(verification->unverified) : Json(nullptr)}};
 }
 
 Json plant_data(const std::vector<sim::PlantSample>& plant) {
@@ -192,8 +227,15 @@ Json cycle_data(const sim::Cycle& cycle, std::size_t cycles) {
 }  // namespace
 
 nlohmann::ordered_json drive_data(const sim::Scenario& scenario, const sim::Drive& drive) {
-  Json json = scenario_data(scenario);
+  Json json;
+  json["format"] = kDriveFormat;
+  json["scenario"] = scenario.name;
+  json.update(scenario_data(scenario));
+  json["settings"] = settings_data(scenario);
   json["outcome"] = sim::to_string(drive.outcome);
+  json["outcome_words"] = outcome_words(drive);
+  json["message"] = drive.message;
+  json["summary"] = summary_data(drive);
   json["goal_time"] = drive.goal_time ? exact(*drive.goal_time) : Json(nullptr);
   json["least_clearance_t"] =
       std::isfinite(drive.least_clearance) ? exact(drive.least_clearance_t) : Json(nullptr);

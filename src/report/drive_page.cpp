@@ -5,6 +5,7 @@
 
 #include "drive_data.hpp"
 #include "html.hpp"
+#include "playing_page.hpp"
 #include "slalom/report/report.hpp"
 #include "slalom/sim/marks.hpp"
 #include "slalom/sim/verification.hpp"
@@ -96,6 +97,22 @@ std::string scenario_rows(const sim::Scenario& scenario) {
 
 }  // namespace
 
+std::string playing_page(const PlayingPage& page) {
+  std::string script;
+  for (const auto part : {viewer::drive_model_js, viewer::drive_course_js, viewer::drive_parts_js,
+                          viewer::drive_stage_js, viewer::drive_signals_js, viewer::drive_charts_js,
+                          viewer::drive_choice_js, viewer::drive_verification_js,
+                          viewer::drive_compare_js, viewer::drive_page_js})
+    script.append(part).append("\n");
+  return fill(viewer::drive_html,
+              {{"title", escape(page.title)},
+               {"css", fmt::format("{}\n{}", viewer::base_css, viewer::drive_css)},
+               {"head", page.head},
+               {"settings", page.settings},
+               {"data", script_json(page.data)},
+               {"script", script}});
+}
+
 std::string drive_page(const sim::Scenario& scenario, const sim::Drive& drive) {
   const auto settings = settings_table("Planner " + scenario.planner.name,
                                        planner::setting_options(), scenario.planner) +
@@ -105,26 +122,17 @@ std::string drive_page(const sim::Scenario& scenario, const sim::Drive& drive) {
                         settings_table("Sensing", sim::sensing_options(), scenario.sensing) +
                         settings_table("Vehicle " + scenario.vehicle.name,
                                        vehicle::parameter_options(), scenario.vehicle);
-  std::string script;
-  for (const auto part :
-       {viewer::drive_model_js, viewer::drive_parts_js, viewer::drive_stage_js,
-        viewer::drive_charts_js, viewer::drive_verification_js, viewer::drive_page_js})
-    script.append(part).append("\n");
-  return fill(viewer::drive_html,
-              {{"title", escape(fmt::format("{} · {} · {}", scenario.name, scenario.planner.name,
-                                            outcome_words(drive)))},
-               {"css", fmt::format("{}\n{}", viewer::base_css, viewer::drive_css)},
-               {"scenario", escape(scenario.name)},
-               {"scenario_title", escape(scenario.title)},
-               {"planner", escape(scenario.planner.name)},
-               {"outcome", sim::to_string(drive.outcome)},
-               {"outcome_words", escape(outcome_words(drive))},
-               {"message", escape(drive.message)},
-               {"facts", facts(scenario, drive)},
-               {"marks", marks_html(scenario, drive)},
-               {"settings", settings},
-               {"data", script_json(drive_data(scenario, drive))},
-               {"script", script}});
+  const auto head = fill(viewer::drive_head_html, {{"scenario", escape(scenario.name)},
+                                                   {"scenario_title", escape(scenario.title)},
+                                                   {"planner", escape(scenario.planner.name)},
+                                                   {"outcome", sim::to_string(drive.outcome)},
+                                                   {"outcome_words", escape(outcome_words(drive))},
+                                                   {"message", escape(drive.message)},
+                                                   {"facts", facts(scenario, drive)},
+                                                   {"marks", marks_html(scenario, drive)}});
+  return playing_page(
+      {fmt::format("{} · {} · {}", scenario.name, scenario.planner.name, outcome_words(drive)),
+       head, settings, drive_data(scenario, drive)});
 }
 
 }  // namespace slalom::report

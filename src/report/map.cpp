@@ -236,24 +236,29 @@ void draw_axes(Svg& svg, const View& view, bool x_ticks, bool x_label) {
   const double bottom = view.corner.y + view.height();
   const double across0 = view.lying ? box.y0 : box.x0, across1 = view.lying ? box.y1 : box.x1;
   const double up0 = view.lying ? box.x0 : box.y0, up1 = view.lying ? box.x1 : box.y1;
-  const auto across = nice_ticks(across0, across1, std::max(2, int(view.width() / 34)));
+  const double across_from = axis_offset(across0, across1), up_from = axis_offset(up0, up1);
+  const auto across =
+      nice_ticks(across0 - across_from, across1 - across_from, std::max(2, int(view.width() / 34)));
   for (const double v : across.at) {
-    const auto p = view.lying ? view.at(box.x0, v) : view.at(v, box.y0);
+    const double at = across_from + v;
+    const auto p = view.lying ? view.at(box.x0, at) : view.at(at, box.y0);
     svg.line({p.x, view.corner.y}, {p.x, bottom}, {colours::grid, 0.5, "", 1});
     if (x_ticks) svg.text({p.x, bottom + 8}, number(v, across.digits()), {6.5, "middle"});
   }
-  const auto up = nice_ticks(up0, up1, std::max(1, int(view.height() / (view.lying ? 11 : 26))));
+  const auto up = nice_ticks(up0 - up_from, up1 - up_from,
+                             std::max(1, int(view.height() / (view.lying ? 11 : 26))));
   for (const double v : up.at) {
-    const auto p = view.lying ? view.at(v, box.y0) : view.at(box.x0, v);
+    const double at = up_from + v;
+    const auto p = view.lying ? view.at(at, box.y0) : view.at(box.x0, at);
     svg.line({view.corner.x, p.y}, {view.corner.x + view.width(), p.y},
              {colours::grid, 0.5, "", 1});
     svg.text({view.corner.x - 3, p.y + 2.3}, number(v, up.digits()), {6.5, "end"});
   }
   if (x_label)
-    svg.text({view.corner.x + view.width() / 2, bottom + 17}, view.lying ? "y [m]" : "x [m]",
-             {7, "middle"});
-  svg.text({view.corner.x - 20, view.corner.y + view.height() / 2}, view.lying ? "x [m]" : "y [m]",
-           {7, "middle", colours::ink, false, 90});
+    svg.text({view.corner.x + view.width() / 2, bottom + 17},
+             axis_label(view.lying ? "y" : "x", across_from), {7, "middle"});
+  svg.text({view.corner.x - 20, view.corner.y + view.height() / 2},
+           axis_label(view.lying ? "x" : "y", up_from), {7, "middle", colours::ink, false, 90});
 }
 
 void draw_view(Svg& svg, const Map& map, const View& view, bool x_ticks, bool x_label) {

@@ -1,6 +1,9 @@
 #include "map_view.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace slalom::report {
 
@@ -9,6 +12,20 @@ void Box::add(double x, double y, double rx, double ry) {
   x1 = std::max(x1, x + rx);
   y0 = std::min(y0, y - ry);
   y1 = std::max(y1, y + ry);
+}
+
+double axis_offset(double lo, double hi) {
+  const double length = std::max(hi - lo, 1.0);
+  if (std::max(std::abs(lo), std::abs(hi)) < std::max(1e4, 20 * length)) return 0;
+  const double power = std::pow(10, std::ceil(std::log10(length)));
+  return std::round((lo + hi) / 2 / power) * power;
+}
+
+std::string axis_label(const std::string& name, double offset) {
+  if (offset == 0) return name + " [m]";
+  const double exponent = std::floor(std::log10(std::abs(offset)));
+  return fmt::format("{} [m] {}{:.12g}e{:.0f}", name, offset < 0 ? "−" : "+",
+                     std::abs(offset) / std::pow(10, exponent), exponent);
 }
 
 void Labels::keep_clear(Point centre, double rx, double ry) {

@@ -41,6 +41,13 @@ struct View {
 /// A place for words: the left, middle or right of their base line, as the anchor says.
 using Place = std::pair<Point, std::string_view>;
 
+/// What the labels of an axis from lo to hi [m] leave out, to be said once: zero, but the nearest
+/// round number where places are so far from zero that labels would be all digits. As offset() of
+/// viewer/drive_model.js.
+double axis_offset(double lo, double hi);
+/// "x [m]", or with an offset "x [m] +5e5".
+std::string axis_label(const std::string& name, double offset);
+
 /// Puts words on a map where there is still room for them.
 class Labels {
  public:

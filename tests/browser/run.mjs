@@ -1,32 +1,22 @@
 // The pages in a real browser: they play, their parts agree, they ask for nothing.
 //
 //   SLALOM_DRIVE_DIR      a drive's folder; else one is made by `slalom simulate E_B --planner P_D`
+//   SLALOM_OTHER_DIR      the same with P_A, to compare
 //   SLALOM_VERIFIED_DIR   the same with P_E in E_C, whose plans are verified
 //   SLALOM_REPRODUCE_DIR  a reproduction's folder; else one is made by `slalom reproduce`
 //   SLALOM_SWEEP_DIR      a sweep's folder; else one of a small study is made
 //   SLALOM                the program, for making them
 //   SLALOM_TEST_DIR       where screenshots go
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { lookAt, openBrowser } from './browser.mjs';
+import './compare.mjs';
 import { legibility } from './legibility.mjs';
-
-const out = process.env.SLALOM_TEST_DIR || join(tmpdir(), 'slalom-browser-test');
-mkdirSync(out, { recursive: true });
-
-/** The folder named by an environment variable, or made by the program. */
-function made(variable, name, command) {
-  if (process.env[variable]) return process.env[variable];
-  const program = process.env.SLALOM;
-  assert.ok(program, `set ${variable}, or SLALOM to the program that makes one`);
-  const folder = join(out, name);
-  execFileSync(program, [...command, '--out', folder, '--force', '--quiet'], { stdio: 'inherit' });
-  return folder;
-}
+import { changedPage, driveDir, made, out, report, slalom, textOf, timeOf, until, valuesOf } from './pages.mjs';
+import './signals.mjs';
+import './verified.mjs';
 
 /** A study of eight short drives over tex and the speed of O2, as the paper's. */
 function smallStudy() {
@@ -41,26 +31,11 @@ axes:
   return file;
 }
 
-const driveDir = made('SLALOM_DRIVE_DIR', 'drive', ['simulate', 'E_B', '--planner', 'P_D']);
-const verifiedDir = made('SLALOM_VERIFIED_DIR', 'verified', ['simulate', 'E_C', '--planner', 'P_E']);
 const sweepDir = made('SLALOM_SWEEP_DIR', 'sweep', ['sweep', smallStudy()]);
-if (process.env.SLALOM) execFileSync(process.env.SLALOM, ['study-report', sweepDir, '--trial', '2'], { stdio: 'ignore' });
+if (process.env.SLALOM) slalom('study-report', sweepDir, '--trial', '2');
 const reproduceDir = made('SLALOM_REPRODUCE_DIR', 'reproduce', ['reproduce']);
-const report = join(driveDir, 'report.html');
 
-const timeOf = (page) => page.evaluate(() => window.slalom.now);
-const textOf = (page, selector) => page.textContent(selector);
-const valuesOf = (page) => page.$$eval('.chart .values', (all) => all.map((v) => v.textContent));
 const cursorsOf = (page) => page.$$eval('.chart .cursor line', (all) => all.map((l) => Number(l.getAttribute('x1'))));
-
-/** Waits for a condition; fails after ten seconds. */
-async function until(holds) {
-  for (const stop = Date.now() + 10000; Date.now() < stop;) {
-    if (await holds()) return;
-    await new Promise((wake) => { setTimeout(wake, 20); });
-  }
-  assert.fail('nothing happened within ten seconds');
-}
 
 /** Moves the slider to a share of its length, as a person does. */
 async function moveSlider(page, share) {
@@ -222,19 +197,6 @@ describe('the page of a drive on other screens', () => {
   }
 });
 
-/** The page with its data changed by `change`. */
-function changedPage(name, change, report = join(driveDir, 'report.html')) {
-  const open = '<script type="application/json" id="drive-data">';
-  const page = readFileSync(report, 'utf8');
-  const from = page.indexOf(open) + open.length;
-  const to = page.indexOf('</script', from);
-  const data = JSON.parse(page.slice(from, to));
-  change(data);
-  const file = join(out, `${name}.html`);
-  writeFileSync(file, page.slice(0, from) + JSON.stringify(data).replaceAll('<', '\\u003c') + page.slice(to));
-  return file;
-}
-
 describe('the page of a drive from west to east', () => {
   /** The drive turned by a quarter: x is y, and y is -x. */
   const turned = (data) => {
@@ -265,75 +227,6 @@ describe('the page of a drive from west to east', () => {
       assert.equal((await page.$$('#marks i[title="a mark"]')).length, 2);
       await page.screenshot({ path: join(out, 'east.png'), fullPage: true });
       assert.deepEqual(complaints, []);
-    } finally {
-      await browser.close();
-    }
-  });
-});
-
-describe('the page of a drive of verified plans', () => {
-  const verifiedReport = join(verifiedDir, 'report.html');
-  const refused = 'clearance to <O2> at 3.5 s';
-  /** One cycle in the middle has the least bad of two motions. */
-  const unverified = (data) => {
-    const cycle = data.cycles[10];
-    const certificate = { ...cycle.certificate, verified: false, refused };
-    Object.assign(cycle, { rung: 'least_bad', solved: false, cost: 0, certificate,
-      candidates: [{ name: 'rest', cost: null, certificate: { ...certificate, until: 1 } },
-        { name: 'way 1', cost: null, certificate }] });
-  };
-  const stripOf = (page) => page.$$eval('#rungs i', (all) => all.map((i) => ({ rung: i.className,
-    from: i.offsetLeft, to: i.offsetLeft + i.offsetWidth, colour: getComputedStyle(i).backgroundColor })));
-
-  test('shows where each plan comes from, and what else there was', async () => {
-    const browser = await openBrowser();
-    try {
-      const { page, complaints } = await browser.open(verifiedReport, '#t=8.2');
-      const { driven, data } = await page.evaluate(() => window.slalom);
-      const changes = driven.map((c) => c.rung).filter((rung, i, all) => rung !== all[i - 1]);
-      const strip = await stripOf(page);
-      assert.deepEqual(strip.map((s) => s.rung), changes);
-      strip.forEach((s, i) => assert.ok(s.to > s.from && (i === 0 || Math.abs(s.from - strip[i - 1].to) <= 1)));
-      const counted = (await page.$$eval('#rung-legend b', (all) => all.map((b) => Number(b.textContent))));
-      assert.deepEqual(counted, ['new', 'rest', 'least_bad'].map((rung) =>
-        data.cycles.filter((c) => c.index > 0 && c.rung === rung).length));
-      const cycle = await page.evaluate(() => window.slalom.cycleAt(8.2));
-      const rows = await page.$$eval('.candidates tbody tr', (all) => all.map((r) => r.textContent));
-      assert.equal(rows.length, cycle.candidates.length);
-      assert.equal(rows.filter((r) => r.includes('driven')).length, 1);
-      assert.match(await textOf(page, '#cycle'), /Verified\s*until/);
-      await page.screenshot({ path: join(out, 'verified.png'), fullPage: true });
-      assert.deepEqual(complaints, []);
-    } finally {
-      await browser.close();
-    }
-  });
-
-  test('shows an unverified cycle, and why', async () => {
-    const browser = await openBrowser();
-    try {
-      const { page, complaints } = await browser.open(changedPage('unverified', unverified, verifiedReport));
-      const at = await page.evaluate(() => window.slalom.data.cycles[10].plan.t_start + 0.1);
-      await page.evaluate((t) => { window.location.hash = `t=${t}`; }, at);
-      await until(async () => (await page.$$('.candidates tr.taken')).length === 1);
-      assert.match(await textOf(page, '.candidates tr.taken'), /way 1.*refused: clearance to <O2> at 3.5 s.*driven/s);
-      const strip = await stripOf(page);
-      assert.equal(strip.filter((s) => s.rung === 'least_bad').length, 1);
-      const colours = Object.fromEntries(strip.map((s) => [s.rung, s.colour]));
-      assert.equal(new Set(Object.values(colours)).size, Object.keys(colours).length);
-      await page.screenshot({ path: join(out, 'unverified.png'), fullPage: true });
-      assert.deepEqual(complaints, []);
-    } finally {
-      await browser.close();
-    }
-  });
-
-  test('has no such thing for other planners', async () => {
-    const browser = await openBrowser();
-    try {
-      const { page } = await browser.open(report, '#t=2');
-      assert.equal((await page.$$('#rungs i, .candidates')).length, 0);
-      assert.ok(!(await page.isVisible('#rung-legend')));
     } finally {
       await browser.close();
     }

@@ -135,6 +135,30 @@ TEST(DriveFigures, AreWellFormed) {
   }
 }
 
+TEST(DriveFigures, SayOnceHowFarFromZeroPlacesAre) {
+  auto scenario = synthetic_scenario();
+  auto drive = synthetic_drive();
+  const double x = 500'000, y = 5.4e6;
+  scenario.start[vehicle::X] += x;
+  scenario.start[vehicle::Y] += y;
+  scenario.goal.x += x;
+  scenario.goal.y += y;
+  scenario.region = {};
+  for (auto& o : scenario.obstacles) {
+    o.x += x;
+    o.y += y;
+  }
+  for (auto& sample : drive.plant) {
+    sample.state[vehicle::X] += x;
+    sample.state[vehicle::Y] += y;
+  }
+  const auto path = drive_figures(scenario, drive).front().svg;
+  EXPECT_EQ(count(path, "x [m] +5e5</text>"), 1);
+  EXPECT_EQ(count(path, "y [m] +5.4e6</text>"), 1);
+  EXPECT_GT(count(path, ">40</text>"), 0);
+  EXPECT_FALSE(std::regex_search(path, std::regex(">[0-9]{5,}</text>")));
+}
+
 TEST(DriveFigures, HaveTheNamesThatAreDocumented) {
   std::vector<std::string> names;
   for (const auto& figure : drive_figures(synthetic_scenario(), synthetic_drive()))
