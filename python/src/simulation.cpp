@@ -2,7 +2,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "binding.hpp"
@@ -59,6 +58,7 @@ Controls by_name(const Problem& problem, const nb::dict& given) {
   const std::string where = problem.name() + ": controls";
   const auto values = in_order(given, names_of(problem.controls()), where);
   return ocp::controls_of_time([values, where](double t) {
+    const nb::gil_scoped_acquire lock;
     std::vector<double> u;
     for (const auto& value : values)
       u.push_back(as<double>(PyCallable_Check(value.ptr()) != 0 ? value(t) : value, where,
@@ -78,6 +78,7 @@ Controls controls_of(const Problem& problem, const nb::object& given) {
     return ocp::constant_controls(as<std::vector<double>>(
         given, where, "a Solution, a dict by name, numbers, or a function of t and states"));
   return {[given, where](double t, std::span<const double> x) {
+            const nb::gil_scoped_acquire lock;
             const auto u = given(t, to_numpy(std::vector<double>(x.begin(), x.end())));
             return as<std::vector<double>>(u, where, "a number for each control");
           },
@@ -90,14 +91,18 @@ Simulated simulate(const Problem& problem, const nb::object& x0, const nb::objec
   check_at_most(steps, 1'000'000, problem.name() + ": simulate: steps");
   Simulated result;
   result.problem = std::make_shared<const Problem>(problem);
-  Controls driven = controls_of(problem, controls);
-  Released released;  // looked at with the interpreter's lock held, which laws in Python need
-  driven.law = [law = driven.law, &released](double t, std::span<const double> x) {
-    if (released.interrupted()) released.raise_if_interrupted();
-    return law(t, x);
-  };
-  result.answer = ocp::simulate(problem, begin_of(problem, x0), driven,
-                                {.t0 = t0, .tf = tf, .steps = steps, .tolerance = tolerance});
+  const auto begin = begin_of(problem, x0);
+  const Controls driven = controls_of(problem, controls);
+  Released released;
+  {
+    const nb::gil_scoped_release unlock;
+    result.answer = ocp::simulate(
+        *result.problem, begin, driven,
+        {.t0 = t0, .tf = tf, .steps = steps, .tolerance = tolerance, .stop = [&released] {
+           return released.interrupted();
+         }});
+  }
+  released.raise_if_interrupted();
   return result;
 }
 

@@ -135,12 +135,12 @@ def test_a_constant_and_a_cost_of_several_phases():
     s = p.solve(mesh=8)
     assert s.solved and s.objective < 1e-9
     assert s.cost_terms["misfit"] == pytest.approx(s.objective)
-    assert [s[n].static_parameters["k"] for n in (0, 1)] == pytest.approx([1, 1], rel=1e-4)
+    assert [s[n].static_parameter("k") for n in (0, 1)] == pytest.approx([1, 1], rel=1e-4)
     p.mayer("speed", 0.01 * ends[0][0], maximise=True)  # beside it, a slower decay
     slower = p.solve(mesh=8)
     assert slower.objective == pytest.approx(sum(slower.cost_terms.values()))
     assert slower.cost_terms["speed"] == pytest.approx(-0.01 * slower[0].state("x")[-1])
-    assert slower[1].static_parameters["k"] < 1 - 1e-3
+    assert slower[1].static_parameter("k") < 1 - 1e-3
 
 
 def test_gaps_of_connected_phases():

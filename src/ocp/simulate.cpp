@@ -86,6 +86,9 @@ Vector instants(double t0, double tf, int steps, const Vector& corners) {
   return times;
 }
 
+/// Thrown through the integrator where a simulation is to end.
+struct Stopped {};
+
 std::string lost(const System& system, double t, const Vector& x) {
   std::string values;
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -162,12 +165,20 @@ Simulation simulate(const System& system, const std::vector<double>& x0, const C
     result.trajectory.states.push_back(x);
     result.trajectory.controls.push_back(law(begin, x));
     const auto rates = [&](double c, const Vector& at, Vector& out) {
+      if (settings.stop && settings.stop()) throw Stopped{};
       const double t = begin + c * duration;
       system.rates(t, at, law(t, at), out);
     };
-    const double share = integrator.across(duration, rates, x);
+    double share = 0;
+    const Vector before = x;
+    try {
+      share = integrator.across(duration, rates, x);
+      if (share != 1) result.message = lost(system, begin + share * duration, x);
+    } catch (const Stopped&) {
+      x = before;
+      result.message = fmt::format("{} was stopped after t = {:.9g}", system.name, begin);
+    }
     result.complete = share == 1;
-    if (!result.complete) result.message = lost(system, begin + share * duration, x);
     if (result.complete || share > 0) reached.push_back(begin + share * duration);
   }
   if (result.trajectory.states.size() < reached.size()) {

@@ -140,6 +140,21 @@ TEST(Simulations, ThatBlowUpSayWhere) {
   EXPECT_EQ(run.message.find("blow-up cannot be integrated past t = 1"), 0u) << run.message;
 }
 
+TEST(Simulations, EndWhereTheyAreTold) {
+  Cart cart;
+  int asked = 0;
+  SimulateSettings settings{.tf = 1e6, .steps = 1000, .stop = [&asked] { return ++asked > 100; }};
+  const auto run = simulate(cart.problem, {0, 1}, constant_controls({0}), settings);
+  EXPECT_FALSE(run.complete);
+  EXPECT_NE(run.message.find("cart was stopped after t = "), std::string::npos) << run.message;
+  EXPECT_EQ(asked, 101);
+  EXPECT_LT(run.trajectory.tf, 1e6);
+  EXPECT_EQ(run.trajectory.tau.size(), run.trajectory.states.size());
+  asked = 100;
+  const auto none = simulate(cart.problem, {0, 1}, constant_controls({0}), settings);
+  EXPECT_EQ(none.trajectory.states, (std::vector<std::vector<double>>{{0, 1}}));
+}
+
 TEST(Simulations, OfNoTimeHaveOnePoint) {
   Cart cart;
   const auto run = simulate(cart.problem, {3, 4}, constant_controls({5}), {.t0 = 1, .tf = 1});

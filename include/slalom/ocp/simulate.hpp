@@ -52,13 +52,15 @@ struct SimulateSettings {
   std::optional<double> tf = {};  ///< if left out: a problem's guess; 1 for a system
   int steps = 100;                ///< equal steps from point to point; corners are points too
   double tolerance = 1e-9;        ///< relative and, in units of each state's scale, absolute
+  /// Asked all along; once it is true, the simulation ends there, incomplete.
+  std::function<bool()> stop = {};
 };
 
 /// A simulated trajectory. Where a control jumps, a point has the control that follows.
 struct Simulation {
   Trajectory trajectory;
   bool complete = false;  ///< it reached tf; otherwise tf and the points end where states were lost
-  std::string message;    ///< one sentence on where; empty when complete
+  std::string message;    ///< one sentence on where and why; empty when complete
 };
 
 /// Integrates from x0 (Bulirsch & Stoer's extrapolation with adaptive order and steps; Hairer,
