@@ -15,13 +15,13 @@ packages() {
 g++                 | run   | cmd:g++                   | compiles C++20
 cmake               | run   | cmd:cmake                 | describes the build
 ninja-build         | run   | cmd:ninja                 | runs the build
-pkg-config          | run   | cmd:pkg-config            | finds Ipopt
+pkg-config          | test  | cmd:pkg-config            | finds Ipopt
 libfmt-dev          | run   | inc:fmt/format.h          | formats messages and files
 libcli11-dev        | run   | inc:CLI/CLI.hpp           | reads the command line
 libyaml-cpp-dev     | run   | inc:yaml-cpp/yaml.h       | reads scenarios
 nlohmann-json3-dev  | run   | inc:nlohmann/json.hpp     | writes results as JSON
 libboost-dev        | run   | inc:boost/numeric/odeint.hpp | integrates the plant (headers alone)
-coinor-libipopt-dev | run   | pc:ipopt                  | solves the nonlinear programs
+coinor-libipopt-dev | test  | pc:ipopt                  | what back end ipopt loads, and a solver for the tests of .nl files
 libsqlite3-dev      | run   | inc:sqlite3.h             | keeps the results of sweeps
 libsleef-dev        | run   | inc:sleef.h               | elementary functions on vectors
 libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests

@@ -13,8 +13,10 @@ std::atomic<KernelSet>& selected() {
 }  // namespace
 
 KernelSet best_kernels() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? KernelSet::avx2
-                                                                         : KernelSet::baseline;
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return KernelSet::avx2;
+#endif
+  return KernelSet::baseline;
 }
 
 KernelSet current_kernels() {
