@@ -22,14 +22,16 @@ stamp="ziglang 0.17.1 $(sha256sum <"$0")"
 rm -rf "$folder"
 mkdir -p "$folder"/{bin,packages,sources,build,root/usr} "$folder"/apt/{lists,cache}/partial
 root=$folder/root
+shared=$root/usr/lib/$arch-linux-gnu
 
 # The compiler.
 python3 -m venv "$folder/venv"
 "$folder/venv/bin/python" -m pip --disable-pip-version-check install -q ziglang==0.17.1
 zig=$("$folder/venv/bin/python" -c 'import pathlib, ziglang; print(pathlib.Path(ziglang.__file__).parent / "zig")')
 for tool in cc c++; do
-  # Without -fno-sanitize it would check for undefined behaviour wherever it does not optimise.
-  printf '#!/bin/sh\nexec %s %s -target %s-linux-gnu.2.28 -fno-sanitize=undefined "$@"\n' \
+  # Unless told not to, it adds debug information, and checks for undefined behaviour where it does not
+  # optimise.
+  printf '#!/bin/sh\nexec %s %s -target %s-linux-gnu.2.28 -g0 -fno-sanitize=undefined "$@"\n' \
     "$zig" "$tool" "$arch" >"$folder/bin/$tool"
 done
 for tool in ar ranlib; do printf '#!/bin/sh\nexec %s %s "$@"\n' "$zig" "$tool" >"$folder/bin/$tool"; done
@@ -44,6 +46,7 @@ set(CMAKE_RANLIB $folder/bin/ranlib)
 set(CMAKE_C_STANDARD_INCLUDE_DIRECTORIES $root/usr/include)
 set(CMAKE_CXX_STANDARD_INCLUDE_DIRECTORIES $root/usr/include)
 set(CMAKE_EXE_LINKER_FLAGS_INIT -s)
+set(CMAKE_MODULE_LINKER_FLAGS_INIT "-L$shared -Wl,-rpath,$shared")
 set(CMAKE_LIBRARY_ARCHITECTURE $arch-linux-gnu)
 set(CMAKE_FIND_ROOT_PATH $root)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

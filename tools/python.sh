@@ -57,7 +57,7 @@ print(sysconfig.get_config_var("EXT_SUFFIX").replace(*sys.argv[1:]))' "$(uname -
 venv=$work/venv
 [ "$1" != test ] || venv=$folder/venv
 rm -rf "$folder"/slalom-*.whl "$venv"
-python3 -m venv "$venv"
+"${PYTHON:-python3}" -m venv "$venv"
 pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
 if [ "$1" = wheel ]; then
   portable_wheel "${3:-$(uname -m)}"
