@@ -3,7 +3,7 @@
 # one of 3.12 or later, by that; checks that any Linux with glibc 2.28 or later takes them, and installs and
 # drives with them in userlands with python3 and nothing else: SUITEs of Debian, by debootstrap (as root).
 # Where a suite's Python is older than 3.10 the program alone is run. At the end, a table for
-# docs/wheel.md. The drives must be the same bits as here.
+# docs/wheel.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -42,6 +42,11 @@ pip download --no-deps -d "$folder/wheels" pip
 chmod +x "$folder/here/slalom/bin/slalom"
 "$folder/here/slalom/bin/slalom" simulate E_C --planner P_D --out "$folder/drive" --force --quiet
 
+# within ROOT COMMAND...: runs it there, with the /proc that a program needs to find itself.
+within() {
+  unshare --mount sh -ec 'mount -t proc proc "$1/proc"; exec chroot "$@"' within "$@"
+}
+
 # drive_in SUITE: installs and drives there; prints a row of the table.
 drive_in() {
   local root=$folder/userlands/$1 version seconds begin
@@ -49,42 +54,43 @@ drive_in() {
     mkdir -p "$(dirname "$root")"
     debootstrap --variant=minbase --include=python3 "$1" "$root" >"$root.log" || return 1
   fi
-  rm -rf "$root/slalom"
-  mkdir "$root/slalom"
-  version=$(chroot "$root" python3 -c 'import platform; print("%s|%s" % (platform.python_version(), platform.libc_ver()[1]))')
+  rm -rf "$root/try"
+  mkdir "$root/try"
+  version=$(within "$root" python3 -c 'import platform; print("%s|%s" % (platform.python_version(), platform.libc_ver()[1]))')
   local minor=${version#3.}
   minor=${minor%%.*}
   begin=$(date +%s.%N)
   if [ "$minor" -lt 10 ]; then
-    cp -r "$folder/here/slalom" "$root/slalom/package"
-    ln -s package/bin/slalom "$root/slalom/run"
+    cp -r "$folder/here/slalom" "$root/try/package"
+    ln -s package/bin/slalom "$root/try/run"
   else
     pip download --only-binary :all: --no-deps --python-version "3.$minor" -d "$folder/wheels" \
       --platform "manylinux_2_17_$arch" --platform "manylinux_2_27_$arch" --platform "manylinux_2_28_$arch" numpy
-    cp -r "$folder/wheels" "$root/slalom"
+    cp -r "$folder/wheels" "$root/try"
     begin=$(date +%s.%N)
-    chroot "$root" sh -ec 'cd /slalom
+    within "$root" sh -ec 'cd /try
       python3 -m venv --without-pip venv
-      python3 wheels/pip-*.whl/pip --python venv/bin/python install -q --no-index --find-links wheels slalom
+      PYTHONPATH=$(echo wheels/pip-*.whl) python3 -m pip --python venv/bin/python install -q --no-index --find-links wheels slalom
       ln -s venv/bin/slalom run'
   fi
   seconds=$(awk -v a="$begin" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }')
-  chroot "$root" sh -ec 'cd /slalom; ./run simulate E_C --planner P_D --out drive --quiet --expect goal'
-  cmp "$root/slalom/drive/plant.csv" "$folder/drive/plant.csv"
+  within "$root" sh -ec 'cd /try; ./run simulate E_C --planner P_D --out drive --quiet --expect goal'
+  local same=yes
+  cmp -s "$root/try/drive/plant.csv" "$folder/drive/plant.csv" || same=no
   if [ "$minor" -ge 10 ]; then
-    chroot "$root" /slalom/venv/bin/python -c '
+    within "$root" /try/venv/bin/python -c '
 import slalom
 drive = slalom.simulate("E_B", planner="P_D")
 assert drive.outcome == "goal", drive.outcome'
   else
     seconds="(program alone)"
   fi
-  echo "| $1 | ${version%%|*} | ${version##*|} | $seconds |"
+  echo "| $1 | ${version%%|*} | ${version##*|} | $seconds | $same |"
 }
 rows=$(for suite in "${suites[@]}"; do drive_in "$suite"; done)
 echo
-echo "| Debian | Python | glibc | seconds to install |"
-echo "|---|---|---|---|"
+echo "| Debian | Python | glibc | seconds to install | drive has the bits of this machine's |"
+echo "|---|---|---|---|---|"
 echo "$rows"
 for wheel in "$folder"/wheels/slalom-*.whl; do
   echo "$(basename "$wheel"): $(stat -c %s "$wheel") bytes"
