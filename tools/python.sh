@@ -45,7 +45,9 @@ portable_wheel() { # ARCH
 print(sysconfig.get_config_var("EXT_SUFFIX").replace(*sys.argv[1:]))' "$(uname -m)" "$arch")
     export SETUPTOOLS_EXT_SUFFIX
   fi
+  # By CPython 3.12 and later, a wheel for all of them, for which CMake must be 3.26.
   build_wheel "$work/wheel" "$portable/tree" "${options[@]}" \
+    --config-settings="wheel.py-api=cp312" --config-settings="cmake.version=>=3.26" \
     --config-settings="build-dir=$portable/python/{wheel_tag}" \
     --config-settings="cmake.define.CMAKE_TOOLCHAIN_FILE=$portable/toolchain.cmake" \
     --config-settings="cmake.define.SLALOM_LICENSES=$portable/licenses"

@@ -5,6 +5,7 @@
 # Where a suite's Python is older than 3.10 the program alone is run. At the end, a table for
 # docs/wheel.md.
 set -euo pipefail
+shopt -s inherit_errexit
 cd "$(dirname "$0")/.."
 
 suites=("$@")
@@ -61,8 +62,8 @@ drive_in() {
   minor=${minor%%.*}
   begin=$(date +%s.%N)
   if [ "$minor" -lt 10 ]; then
-    cp -r "$folder/here/slalom" "$root/try/package"
-    ln -s package/bin/slalom "$root/try/run"
+    cp -r "$folder/here" "$root/try/here"
+    ln -s here/slalom/bin/slalom "$root/try/run"
   else
     pip download --only-binary :all: --no-deps --python-version "3.$minor" -d "$folder/wheels" \
       --platform "manylinux_2_17_$arch" --platform "manylinux_2_27_$arch" --platform "manylinux_2_28_$arch" numpy
