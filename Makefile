@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel package docs sweep-scale format clean build
+.PHONY: help run quick test fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel wheel-elsewhere package docs sweep-scale format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -128,9 +128,13 @@ problems: ## every problem of the library by two schemes, beside its known value
 	$(MAKE) --no-print-directory build
 	build/slalom problems --all
 
-wheel: ## set up, and build the Python package into dist/
+wheel: ## set up, and build the Python package, for any Linux, into dist/
 	tools/setup.sh wheel
 	tools/python.sh wheel dist
+
+wheel-elsewhere: ## install and drive with that wheel in other releases of Debian, as root (takes minutes)
+	tools/setup.sh wheel-elsewhere
+	tools/wheel_elsewhere.sh
 
 package: ## set up, and build a Debian package of program and library into dist/
 	tools/setup.sh package

@@ -24,7 +24,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/slalomConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/slalomConfig.cmake
               ${PROJECT_BINARY_DIR}/slalomConfigVersion.cmake
-              cmake/FindIpopt.cmake cmake/FindKnitro.cmake DESTINATION ${package_dir})
+              cmake/FindKnitro.cmake DESTINATION ${package_dir})
 
 # `make package`: a Debian package of what is installed. Its dependencies are found by the linker's
 # own list (dpkg-shlibdeps).
@@ -38,4 +38,5 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS coinor-libipopt1v5)  # looked for when solver `ipopt` is asked for
 include(CPack)

@@ -66,13 +66,10 @@ set(SLALOM_SELDOM_RUN $<$<CONFIG:Release>:-O1>)
 # A folder without sources becomes an interface library.
 #
 # Files named *_avx2.cpp are compiled for AVX2 with FMA, all others for the baseline processor.
-# Files named ipopt*.cpp are left out when SLALOM_WITH_IPOPT is off, knitro*.cpp likewise.
+# Files named knitro*.cpp are left out when SLALOM_WITH_KNITRO is off.
 function(slalom_module name)
   cmake_parse_arguments(ARG "SELDOM_RUN" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
-  if(NOT SLALOM_WITH_IPOPT)
-    list(FILTER sources EXCLUDE REGEX "/ipopt[^/]*\\.cpp$")
-  endif()
   if(NOT SLALOM_WITH_KNITRO)
     list(FILTER sources EXCLUDE REGEX "/knitro[^/]*\\.cpp$")
   endif()
@@ -82,8 +79,10 @@ function(slalom_module name)
     set(scope PUBLIC)
     set(avx2 ${sources})
     list(FILTER avx2 INCLUDE REGEX "_avx2\\.cpp$")
-    set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma"
-      SKIP_PRECOMPILE_HEADERS ON)
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+      set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    endif()
+    set_source_files_properties(${avx2} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
     if(ARG_SELDOM_RUN)
       target_compile_options(slalom_${name} PRIVATE ${SLALOM_SELDOM_RUN})
     endif()

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# setup.sh run|test|bench|results|wheel|package|fuzz: sees to it that what `make run`, `make test`, `make bench`,
+# setup.sh run|test|bench|results|wheel|wheel-elsewhere|package|fuzz: sees to it that what `make run`, `make test`, `make bench`,
 # `make fuzz` or `make results` and `make robustness` need is there. What is missing is installed by
 # apt, after saying which package and why, and asking whoever sits at the terminal. Nobody is asked
 # where YES=1 or CI is set, or where there is no terminal; YES=0 says no. Where apt cannot do it, this
@@ -15,13 +15,13 @@ packages() {
 g++                 | run   | cmd:g++                   | compiles C++20
 cmake               | run   | cmd:cmake                 | describes the build
 ninja-build         | run   | cmd:ninja                 | runs the build
-pkg-config          | run   | cmd:pkg-config            | finds Ipopt
+pkg-config          | test  | cmd:pkg-config            | finds Ipopt
 libfmt-dev          | run   | inc:fmt/format.h          | formats messages and files
 libcli11-dev        | run   | inc:CLI/CLI.hpp           | reads the command line
 libyaml-cpp-dev     | run   | inc:yaml-cpp/yaml.h       | reads scenarios
 nlohmann-json3-dev  | run   | inc:nlohmann/json.hpp     | writes results as JSON
 libboost-dev        | run   | inc:boost/numeric/odeint.hpp | integrates the plant (headers alone)
-coinor-libipopt-dev | run   | pc:ipopt                  | solves the nonlinear programs
+coinor-libipopt-dev | test  | pc:ipopt                  | what back end ipopt loads, and a solver for the tests of .nl files
 libsqlite3-dev      | run   | inc:sqlite3.h             | keeps the results of sweeps
 libsleef-dev        | run   | inc:sleef.h               | elementary functions on vectors
 libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests
@@ -34,10 +34,16 @@ nodejs              | test  | cmd:node                  | runs the test of the p
 npm                 | test  | cmd:npm                   | installs playwright-core for the test of the page
 python3-venv        | wheel | py:ensurepip              | keeps the tools of that build to a folder of their own
 python3-dev         | wheel | pc:python3                | compiles the Python extension
+dpkg-dev            | wheel | cmd:dpkg-source           | unpacks the sources of what the wheel has inside
+tcl                 | wheel | cmd:tclsh                 | puts SQLite's sources into one file
+make                | wheel | cmd:make                  | does so
+gcc                 | wheel | cmd:cc                    | compiles what SQLite's sources are made with
+debootstrap         | wheel-elsewhere | cmd:debootstrap | makes other releases of Debian to try the wheel in
 python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
 gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
 make                | bench | cmd:make                  | builds acados' generated solver
 dpkg-dev            | package | cmd:dpkg-shlibdeps        | finds what the Debian package depends on
+coinor-libipopt-dev | bench | pc:ipopt                  | the peer that the perturbed cycles are solved by
 linux-perf          | bench | cmd:perf                  | samples the profile of a solve
 clang               | fuzz  | cmd:clang++               | compiles the fuzzers
 libclang-rt-dev     | fuzz  | fuzzer:                   | libFuzzer, which runs them
@@ -84,6 +90,7 @@ wanted() { # needed for $1, when asked for $2
     test) [ "$1" = run ] || [ "$1" = test ] || [ "$1" = wheel ] || [ "$1" = package ] ;;
     package) [ "$1" = run ] || [ "$1" = package ] ;;
     wheel) [ "$1" = run ] || [ "$1" = wheel ] ;;
+    wheel-elsewhere) [ "$1" = run ] || [ "$1" = wheel ] || [ "$1" = wheel-elsewhere ] ;;
     bench) [ "$1" = run ] || [ "$1" = bench ] ;;
     results) [ "$1" = run ] || [ "$1" = results ] ;;
     fuzz) [ "$1" = run ] || [ "$1" = fuzz ] ;;
@@ -121,9 +128,9 @@ go_on() {
 
 purpose=${1:-}
 case $purpose in
-  run | test | bench | results | wheel | package | fuzz) ;;
+  run | test | bench | results | wheel | wheel-elsewhere | package | fuzz) ;;
   *)
-    echo "usage: tools/setup.sh run|test|bench|results|wheel|package|fuzz" >&2
+    echo "usage: tools/setup.sh run|test|bench|results|wheel|wheel-elsewhere|package|fuzz" >&2
     exit 2
     ;;
 esac

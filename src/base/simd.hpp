@@ -4,9 +4,12 @@
 // *_baseline.cpp and *_avx2.cpp alone. All is local to the file: a function of the same name
 // compiled for another set must never stand in for it.
 
+#ifdef __x86_64__
 #include <immintrin.h>
+#endif
 
 #include <cstddef>
+#include <cstring>
 
 namespace slalom::simd {
 namespace {
@@ -61,7 +64,7 @@ struct Vec {
   }
 };
 
-#else
+#elif defined(__x86_64__)
 
 /// Two lanes: SSE2, which every x86-64 processor has.
 struct Vec {
@@ -93,6 +96,54 @@ struct Vec {
   static type mantissas(type v) {
     const type kept = _mm_and_pd(v, _mm_castsi128_pd(_mm_set1_epi64x(0xFFFFFFFFFFFFF)));
     return _mm_or_pd(kept, _mm_set1_pd(1.0));
+  }
+};
+
+#else
+
+/// Two lanes by the compiler's own vectors (NEON on aarch64), with the same bits as SSE2's.
+struct Vec {
+  using type = double __attribute__((vector_size(16)));
+  using ints = long long __attribute__((vector_size(16)));
+  static constexpr std::size_t size = 2;
+  static type load(const double* p) {
+    type v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+  }
+  static void store(double* p, type v) { std::memcpy(p, &v, sizeof v); }
+  /// The first n < size lanes; the others 0 or untouched.
+  static type load_part(const double* p, std::size_t) { return type{*p, 0.0}; }
+  static void store_part(double* p, std::size_t, type v) { *p = v[0]; }
+  static type all(double v) { return type{v, v}; }
+  static type fma(type a, type b, type c) { return c + a * b; }
+  static type fnma(type a, type b, type c) { return c - a * b; }
+  static type max(type a, type b) { return a > b ? a : b; }
+  static type min(type a, type b) { return a < b ? a : b; }
+  static type abs(type v) { return with_bits(bits_of(v) & 0x7FFFFFFFFFFFFFFF); }
+  static double sum(type v) { return v[0] + v[1]; }
+  static double largest(type v) { return v[0] > v[1] ? v[0] : v[1]; }
+  static type without_first(type v, std::size_t n) { return n == 0 ? v : type{0.0, v[1]}; }
+  static void store_four(double* p, double a, double b, double c, double d) {
+    store(p, type{a, b});
+    store(p + 2, type{c, d});
+  }
+  static ints exponents(type v) { return (bits_of(v) >> 52) & 0xFFF; }
+  static ints plus(ints a, ints b) { return a + b; }
+  static type mantissas(type v) {
+    return with_bits((bits_of(v) & 0xFFFFFFFFFFFFF) | bits_of(all(1.0)));
+  }
+
+ private:
+  static ints bits_of(type v) {
+    ints bits;
+    std::memcpy(&bits, &v, sizeof v);
+    return bits;
+  }
+  static type with_bits(ints bits) {
+    type v;
+    std::memcpy(&v, &bits, sizeof v);
+    return v;
   }
 };
 

@@ -1,7 +1,8 @@
+#include "tape_block.hpp"
+
+#ifdef __AVX2__
 #include <immintrin.h>
 #include <sleef.h>
-
-#include "tape_block.hpp"
 
 namespace slalom::expr {
 namespace {
@@ -47,3 +48,15 @@ void run_block_avx2(const Tape& tape, double* const* rows, std::size_t width) {
 }
 
 }  // namespace slalom::expr
+
+#else  // a processor of another kind, on which no one calls this
+
+namespace slalom::expr {
+
+void run_block_avx2(const Tape& tape, double* const* rows, std::size_t width) {
+  run_block_baseline(tape, rows, width);
+}
+
+}  // namespace slalom::expr
+
+#endif

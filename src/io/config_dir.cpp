@@ -24,8 +24,9 @@ std::vector<fs::path> candidates() {
 #ifdef SLALOM_CONFIG_DIR_INSTALL
   std::error_code error;
   const auto executable = fs::read_symlink("/proc/self/exe", error);
-  if (!error)
-    paths.push_back((executable.parent_path() / SLALOM_CONFIG_DIR_INSTALL).lexically_normal());
+  if (!error)  // where it is installed, and in the Python package
+    for (const char* place : {SLALOM_CONFIG_DIR_INSTALL, "../config"})
+      paths.push_back((executable.parent_path() / place).lexically_normal());
 #endif
 #ifdef SLALOM_CONFIG_DIR_BUILD
   paths.emplace_back(SLALOM_CONFIG_DIR_BUILD);

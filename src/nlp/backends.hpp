@@ -10,7 +10,9 @@
 
 namespace slalom::nlp {
 
-/// Ipopt (Waechter & Biegler, Math. Program. 106, 2006); only in builds with SLALOM_WITH_IPOPT.
+/// Whether Ipopt's library can be loaded on this machine.
+bool has_ipopt();
+/// Ipopt (Waechter & Biegler, Math. Program. 106, 2006). Throws InvalidValue without its library.
 std::unique_ptr<Solver> make_ipopt();
 
 /// KNITRO (Byrd, Nocedal & Waltz 2006); only in builds with SLALOM_WITH_KNITRO.

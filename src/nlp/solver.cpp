@@ -65,9 +65,7 @@ void note_violation(Problem& problem, Answer& answer) {
 
 std::vector<std::string> backends() {
   std::vector<std::string> names;
-#ifdef SLALOM_WITH_IPOPT
-  names.emplace_back("ipopt");
-#endif
+  if (has_ipopt()) names.emplace_back("ipopt");
   names.emplace_back("interior_point");
 #ifdef SLALOM_WITH_KNITRO
   names.emplace_back("knitro");
@@ -77,9 +75,7 @@ std::vector<std::string> backends() {
 
 std::unique_ptr<Solver> make_solver(const std::string& backend) {
   if (backend.empty() || backend == "interior_point") return make_interior_point();
-#ifdef SLALOM_WITH_IPOPT
   if (backend == "ipopt") return make_ipopt();
-#endif
 #ifdef SLALOM_WITH_KNITRO
   if (backend == "knitro") return make_knitro();
 #endif

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <thread>
 
 #include "slalom/base/error.hpp"
@@ -33,6 +36,15 @@ TEST_F(KernelSetTest, ASetTheProcessorLacksIsRefusedAndTheOldOneKept) {
   if (best_kernels() == KernelSet::avx2) GTEST_SKIP() << "this processor has all sets";
   EXPECT_THROW(select_kernels(KernelSet::avx2), Error);
   EXPECT_EQ(current_kernels(), KernelSet::baseline);
+}
+
+TEST_F(KernelSetTest, TheBestSetIsTheOneThatTheSystemSaysTheProcessorHas) {
+  std::ifstream file("/proc/cpuinfo");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto has = [&](const char* flag) {
+    return text.find(std::string(" ") + flag + " ") != std::string::npos;
+  };
+  EXPECT_EQ(best_kernels() == KernelSet::avx2, has("avx2") && has("fma"));
 }
 
 TEST_F(KernelSetTest, EachSetHasItsName) {

@@ -103,6 +103,12 @@ class BadInput(ProgramTest):
         result = run("list", env={"SLALOM_CONFIG_DIR": str(self.folder / "none")})
         self.assert_refused(result, 2, "SLALOM_CONFIG_DIR", "expected an existing folder")
 
+    def test_ipopt_is_asked_for_where_its_library_is_not(self):
+        result = run("simulate", "E_B", "--set", "planner.solver=ipopt",
+                     env={"SLALOM_IPOPT": str(self.folder / "none.so")})
+        self.assert_refused(result, 2, "--set planner.solver: found solver = ipopt",
+                            "expected interior_point: Ipopt's library", "none.so", "SLALOM_IPOPT")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -144,7 +144,7 @@ TEST(Settings, ContradictionsAreRefusedWithPlaceAndRule) {
             std::string::npos);
 }
 
-TEST(Settings, ASolverThatThisBuildLacksIsRefusedWithThoseThereAre) {
+TEST(Settings, ASolverThatIsNotThereIsRefusedWithWhatToDo) {
   Settings settings;
   EXPECT_EQ(settings.solver, SolverChoice::interior_point);
   EXPECT_NO_THROW(check(settings, "my.yaml"));
@@ -152,14 +152,16 @@ TEST(Settings, ASolverThatThisBuildLacksIsRefusedWithThoseThereAre) {
   const auto have = nlp::backends();
   if (std::find(have.begin(), have.end(), "ipopt") != have.end()) {
     EXPECT_NO_THROW(check(settings, "my.yaml"));
-    GTEST_SKIP() << "this build has all solvers";
+    GTEST_SKIP() << "this machine has all solvers";
   }
   try {
     check(settings, "my.yaml");
     FAIL() << "accepted";
   } catch (const InvalidValue& e) {
-    EXPECT_STREQ(e.what(),
-                 "my.yaml: found solver = ipopt, expected a solver of this build: interior_point");
+    EXPECT_NE(std::string(e.what()).find("my.yaml: found solver = ipopt, expected interior_point: "
+                                         "Ipopt's library (libipopt.so.1 or libipopt.so.3)"),
+              std::string::npos)
+        << e.what();
   }
 }
 

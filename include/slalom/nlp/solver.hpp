@@ -117,11 +117,12 @@ class Solver {
 /// Throws InvalidValue unless `start` has the sizes of `structure`; duals only where `with_duals`.
 void check_sizes(const Start& start, const Structure& structure, bool with_duals);
 
-/// Names of the back ends this build has. A further one, nl, is not among them: it runs any solver
-/// that reads AMPL's .nl files, if the machine has one (Options::nl_solver).
+/// Names of the back ends there are: those of this build, and ipopt where Ipopt's library can be
+/// loaded (libipopt.so.1 or .3, or what $SLALOM_IPOPT names). A further one, nl, is not among them:
+/// it runs any solver that reads AMPL's .nl files, if the machine has one (Options::nl_solver).
 std::vector<std::string> backends();
 /// A solver by its back end's name; without one, interior_point. Throws InvalidValue for a back end
-/// that this build lacks, naming those it has.
+/// that is not there, saying what is.
 std::unique_ptr<Solver> make_solver(const std::string& backend = "");
 
 }  // namespace slalom::nlp

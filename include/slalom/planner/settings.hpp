@@ -118,8 +118,8 @@ struct Settings {
 const OptionTable<Settings>& setting_options();
 
 /// Throws InvalidValue, naming `where`, when a value is outside its registered range or not finite,
-/// or when values contradict each other: L_range <= kappa, tf_min >= tf_max; and for a solver this
-/// build has not.
+/// or when values contradict each other: L_range <= kappa, tf_min >= tf_max; and for a solver that
+/// is not there.
 void check(const Settings& settings, const std::string& where);
 
 }  // namespace slalom::planner
