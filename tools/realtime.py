@@ -30,9 +30,9 @@ class Drive:
         with open(folder / "cycles.csv", newline="") as file:
             self.cycles = list(csv.DictReader(file))
         # A plan that goes through an obstacle between its nodes is solved, too: its rows hold.
-        solved = ("solved", "passes_through")
-        self.unsolved = [c for c in self.cycles if c["status"] not in solved]
-        self.solved = [c for c in self.cycles if c["status"] in solved]
+        solved = [c["status"].startswith(("solved", "passes_through")) for c in self.cycles]
+        self.unsolved = [c for c, good in zip(self.cycles, solved) if not good]
+        self.solved = [c for c, good in zip(self.cycles, solved) if good]
 
     def times(self, column, cycles=None):
         """In ms, rising."""
