@@ -34,6 +34,7 @@ struct Vec {
   static type fnma(type a, type b, type c) { return _mm256_fnmadd_pd(a, b, c); }  ///< c - a b
   static type max(type a, type b) { return _mm256_max_pd(a, b); }
   static type min(type a, type b) { return _mm256_min_pd(a, b); }
+  static type sqrt(type v) { return _mm256_sqrt_pd(v); }
   static type abs(type v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
   static double sum(type v) {
     const __m128d half = _mm_add_pd(_mm256_castpd256_pd128(v), _mm256_extractf128_pd(v, 1));
@@ -80,6 +81,7 @@ struct Vec {
   static type fnma(type a, type b, type c) { return c - a * b; }
   static type max(type a, type b) { return _mm_max_pd(a, b); }
   static type min(type a, type b) { return _mm_min_pd(a, b); }
+  static type sqrt(type v) { return _mm_sqrt_pd(v); }
   static type abs(type v) { return _mm_andnot_pd(_mm_set1_pd(-0.0), v); }
   static double sum(type v) { return _mm_cvtsd_f64(_mm_add_sd(v, _mm_unpackhi_pd(v, v))); }
   static double largest(type v) { return _mm_cvtsd_f64(_mm_max_sd(v, _mm_unpackhi_pd(v, v))); }
@@ -120,6 +122,7 @@ struct Vec {
   static type fnma(type a, type b, type c) { return c - a * b; }
   static type max(type a, type b) { return a > b ? a : b; }
   static type min(type a, type b) { return a < b ? a : b; }
+  static type sqrt(type v) { return type{__builtin_sqrt(v[0]), __builtin_sqrt(v[1])}; }
   static type abs(type v) { return with_bits(bits_of(v) & 0x7FFFFFFFFFFFFFFF); }
   static double sum(type v) { return v[0] + v[1]; }
   static double largest(type v) { return v[0] > v[1] ? v[0] : v[1]; }

@@ -1,19 +1,15 @@
 #include "tape_block.hpp"
 
 #ifdef __AVX2__
-#include <immintrin.h>
 #include <sleef.h>
+
+#include "../base/simd.hpp"
 
 namespace slalom::expr {
 namespace {
 
 /// Four lanes: AVX2 with FMA.
-struct Vector {
-  using type = __m256d;
-  static constexpr std::size_t size = 4;
-  static type load(const double* p) { return _mm256_loadu_pd(p); }
-  static void store(double* p, type v) { _mm256_storeu_pd(p, v); }
-  static type sqrt(type v) { return _mm256_sqrt_pd(v); }
+struct Vector : simd::Vec {
   static type exp(type v) { return Sleef_finz_expd4_u10avx2(v); }
   static type log(type v) { return Sleef_finz_logd4_u10avx2(v); }
   static type sin(type v) { return Sleef_finz_sind4_u10avx2(v); }
@@ -34,7 +30,6 @@ struct Vector {
   static type pick(Mask mask, type yes, type no) {
     return mask ? yes : no;
   }
-  static type abs(type v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
   static type sign(type v) {
     const type zero{}, one = zero + 1.0;
     return pick(v > zero, one, pick(v < zero, -one, v != v ? v : zero));

@@ -14,63 +14,22 @@ namespace {
 
 /// Two lanes, which every processor has.
 struct Vector : simd::Vec {
-#ifdef __x86_64__
-  static type sqrt(type v) {
-    return _mm_sqrt_pd(v);
-  }
-#else
-  static type sqrt(type v) {
-    return vsqrtq_f64(v);
-  }
-#endif
-  static type exp(type v) {
-    return SLALOM_SLEEF(exp)(v);
-  }
-  static type log(type v) {
-    return SLALOM_SLEEF(log)(v);
-  }
-  static type sin(type v) {
-    return SLALOM_SLEEF(sin)(v);
-  }
-  static type cos(type v) {
-    return SLALOM_SLEEF(cos)(v);
-  }
-  static type tan(type v) {
-    return SLALOM_SLEEF(tan)(v);
-  }
-  static type asin(type v) {
-    return SLALOM_SLEEF(asin)(v);
-  }
-  static type acos(type v) {
-    return SLALOM_SLEEF(acos)(v);
-  }
-  static type atan(type v) {
-    return SLALOM_SLEEF(atan)(v);
-  }
-  static type sinh(type v) {
-    return SLALOM_SLEEF(sinh)(v);
-  }
-  static type cosh(type v) {
-    return SLALOM_SLEEF(cosh)(v);
-  }
-  static type tanh(type v) {
-    return SLALOM_SLEEF(tanh)(v);
-  }
-  static type pow(type a, type b) {
-    return SLALOM_SLEEF(pow)(a, b);
-  }
-  static type atan2(type y, type x) {
-    return SLALOM_SLEEF(atan2)(y, x);
-  }
-  static type product_plus(type a, type b, type c) {
-    return a * b + c;
-  }
-  static type product_minus(type a, type b, type c) {
-    return a * b - c;
-  }
-  static type minus_product(type a, type b, type c) {
-    return c - a * b;
-  }
+  static type exp(type v) { return SLALOM_SLEEF(exp)(v); }
+  static type log(type v) { return SLALOM_SLEEF(log)(v); }
+  static type sin(type v) { return SLALOM_SLEEF(sin)(v); }
+  static type cos(type v) { return SLALOM_SLEEF(cos)(v); }
+  static type tan(type v) { return SLALOM_SLEEF(tan)(v); }
+  static type asin(type v) { return SLALOM_SLEEF(asin)(v); }
+  static type acos(type v) { return SLALOM_SLEEF(acos)(v); }
+  static type atan(type v) { return SLALOM_SLEEF(atan)(v); }
+  static type sinh(type v) { return SLALOM_SLEEF(sinh)(v); }
+  static type cosh(type v) { return SLALOM_SLEEF(cosh)(v); }
+  static type tanh(type v) { return SLALOM_SLEEF(tanh)(v); }
+  static type pow(type a, type b) { return SLALOM_SLEEF(pow)(a, b); }
+  static type atan2(type y, type x) { return SLALOM_SLEEF(atan2)(y, x); }
+  static type product_plus(type a, type b, type c) { return a * b + c; }
+  static type product_minus(type a, type b, type c) { return a * b - c; }
+  static type minus_product(type a, type b, type c) { return c - a * b; }
   template <class Mask>
   static type pick(Mask mask, type yes, type no) {
     return mask ? yes : no;
