@@ -27,6 +27,18 @@ using Matrix = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
 template <class Value>
 using ByName = nb::typed<nb::dict, nb::str, Value>;
 
+/// A list of names, each with its value, as a dictionary.
+template <class Value, class List>
+ByName<Value> by_name(const List& list) {
+  nb::dict result;
+  for (const auto& [name, value] : list) result[name.c_str()] = value;
+  return result;
+}
+
+/// What the documentation of cost terms says of that keyword.
+inline constexpr const char* kMaximised =
+    "\nWith `maximise` it is to be large: it counts with a minus, in the objective too.";
+
 /// A NumPy array that owns a copy of the numbers.
 Vector to_numpy(const std::vector<double>& numbers);
 /// Rows of equal length as an array [row, column]; `columns` is for no rows at all.

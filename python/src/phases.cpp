@@ -228,9 +228,7 @@ void bind_problem_of_phases(nb::module_& module) {
             p.mayer(name, maximise ? -term : term);
           },
           "name"_a, "term"_a, nb::kw_only(), "maximise"_a = false,
-          (std::string(doc::ocp_PhasedProblem_mayer) +
-           "\nWith `maximise` it is to be large: it counts with a minus, in the objective too.")
-              .c_str())
+          (std::string(doc::ocp_PhasedProblem_mayer) + kMaximised).c_str())
       .def("solve", &solve, nb::kw_only(), "mesh"_a = 40, "scheme"_a = "hermite_simpson",
            "points"_a = nb::none(), "phases"_a = nb::dict(), "backend"_a = "",
            "guess"_a = nb::none(), "warm_start"_a = nb::none(), "starts"_a = 1, "seed"_a = 1,
@@ -238,12 +236,6 @@ void bind_problem_of_phases(nb::module_& module) {
            "Transcribes, solves and checks all phases as one problem. The keywords are those of "
            "Problem.solve;\n`phases` has by phase a dict of those that differ there: mesh, scheme, "
            "points, guess. `guess` and\n`warm_start` are earlier PhasedSolutions.");
-}
-
-ByName<double> by_name(const std::vector<std::pair<std::string, double>>& pairs) {
-  nb::dict result;
-  for (const auto& [name, value] : pairs) result[name.c_str()] = value;
-  return result;
 }
 
 std::string text(const PhasedSolved& s) {
@@ -281,11 +273,11 @@ void bind_solution_of_phases(nb::module_& module) {
            "The Solution of a phase, by number or by name.")
       .def_ro("phases", &PhasedSolved::phases, doc::ocp_PhasedSolution_phases)
       .def_prop_ro(
-          "cost_terms", [](const PhasedSolved& s) { return by_name(s.answer.cost_terms); },
+          "cost_terms", [](const PhasedSolved& s) { return by_name<double>(s.answer.cost_terms); },
           doc::ocp_PhasedSolution_cost_terms)
       .def_prop_ro(
           "link_multipliers",
-          [](const PhasedSolved& s) { return by_name(s.answer.link_multipliers); },
+          [](const PhasedSolved& s) { return by_name<double>(s.answer.link_multipliers); },
           doc::ocp_PhasedSolution_link_multipliers);
   bind_extras(type,
               "States and controls of all phases over time; a Matplotlib figure (extra 'plot').",

@@ -82,12 +82,7 @@ void bind_report(nb::class_<Plan>& type) {
       .def_prop_ro(
           "cost", [](const Plan& p) { return p.report.cost; }, "The sum of the cost terms.")
       .def_prop_ro(
-          "cost_terms",
-          [](const Plan& p) {
-            ByName<double> terms = nb::borrow<ByName<double>>(nb::dict());
-            for (const auto& [name, value] : p.report.cost_terms) terms[name.c_str()] = value;
-            return terms;
-          },
+          "cost_terms", [](const Plan& p) { return by_name<double>(p.report.cost_terms); },
           doc::planner_SolveReport_cost_terms)
       .def_prop_ro(
           "worst_violation", [](const Plan& p) { return p.report.worst_violation; },

@@ -239,14 +239,12 @@ void bind_constraints(nb::class_<Problem>& type) {
 
 void bind_terms(nb::class_<Problem>& type) {
   type.def("smooth_kinks", &ocp::smooth_kinks, doc::ocp_smooth_kinks);
-  static const std::string maximised =
-      "\nWith `maximise` it is to be large: it counts with a minus, in the objective too.";
   static const std::string at_moment =
       "\nWith `at`, a time, or `at_share` of the horizon, it is a cost at that moment, of what "
       "path may "
       "use.";
-  static const std::string mayer_doc = doc::ocp_Problem_mayer + maximised + at_moment;
-  static const std::string lagrange_doc = doc::ocp_Problem_lagrange + maximised;
+  static const std::string mayer_doc = std::string(doc::ocp_Problem_mayer) + kMaximised + at_moment;
+  static const std::string lagrange_doc = std::string(doc::ocp_Problem_lagrange) + kMaximised;
   type.def("dynamics", &Problem::dynamics, "state"_a, "rate"_a, doc::ocp_Problem_dynamics)
       .def(
           "mayer",

@@ -31,12 +31,6 @@ std::string text(const Solved& s) {
          std::to_string(s.answer.iterations) + " iterations>";
 }
 
-ByName<double> cost_terms(const Solved& s) {
-  nb::dict result;
-  for (const auto& [name, value] : s.answer.cost_terms) result[name.c_str()] = value;
-  return result;
-}
-
 std::vector<double> nodes(const Solved& s) {
   std::vector<double> times;
   for (const double tau : s.answer.mesh.breakpoints())
@@ -146,24 +140,6 @@ nb::any value(const Solved& s, const ocp::Expr& expression, const std::optional<
   return nb::borrow<nb::any>(nb::cast(to_numpy(list)).attr("reshape")(times.shape));
 }
 
-ByName<double> scales(const Solved& s) {
-  nb::dict result;
-  for (const auto& [name, scale] : s.answer.scales) result[name.c_str()] = scale;
-  return result;
-}
-
-ByName<int> high_index(const Solved& s) {
-  nb::dict result;
-  for (const auto& [row, index] : s.answer.high_index) result[row.c_str()] = index;
-  return result;
-}
-
-ByName<double> beyond_tables(const Solved& s) {
-  nb::dict result;
-  for (const auto& [term, by] : s.answer.beyond_tables) result[term.c_str()] = by;
-  return result;
-}
-
 /// States and controls at the times `t`, a number or an array of any shape.
 ByName<nb::any> at(const Solved& s, const nb::object& t, bool hold) {
   const auto [shape, times] = times_of(s, t, hold);
@@ -183,7 +159,9 @@ void bind_outcome(nb::class_<Solved>& type) {
   type.def("__repr__", &text)
       .def_prop_ro(
           "name", [](const Solved& s) { return s.problem->name(); }, "Of its problem.")
-      .def_prop_ro("cost_terms", &cost_terms, doc::ocp_Solution_cost_terms);
+      .def_prop_ro(
+          "cost_terms", [](const Solved& s) { return by_name<double>(s.answer.cost_terms); },
+          doc::ocp_Solution_cost_terms);
 }
 
 void bind_trajectory(nb::class_<Solved>& type) {
@@ -207,9 +185,15 @@ void bind_trajectory(nb::class_<Solved>& type) {
       .def("value", &value, "expression"_a, "t"_a = nb::none(), nb::kw_only(), "hold"_a = false,
            "What an expression of the problem's symbols comes to: one number a point of `t`, or at "
            "the times\ngiven; of ends, times and parameters alone, a number.")
-      .def_prop_ro("scales", &scales, doc::ocp_Solution_scales)
-      .def_prop_ro("high_index", &high_index, doc::ocp_Solution_high_index)
-      .def_prop_ro("beyond_tables", &beyond_tables, doc::ocp_Solution_beyond_tables)
+      .def_prop_ro(
+          "scales", [](const Solved& s) { return by_name<double>(s.answer.scales); },
+          doc::ocp_Solution_scales)
+      .def_prop_ro(
+          "high_index", [](const Solved& s) { return by_name<int>(s.answer.high_index); },
+          doc::ocp_Solution_high_index)
+      .def_prop_ro(
+          "beyond_tables", [](const Solved& s) { return by_name<double>(s.answer.beyond_tables); },
+          doc::ocp_Solution_beyond_tables)
       .def_prop_ro(
           "t", [](const Solved& s) { return to_numpy(s.answer.time()); }, nb::rv_policy::move,
           doc::ocp_Solution_time)
