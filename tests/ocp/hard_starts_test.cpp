@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "ocp/pushed_mass.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/phases.hpp"
 #include "slalom/ocp/solve.hpp"
@@ -39,12 +40,7 @@ TEST(HardStarts, TheAdaptiveRuleFallsBackInTime) {
 
 /// What each bound's complementarity adds to the objective adds up: not to more on a finer mesh.
 TEST(HardStarts, AFineMeshIsNoWorse) {
-  Problem p("least time");
-  const Expr x = p.state("x"), v = p.state("v"), u = p.control("u", {-1, 1});
-  p.dynamics(x, v);
-  p.dynamics(v, u);
-  p.fix(x, 0, 1);
-  p.fix(v, 0, 0);
+  Problem p = PushedMass("least time").problem;
   p.final_time({0.1, 10}, 5);
   p.mayer("duration", p.final_time());
   for (const int intervals : {40, 400, 4000}) {

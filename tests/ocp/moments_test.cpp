@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ocp/messages.hpp"
+#include "ocp/pushed_mass.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/refine.hpp"
 #include "slalom/ocp/solve.hpp"
@@ -96,16 +97,11 @@ TEST(Moments, ASoftRowAtAMomentCostsItsExcessOnce) {
 }
 
 TEST(Moments, SharesOfAHorizonWhoseEndIsFree) {
-  Problem p(
-      "half-way");  // least time over 1 with |u| <= 1, at most 0.2 fast when half of it is gone
-  const Expr x = p.state("x"), v = p.state("v"), u = p.control("u", {-1, 1});
-  p.dynamics(x, v);
-  p.dynamics(v, u);
-  p.fix(x, 0, 1);
-  p.fix(v, 0, 0);
+  PushedMass mass("half-way");  // least time, at most 0.2 fast when half of it is gone
+  Problem& p = mass.problem;
   p.final_time({0.1, 20}, 4);
   p.mayer("time", p.final_time());
-  p.path_at("slow", v, Moment::share(0.5), Bounds::at_most(0.2));
+  p.path_at("slow", mass.v, Moment::share(0.5), Bounds::at_most(0.2));
   const Solution solution = solve(p, {.mesh = Mesh::uniform(21)});
   ASSERT_TRUE(solution.solved()) << solution.residuals.worst_constraint;
   EXPECT_EQ(solution.mesh.intervals(), 22u);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ocp/messages.hpp"
+#include "ocp/pushed_mass.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/kinks.hpp"
 
@@ -103,15 +104,10 @@ TEST(Starts, MovedGuessesKeepTheBounds) {
 
 TEST(SmoothKinks, SayTheSameByRows) {
   const auto least_fuel = [](const std::function<Expr(const Expr&)>& cost) {
-    Problem p("least fuel");
-    const Expr x = p.state("x"), v = p.state("v"), u = p.control("u", {-1, 1});
-    p.dynamics(x, v);
-    p.dynamics(v, u);
-    p.fix(x, 0, 1);
-    p.fix(v, 0, 0);
-    p.final_time(Bounds::equal(4), 4);
-    p.lagrange("fuel", cost(u));
-    return p;
+    PushedMass mass("least fuel");
+    mass.problem.final_time(Bounds::equal(4), 4);
+    mass.problem.lagrange("fuel", cost(mass.u));
+    return mass.problem;
   };
   const double right = 4 - std::sqrt(12.0);  // full force for s at both ends: s (4 - s) = 1
   for (const auto& cost : std::vector<std::function<Expr(const Expr&)>>{
