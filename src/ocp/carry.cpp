@@ -112,7 +112,7 @@ void carry_rows(const Problem& problem, const Transcribed& data, const Densities
     const RowOrigin& origin = data.origins[r];
     if (origin.constraint == kNone) continue;
     const std::string name = name_of(problem, origin);
-    const bool over_time = problem.constraints()[origin.constraint].kind != Problem::Kind::boundary;
+    const bool over_time = problem.constraints()[origin.constraint].over_time();
     const double value =
         over_time ? densities.at(name, origin.point, false) : densities.single(name);
     start.y[r] = value / data.structure.row_scale[r];

@@ -75,7 +75,7 @@ std::vector<Candidate> candidates(const Problem& problem,
 void add_path_equations(const Problem& problem, const std::string& prefix,
                         std::vector<Conflict>& list) {
   for (const auto& row : problem.constraints())
-    if (row.enabled && row.kind != Problem::Kind::boundary && row.bounds.lower == row.bounds.upper)
+    if (row.enabled && row.over_time() && row.bounds.lower == row.bounds.upper)
       list.push_back({prefix + row.name, 0});
 }
 

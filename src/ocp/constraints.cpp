@@ -85,16 +85,14 @@ void add_ends(Draft& draft) {
     std::vector<std::size_t> rows;
     for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c) {
       const auto& row = draft.problem.constraints()[c];
-      if (absent(row, Problem::Kind::boundary) || row.moment ||
-          draft.symbols.end_of(row.value, row.name) != end)
+      if (absent(row, Problem::Kind::boundary) || draft.symbols.end_of(row.value, row.name) != end)
         continue;
       rows.push_back(c);
       outputs.push_back({row.name, row.value});
     }
     std::vector<std::size_t> terms;
     for (const auto& cost : draft.problem.costs())
-      if (cost.enabled && !cost.lagrange && !cost.moment &&
-          draft.symbols.end_of(cost.value, cost.name) == end) {
+      if (cost.enabled && cost.at_end() && draft.symbols.end_of(cost.value, cost.name) == end) {
         terms.push_back(draft.term_index(cost.name));
         outputs.push_back({cost.name, cost.value});
       }
@@ -128,8 +126,8 @@ void add_moments(Draft& draft) {
   };
   for (std::size_t c = 0; c < draft.problem.constraints().size(); ++c) {
     const auto& row = draft.problem.constraints()[c];
-    if (absent(row, Problem::Kind::boundary) || !row.moment) continue;
-    const std::size_t point = point_at(draft, row.name, *row.moment);
+    if (absent(row, Problem::Kind::moment)) continue;
+    const std::size_t point = point_at(draft, row.name, row.moment);
     add_constraint(draft, batch_at(row.name, row.value, point), 0, 0, {row.name}, {c, 0, point});
   }
   for (const auto& cost : draft.problem.costs())
@@ -158,7 +156,7 @@ void add_soft_cost(Draft& draft, std::size_t constraint) {
   }
   lanes.placed.push_back(
       {excess, [&variables](const Batch&, std::size_t lane) { return variables[lane]; }});
-  const bool over_time = row.kind != Problem::Kind::boundary;
+  const bool over_time = row.over_time();
   Expr cost = lanes.weight * (row.soft->norm == Norm::l1 ? excess : square(excess));
   if (over_time) cost = cost * (draft.problem.final_time() - draft.problem.initial_time());
   const std::size_t batch = draft.add_batch({{name, cost}}, lanes), term = draft.term_index(name);

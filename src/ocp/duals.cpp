@@ -149,8 +149,7 @@ std::vector<Multipliers> multipliers(const Problem& problem, const Transcribed& 
     Multipliers& each = rows[{origin.constraint, origin.member}];
     each.name = name_of(problem, origin);
     each.values.push_back(point.y[r] * data.structure.row_scale[r]);
-    if (problem.constraints()[origin.constraint].kind != Problem::Kind::boundary)
-      each.points.push_back(origin.point);
+    if (problem.constraints()[origin.constraint].over_time()) each.points.push_back(origin.point);
   }
   std::vector<Multipliers> list;
   for (auto& [key, each] : rows) {

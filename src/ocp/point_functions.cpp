@@ -67,7 +67,7 @@ PointFunctions::PointFunctions(const Problem& problem, const Trajectory& at)
   for (const auto& control : problem.controls())
     add_row(control.name, control.symbol, control.bounds, Points::all);
   for (const auto& row : problem.constraints()) {
-    if (!row.enabled || row.kind == Problem::Kind::boundary) continue;
+    if (!row.enabled || !row.over_time()) continue;
     if (row.kind == Problem::Kind::path) add_row(row.name, row.value, row.bounds, row.points);
     for (std::size_t m = 0; m < row.member_values.size(); ++m) {
       const std::vector<Expr> numbers(row.member_values[m].begin(), row.member_values[m].end());

@@ -54,7 +54,7 @@ class Prepared::Impl {
     Solution solution;
     const auto point = run(*transcription_, *solver_, options_, start,
                            transcription_->regular_variables(), solution);
-    describe(problem_, grid_, *transcription_, point, solution);
+    describe(problem_, grid_, tables_, *transcription_, point, solution);
     return solution;
   }
 
@@ -68,10 +68,12 @@ class Prepared::Impl {
     grid_ = with_moments(problem, given_);
     Problem scaled = with_scales(problem, begin(problem, grid_, guess_, nullptr).guess);
     transcription_ = std::make_unique<Transcription>(scaled, grid_.mesh, grid_.schemes);
+    tables_ = Tables(scaled);
     problem_ = std::move(scaled);
   }
 
   Problem problem_{""};
+  Tables tables_;
   PhasedTranscription::Grid given_, grid_;  ///< grid_ with the problem's moments
   nlp::Options options_;
   Trajectory guess_;

@@ -221,7 +221,7 @@ ConstraintId Problem::path_at(const std::string& name, const Expr& value, Moment
                               Bounds bounds) {
   claim_name(name);
   check_row(name_ + ": path " + name, bounds);
-  constraints_.push_back({name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}, {}});
+  constraints_.push_back({name, Kind::moment, value, bounds, Points::all, true, {}, {}, {}, {}});
   constraints_.back().moment = moment;
   return {constraints_.size() - 1};
 }
@@ -249,7 +249,7 @@ std::vector<double> Problem::moments() const {
   for (const auto& cost : costs_)
     if (cost.enabled && cost.moment) shares.push_back(share_of(cost.name, *cost.moment));
   for (const auto& row : constraints_)
-    if (row.enabled && row.moment) shares.push_back(share_of(row.name, *row.moment));
+    if (row.enabled && row.kind == Kind::moment) shares.push_back(share_of(row.name, row.moment));
   for (const Moment& moment : breakpoints_) shares.push_back(share_of("breakpoint", moment));
   std::sort(shares.begin(), shares.end());
   return shares;

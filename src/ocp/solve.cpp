@@ -88,10 +88,6 @@ void check_count(const PhasedProblem& problem, const char* what, const List& lis
                        std::to_string(problem.phases().size()) + ", one a phase, or none");
 }
 
-}  // namespace
-
-namespace {
-
 Solution solve_once(const Problem& problem, const SolveSettings& settings) {
   const auto grid = with_moments(problem, {settings.mesh, settings.scheme});
   const Beginning beginning = begin(problem, grid, settings.guess, settings.previous);
@@ -104,7 +100,7 @@ Solution solve_once(const Problem& problem, const SolveSettings& settings) {
   Solution solution;
   const auto point = run(transcription, *solver, settings.options, start,
                          transcription.regular_variables(), solution);
-  describe(scaled, grid, transcription, point, solution);
+  describe(scaled, grid, Tables(scaled), transcription, point, solution);
   return solution;
 }
 
@@ -145,8 +141,9 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
   const auto point = run(transcription, *solver, settings.options, start, regular, solution);
   for (std::size_t p = 0; p < phases; ++p) {
     Solution& part = solution.phases.emplace_back();
-    describe(scaled.phases()[p], grids[p], transcription.phase(p), transcription.part_of(p, point),
-             part);
+    const Problem& phase = scaled.phases()[p];
+    describe(phase, grids[p], Tables(phase), transcription.phase(p),
+             transcription.part_of(p, point), part);
     part.status = solution.status;
     part.residuals = solution.residuals;
     part.options = solution.options;

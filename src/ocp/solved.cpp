@@ -3,11 +3,10 @@
 #include "conflicts.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/interpolant.hpp"
-#include "slalom/ocp/values.hpp"
 
 namespace slalom::ocp {
 
-void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
+void describe(const Problem& problem, const PhasedTranscription::Grid& grid, const Tables& tables,
               Transcription& transcription, const nlp::Start& point, Solution& solution) {
   solution.mesh = grid.mesh;
   for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
@@ -33,7 +32,7 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
   solution.static_parameter_names = names_of(problem.static_parameters());
   solution.slack_names = names_of(problem.slacks());
   if (solution.status != nlp::Status::solved) solution.high_index = high_index(problem);
-  solution.beyond_tables = beyond_tables(problem, solution);
+  solution.beyond_tables = tables.beyond(problem, solution);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(problem, solution.multipliers);
 }
 

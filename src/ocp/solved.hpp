@@ -8,6 +8,7 @@
 #include "objective_scale.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/ocp/solve.hpp"
+#include "tables.hpp"
 
 namespace slalom::ocp {
 
@@ -18,8 +19,8 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
-/// Fills `solution` with what a point says of one phase.
-void describe(const Problem& problem, const PhasedTranscription::Grid& grid,
+/// Fills `solution` with what a point says of one phase, whose tables are `tables`.
+void describe(const Problem& problem, const PhasedTranscription::Grid& grid, const Tables& tables,
               Transcription& transcription, const nlp::Start& point, Solution& solution);
 
 /// A point of the NLP in the user's units, and back.

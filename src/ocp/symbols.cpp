@@ -84,13 +84,12 @@ Lifts Symbols::find_lifts() const {
   for (const auto& integral : problem_.integrals()) note(integral.integrand, false, false);
   for (const auto& cost : problem_.costs()) {
     if (!cost.enabled) continue;
-    cost.lagrange || cost.moment ? note(cost.value, false, false)
-                                 : note_boundary(cost.value, cost.name);
+    cost.at_end() ? note_boundary(cost.value, cost.name) : note(cost.value, false, false);
   }
   for (const auto& row : problem_.constraints()) {
     if (absent(row, row.kind)) continue;
-    row.kind == Problem::Kind::boundary && !row.moment ? note_boundary(row.value, row.name)
-                                                       : note(row.value, false, false);
+    row.kind == Problem::Kind::boundary ? note_boundary(row.value, row.name)
+                                        : note(row.value, false, false);
   }
   return lifts;
 }

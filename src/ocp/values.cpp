@@ -4,7 +4,6 @@
 
 #include "point_functions.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/expr/spline.hpp"
 #include "slalom/ocp/interpolant.hpp"
 
 namespace slalom::ocp {
@@ -65,27 +64,6 @@ std::vector<double> values(const Problem& problem, const Solution& solution, con
     list.push_back(value(t, between.states(t), between.controls(t)));
   }
   return list;
-}
-
-std::vector<std::pair<std::string, double>> beyond_tables(const Problem& problem,
-                                                          const Solution& solution) {
-  std::vector<std::pair<std::string, double>> result;
-  const auto look = [&](const std::string& term, const Expr& expression) {
-    double beyond = 0;
-    for (const Expr& room : expr::room_in_tables({expression}))
-      for (const double inside : values(problem, solution, room))
-        beyond = std::max(beyond, -inside);
-    if (beyond > 0) result.emplace_back(term, beyond);
-  };
-  for (const auto& state : problem.states()) look("dynamics of " + state.name, state.rate);
-  for (const auto& cost : problem.costs())
-    if (cost.enabled && !cost.moment) look("cost " + cost.name, cost.value);
-  for (const auto& integral : problem.integrals())
-    look("integral " + integral.name, integral.integrand);
-  for (const auto& row : problem.constraints())
-    if (row.enabled && row.kind != Problem::Kind::family && !row.moment)
-      look("constraint " + row.name, row.value);
-  return result;
 }
 
 bool changes_over_time(const Problem& problem, const Expr& expression) {

@@ -210,8 +210,10 @@ class Problem {
     bool lagrange = false;
     bool enabled = true;
     std::optional<Moment> moment = std::nullopt;  ///< of cost_at
+
+    bool at_end() const { return !lagrange && !moment; }  ///< of mayer
   };
-  enum class Kind { path, boundary, family };
+  enum class Kind { path, family, moment, boundary };
   struct Constraint {
     std::string name;
     Kind kind;
@@ -224,8 +226,10 @@ class Problem {
     std::vector<std::vector<double>> member_values;
     std::optional<Soft> soft;
     double scale = kAutomaticScale;
-    std::optional<Moment> moment = std::nullopt;  ///< of path_at, whose kind is `boundary`
+    Moment moment = {};  ///< of path_at
 
+    /// Whether it is held along the horizon.
+    bool over_time() const { return kind == Kind::path || kind == Kind::family; }
     double unit() const { return scale != kAutomaticScale ? scale : 1; }
   };
 

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "slalom/ocp/problem.hpp"
@@ -17,10 +15,6 @@ std::vector<double> values(const Problem& problem, const Solution& solution,
 /// At any times, on the scheme's own polynomials; beyond t0 ... tf, at the nearer end.
 std::vector<double> values(const Problem& problem, const Solution& solution, const Expr& expression,
                            const std::vector<double>& times);
-/// What Solution::beyond_tables says, at the points of the trajectory. Families of rows are not
-/// looked at.
-std::vector<std::pair<std::string, double>> beyond_tables(const Problem& problem,
-                                                          const Solution& solution);
 /// Whether it is a function of states, controls or time, and not of ends, times and constants
 /// alone.
 bool changes_over_time(const Problem& problem, const Expr& expression);
