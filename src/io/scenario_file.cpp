@@ -37,6 +37,10 @@ class Loader {
     read_names();
     for (const auto& section : scenario_sections()) read_section(section);
     apply_command_line();
+    // The default margin makes up for the body that a point has not.
+    if (scenario_.vehicle.footprint != vehicle::FootprintKind::point &&
+        places_.count("loop.sm_crash") == 0)
+      scenario_.loop.sm_crash = 0;
     check_scenario(scenario_, {file_.string(), 1, 1}, places_);
     return std::move(scenario_);
   }

@@ -37,7 +37,8 @@ class ClosedLoop {
         plant_(plant_vehicle(scenario.vehicle, scenario.plant, scenario.name),
                loop_.plant_tolerance, loop_.sample_step),
         actuator_(scenario.plant.actuator_delay),
-        watch_({scenario.obstacles, loop_.sm_crash, scenario.goal, loop_.Fz_failure},
+        watch_({scenario.obstacles, loop_.sm_crash, scenario.goal, loop_.Fz_failure,
+                world::Footprint(scenario.vehicle)},
                plant_.dynamics()),
         state_(scenario.start) {}
 
