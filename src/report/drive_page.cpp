@@ -81,6 +81,20 @@ std::string named_row(const std::string& name, const std::string& value, const s
                      escape(value), escape(doc));
 }
 
+/// What they are: shapes and motions.
+std::string obstacles_in_words(const std::vector<world::Obstacle>& obstacles) {
+  const auto count = [&](const auto& is) {
+    return std::count_if(obstacles.begin(), obstacles.end(), is);
+  };
+  const auto polygons = count([](const auto& o) { return o.outline != nullptr; });
+  const auto moving = count([](const auto& o) { return o.trajectory != nullptr; });
+  if (polygons + moving == 0) return "ellipses at constant velocity";
+  return fmt::format(
+      "{} of them polygons, the others ellipses; {} by a table or along a path, the "
+      "others at constant velocity",
+      polygons, moving);
+}
+
 std::string scenario_rows(const sim::Scenario& scenario) {
   const auto& start = scenario.start;
   const auto& goal = scenario.goal;
@@ -91,7 +105,7 @@ std::string scenario_rows(const sim::Scenario& scenario) {
   rows += named_row("goal", fmt::format("({:g}, {:g}) m", goal.x, goal.y),
                     fmt::format("within {:g} m along x and y", goal.sigma));
   rows += named_row("obstacles", fmt::format("{}", scenario.obstacles.size()),
-                    "ellipses at constant velocity");
+                    obstacles_in_words(scenario.obstacles));
   return rows;
 }
 
