@@ -164,5 +164,5 @@
   survey();
   listen();
   resize();
-  slalom.stage = { draw, survey, setMode, zoom: (factor) => zoom(factor, view.width / 2, view.height / 2) };
+  slalom.stage = { draw, survey, setMode, pixelOf: (x, y) => [view.x(x), view.y(y)], zoom: (factor) => zoom(factor, view.width / 2, view.height / 2) };
 })(window.slalom = window.slalom || {});

@@ -11,6 +11,7 @@ using world::TrajectoryRow;
 
 constexpr int kPoints = 48;       ///< of a whole turn
 constexpr double kStep = 0.1;     ///< between looks at a motion [s]
+constexpr double kMoment = 1e-3;  ///< [s]
 constexpr double kPlace = 0.01;   ///< [m]
 constexpr double kTurn = 0.0087;  ///< [rad]
 
@@ -78,13 +79,30 @@ std::vector<world::Point> edge_of(const world::Obstacle& obstacle, double t) {
 Track track_of(const world::Trajectory& trajectory, double begin, double end, std::size_t most) {
   Track track;
   std::vector<TrajectoryRow> rows;
-  const auto count = std::clamp<std::size_t>(
-      static_cast<std::size_t>(std::ceil(std::max(end - begin, 0.0) / kStep)), 1, most);
-  for (std::size_t k = 0; k <= count; ++k) {
-    const double t = begin + (end - begin) * static_cast<double>(k) / static_cast<double>(count);
-    if (!trajectory.present(t, t)) continue;
+  const auto add = [&](double t) {
     const auto pose = trajectory.at(t);
     rows.push_back({t, pose.x, pose.y, pose.psi});
+  };
+  // The last time at which it is there, or the first, between that and one at which it is not.
+  const auto edge = [&](double there, double gone) {
+    while (std::fabs(gone - there) > kMoment) {
+      const double t = (there + gone) / 2;
+      (trajectory.present(t, t) ? there : gone) = t;
+    }
+    return there;
+  };
+  const auto count = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::ceil(std::max(end - begin, 0.0) / kStep)), 1, most);
+  double last = begin;
+  bool was = trajectory.present(begin, begin);
+  for (std::size_t k = 0; k <= count; ++k) {
+    const double t = begin + (end - begin) * static_cast<double>(k) / static_cast<double>(count);
+    const bool is = trajectory.present(t, t);
+    if (is && !was) add(edge(t, last));
+    if (was && !is) add(edge(last, t));
+    if (is && (rows.empty() || t > rows.back().t)) add(t);
+    was = is;
+    last = t;
   }
   if (rows.empty()) return track;
   track.appears = rows.front().t > begin;
