@@ -241,4 +241,11 @@ sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& req
   return Loader(request, source, parse_text(text, source, "a scenario")).load();
 }
 
+world::Obstacle parse_obstacle(const std::string& text, const std::string& source) {
+  auto obstacles = read_obstacles(parse_argument(text, source), 1);
+  if (obstacles.size() != 1)
+    throw InvalidValue(source, fmt::format("repeat = {}", obstacles.size()), "one obstacle");
+  return std::move(obstacles[0]);
+}
+
 }  // namespace slalom::io
