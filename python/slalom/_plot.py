@@ -65,8 +65,8 @@ def plot_drive(drive: Drive, pyplot: Any, options: dict[str, Any]) -> Any:
     for o in drive.scenario.obstacles:
         if not o.present(drive.time):
             continue
-        x, y, psi = o.pose(drive.time)[:3]
-        corners = o.corners(drive.time)
+        x, y, psi = o.pose_at(drive.time)[:3]
+        corners = o.corners_at(drive.time)
         if len(corners):
             path.add_patch(Polygon(corners, color="C1"))
         else:

@@ -128,26 +128,39 @@ void bind_obstacle(nb::module_& module) {
       .def_ro("psi", &Obstacle::psi, doc::world_Obstacle_psi)
       .def_ro("margin_start", &Obstacle::margin_start, doc::world_Obstacle_margin_start)
       .def_ro("margin_rate", &Obstacle::margin_rate, doc::world_Obstacle_margin_rate)
-      .def(
-          "pose",
-          [](const Obstacle& o, double t) {
-            const world::Pose p = o.pose_at(t);
-            return to_numpy(std::vector<double>{p.x, p.y, p.psi, p.vx, p.vy, p.omega});
+      .def_prop_ro(
+          "outline",
+          [](const Obstacle& o) -> std::optional<std::vector<std::array<double, 2>>> {
+            if (!o.outline) return std::nullopt;
+            std::vector<std::array<double, 2>> corners;
+            for (const auto& p : o.outline->corners()) corners.push_back({p.x, p.y});
+            return corners;
           },
-          "t"_a, nb::rv_policy::move,
-          "x, y [m], psi [rad], vx, vy [m/s] and the turn rate [rad/s] at absolute time t [s].")
+          "Corners (x, y) [m] of a polygon in the body's own frame, counter-clockwise; None: an "
+          "ellipse.")
       .def(
-          "corners",
+          "corners_at",
           [](const Obstacle& o, double t) {
             return table(o.corners_at(t), 2, [](const world::Point& p) {
               return std::array<double, 2>{p.x, p.y};
             });
           },
           "t"_a, nb::rv_policy::move,
-          "Corners of a box or polygon at t [s], [corner, x or y]; none of an ellipse.")
+          "Corners of a polygon in the world's frame at the absolute time t [s], [corner, x or y] "
+          "[m]; none\nof an ellipse.")
+      .def(
+          "pose_at",
+          [](const Obstacle& o, double t) {
+            const auto pose = o.pose_at(t);
+            return std::array<double, 6>{pose.x, pose.y, pose.psi, pose.vx, pose.vy, pose.omega};
+          },
+          "t"_a,
+          "Where it is at the absolute time t [s]: x, y [m], psi [rad], vx, vy [m/s], omega "
+          "[rad/s]. "
+          "Where it\nis absent, where it last was or first will be.")
       .def(
           "present", [](const Obstacle& o, double t) { return o.present(t, t); }, "t"_a,
-          "Whether it is there at t [s].")
+          "Whether it is there at the absolute time t [s].")
       .def(
           "distance",
           [](const Obstacle& o, double x, double y, double t) {

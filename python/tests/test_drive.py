@@ -139,24 +139,24 @@ def test_verified_plans():
 def test_obstacles_of_every_shape_and_motion():
     box = slalom.Obstacle(x=5, y=2, length=4, width=2, psi=np.pi / 2, vx=3, name="car")
     assert box.distance(5 + 3 + 1.5, 2, t=1) == pytest.approx(0.5)
-    np.testing.assert_allclose(sorted(box.corners(0)[:, 1]), [0, 0, 4, 4])
+    np.testing.assert_allclose(sorted(box.corners_at(0)[:, 1]), [0, 0, 4, 4])
     rock = slalom.Obstacle(x=5, y=2, polygon=np.array([[-1, -1], [2, 0], [0, 1]]))
-    assert rock.corners(0).shape == (3, 2) and rock.distance(5, 2) < 0
+    assert rock.corners_at(0).shape == (3, 2) and rock.distance(5, 2) < 0
     rows = [[1, 0, 0, 0], [2, 4, 0, 0.2], [4, 9, 3, 0.6]]
     car = slalom.Obstacle(r=1, table=rows, before="absent", after="stands", margin_rate=0.1)
-    np.testing.assert_allclose(car.pose(2)[:3], rows[1][1:])
+    np.testing.assert_allclose(car.pose_at(2)[:3], rows[1][1:])
     assert (car.present(0.5), car.present(9)) == (False, True) and car.margin_rate == 0.1
-    assert slalom.Obstacle(x=1, y=2, a=3, b=1, psi=0.5).corners(0).shape == (0, 2)
+    assert slalom.Obstacle(x=1, y=2, a=3, b=1, psi=0.5).corners_at(0).shape == (0, 2)
     walker = slalom.Obstacle(r=0.4, path=[[0, 0], [5, 0], [5, 9]], speed=1.4)
-    np.testing.assert_allclose(walker.pose(2)[[0, 1, 3]], [2.8, 0, 1.4], atol=1e-12)
+    np.testing.assert_allclose(np.array(walker.pose_at(2))[[0, 1, 3]], [2.8, 0, 1.4], atol=1e-12)
     scenario = slalom.load_scenario({**MINE, "obstacles": [
         {"name": "car", "x": 5, "y": 60, "length": 4, "width": 2, "psi": 0.5, "vx": 0.5},
         {"name": "walker", "r": 0.4, "path": [[0, 90], [5, 90]], "speed": 0.1}]},
         set={"obstacles.car.psi_deg": 90, "obstacles.car.x": 6})
     assert (scenario["obstacles.car.x"], scenario["obstacles.car.psi"]) == (6, np.pi / 2)
     again = scenario.replace(tex=0.25).obstacles
-    np.testing.assert_array_equal(again[0].corners(3), scenario.obstacles[0].corners(3))
-    np.testing.assert_array_equal(again[1].pose(3), scenario.obstacles[1].pose(3))
+    np.testing.assert_array_equal(again[0].corners_at(3), scenario.obstacles[0].corners_at(3))
+    np.testing.assert_array_equal(again[1].pose_at(3), scenario.obstacles[1].pose_at(3))
 
 
 @pytest.mark.parametrize("wrong, message", [
