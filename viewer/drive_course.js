@@ -37,7 +37,8 @@
       y1: r.y_min === null ? height : view.y(r.y_min),
     }));
     ctx.fillStyle = colour.road;
-    for (const { x0, x1, y0, y1 } of sides) ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
+    if (!scene.roads.length) for (const { x0, x1, y0, y1 } of sides) ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
+    roads(view);
     grid(view);
     ctx.lineWidth = 1.5;
     for (const { r, x0, x1, y0, y1 } of sides) {
@@ -100,28 +101,61 @@
     }
   }
 
+  /** Paths through places, from the first to the last. */
+  function through(view, places) {
+    view.ctx.beginPath();
+    for (const [x, y] of places) view.ctx.lineTo(view.x(x), view.y(y));
+  }
+
+  function roads(view) {
+    const { ctx, colour, scene } = view;
+    for (const { left, right, middle, lanes, ink } of scene.roads) {
+      through(view, [...left, ...right.slice().reverse()]);
+      ctx.fillStyle = colour.road;
+      ctx.fill();
+      const line = (places, width, alpha, dash) => {
+        through(view, places);
+        ctx.strokeStyle = colour[ink];
+        ctx.lineWidth = width;
+        ctx.globalAlpha = alpha;
+        ctx.setLineDash(dash);
+        ctx.stroke();
+      };
+      for (const lane of lanes) line(lane, 1.25, 0.6, [9, 9]);
+      line(middle, 1, 0.25, []);
+      for (const edge of [left, right]) line(edge, 1.75, 0.9, []);
+      ctx.globalAlpha = 1;
+    }
+  }
+
   function goals(view) {
-    const { ctx, colour, camera, scene } = view;
-    for (const goal of scene.goals) {
-      const s = goal.sigma * camera.scale;
-      const ink = colour[goal.ink];
+    const { ctx, colour, scene } = view;
+    for (const { x, y, ink } of scene.goals) {
+      if (!x.length) continue;
+      const shape = x.map((at, i) => [at, y[i]]);
+      const top = shape.reduce((a, b) => (b[1] > a[1] ? b : a));
+      const middle = [0, 1].map((k) => shape.reduce((sum, p) => sum + p[k], 0) / shape.length);
       ctx.save();
-      ctx.translate(view.x(goal.x), view.y(goal.y));
-      ctx.fillStyle = ink;
+      through(view, shape);
+      ctx.closePath();
+      ctx.fillStyle = ctx.strokeStyle = colour[ink];
       ctx.globalAlpha = 0.13;
-      ctx.fillRect(-s, -s, 2 * s, 2 * s);
+      ctx.fill();
       ctx.globalAlpha = 0.9;
-      ctx.strokeStyle = ink;
-      ctx.lineWidth = 1.5;
-      ctx.strokeRect(-s, -s, 2 * s, 2 * s);
-      ctx.beginPath();
-      ctx.moveTo(-5, 0); ctx.lineTo(5, 0);
-      ctx.moveTo(0, -5); ctx.lineTo(0, 5);
+      ctx.lineWidth = shape.length > 2 ? 1.5 : 3;
       ctx.stroke();
+      ctx.translate(view.x(middle[0]), view.y(middle[1]));
+      if (shape.length > 2) {
+        ctx.lineWidth = 1.5;
+        ctx.beginPath();
+        ctx.moveTo(-5, 0); ctx.lineTo(5, 0);
+        ctx.moveTo(0, -5); ctx.lineTo(0, 5);
+        ctx.stroke();
+      }
       ctx.font = font('600', 12);
       ctx.textAlign = 'center';
       ctx.textBaseline = 'bottom';
-      ctx.fillText('goal', 0, -s - 4);
+      ctx.fillText('goal', 0, view.y(top[1]) - view.y(middle[1]) - 4);
       ctx.restore();
     }
   }
@@ -294,6 +328,7 @@
     return {
       obstacles: shared('vermilion', (data) => data.obstacles),
       goals: shared('green', (data) => [data.goal]),
+      roads: shared('muted', (data) => (data.road ? [data.road] : [])),
       regions: shared('muted', (data) => [data.region]),
     };
   }

@@ -215,7 +215,7 @@
     };
     for (const { data: { start, goal, plant, obstacles, region: r } } of drives) {
       add(start.x, start.y, 5, 5);
-      add(goal.x, goal.y, goal.sigma, goal.sigma);
+      goal.x.forEach((x, i) => add(x, goal.y[i], 0, 0));
       for (let i = 0; i < plant.t.length; ++i) add(plant.x[i], plant.y[i], 4, 4);
       for (const o of obstacles) {
         const { x, y } = o.track || { x: [o.x], y: [o.y] };

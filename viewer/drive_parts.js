@@ -166,10 +166,18 @@
     ctx.lineWidth = 1;
     ctx.stroke();
     ctx.clip();
+    for (const road of scene.roads) {
+      ctx.strokeStyle = colour[road.ink];
+      for (const edge of [road.left, road.right]) trace(ctx, edge.map(([x, y]) => [mx(x), my(y)]));
+    }
     ctx.globalAlpha = 0.3;
     for (const goal of scene.goals) {
-      ctx.fillStyle = colour[goal.ink];
-      ctx.fillRect(mx(goal.x - goal.sigma), my(goal.y + goal.sigma), 2 * goal.sigma * k, 2 * goal.sigma * k);
+      ctx.fillStyle = ctx.strokeStyle = colour[goal.ink];
+      ctx.lineWidth = 2;
+      ctx.beginPath();
+      goal.x.forEach((x, i) => ctx.lineTo(mx(x), my(goal.y[i])));
+      ctx.fill();
+      if (goal.x.length === 2) ctx.stroke();
     }
     ctx.globalAlpha = 1;
     for (const o of scene.obstacles) {

@@ -139,12 +139,12 @@ def test_verified_plans():
 def test_obstacles_of_every_shape_and_motion():
     box = slalom.Obstacle(x=5, y=2, length=4, width=2, psi=np.pi / 2, vx=3, name="car")
     assert box.distance(5 + 3 + 1.5, 2, t=1) == pytest.approx(0.5)
-    np.testing.assert_allclose(sorted(box.corners_at(0)[:, 1]), [0, 0, 4, 4])
+    np.testing.assert_allclose(sorted(box.corners_at(0)[:, 1]), [0, 0, 4, 4], atol=1e-12)
     rock = slalom.Obstacle(x=5, y=2, polygon=np.array([[-1, -1], [2, 0], [0, 1]]))
     assert rock.corners_at(0).shape == (3, 2) and rock.distance(5, 2) < 0
     rows = [[1, 0, 0, 0], [2, 4, 0, 0.2], [4, 9, 3, 0.6]]
     car = slalom.Obstacle(r=1, table=rows, before="absent", after="stands", margin_rate=0.1)
-    np.testing.assert_allclose(car.pose_at(2)[:3], rows[1][1:])
+    np.testing.assert_allclose(car.pose_at(2)[:3], rows[1][1:], atol=1e-12)
     assert (car.present(0.5), car.present(9)) == (False, True) and car.margin_rate == 0.1
     assert slalom.Obstacle(x=1, y=2, a=3, b=1, psi=0.5).corners_at(0).shape == (0, 2)
     walker = slalom.Obstacle(r=0.4, path=[[0, 0], [5, 0], [5, 9]], speed=1.4)

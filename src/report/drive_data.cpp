@@ -104,14 +104,40 @@ double end_of(const sim::Drive& drive) {
   return std::isfinite(end) ? end : drive.time;
 }
 
+Json places(const std::vector<world::Point>& points) {
+  Json json = Json::array();
+  for (const auto& p : points) json.push_back({rounded(p.x, 2), rounded(p.y, 2)});
+  return json;
+}
+
+/// The places of what is drawn of it, in columns.
+Json goal_data(const sim::Scenario& scenario) {
+  Json json = {{"x", Json::array()}, {"y", Json::array()}};
+  for (const auto& p : goal_shape(scenario)) {
+    json["x"].push_back(exact(p.x));
+    json["y"].push_back(exact(p.y));
+  }
+  return json;
+}
+
+Json road_data(const world::Road& road) {
+  const RoadLines lines = lines_of(road);
+  Json json = {{"left", places(lines.left)},
+               {"right", places(lines.right)},
+               {"middle", places(lines.middle)},
+               {"lanes", Json::array()}};
+  for (const auto& lane : road.lanes()) json["lanes"].push_back(places(lane));
+  return json;
+}
+
 Json scenario_data(const sim::Scenario& scenario, double until) {
   const auto& v = scenario.vehicle;
-  const auto& goal = scenario.goal;
   const auto& region = scenario.region;
   Json json;
   json["start"] = {{"x", exact(scenario.start[vehicle::X])},
                    {"y", exact(scenario.start[vehicle::Y])}};
-  json["goal"] = {{"x", exact(goal.x)}, {"y", exact(goal.y)}, {"sigma", exact(goal.sigma)}};
+  json["goal"] = goal_data(scenario);
+  if (scenario.road) json["road"] = road_data(*scenario.road);
   json["region"] = {{"x_min", exact(region.x_min)},
                     {"x_max", exact(region.x_max)},
                     {"y_min", exact(region.y_min)},

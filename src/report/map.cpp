@@ -7,7 +7,9 @@
 
 #include "html.hpp"
 #include "map_obstacles.hpp"
+#include "map_road.hpp"
 #include "map_view.hpp"
+#include "shapes.hpp"
 #include "slalom/report/plot.hpp"
 #include "words.hpp"
 
@@ -22,7 +24,7 @@ Box course(const Map& map) {
   const auto& scenario = *map.scenario;
   Box box;
   box.add(scenario.start[vehicle::X], scenario.start[vehicle::Y], 6, 6);
-  box.add(scenario.goal.x, scenario.goal.y, scenario.goal.sigma, scenario.goal.sigma);
+  for (const auto& p : goal_shape(scenario)) box.add(p.x, p.y, 0, 0);
   add_obstacles(box, map);
   for (const auto& v : map.vehicles)
     for (const auto& s : v.drive->plant) box.add(s.state[vehicle::X], s.state[vehicle::Y], 4, 4);
@@ -44,11 +46,8 @@ void draw_ground(Svg& svg, const Map& map, const View& view) {
   band(std::max(box.x0, region.x_max), box.x1, box.y0, box.y1);
   band(box.x0, box.x1, box.y0, std::min(box.y1, region.y_min));
   band(box.x0, box.x1, std::max(box.y0, region.y_max), box.y1);
-  const auto& goal = map.scenario->goal;
-  const auto a = view.at(goal.x - goal.sigma, goal.y - goal.sigma);
-  const auto b = view.at(goal.x + goal.sigma, goal.y + goal.sigma);
-  svg.rect({std::min(a.x, b.x), std::min(a.y, b.y)}, std::abs(b.x - a.x), std::abs(b.y - a.y),
-           {colours::green, 0.16}, {colours::green, 0.7, "", 1});
+  draw_road(svg, map, view);
+  draw_goal(svg, map, view);
 }
 
 void draw_path(Svg& svg, const MapVehicle& v, const View& view) {

@@ -10,6 +10,7 @@ namespace {
 using world::TrajectoryRow;
 
 constexpr int kPoints = 48;       ///< of a whole turn
+constexpr double kRoadStep = 2;   ///< along a road [m]
 constexpr double kStep = 0.1;     ///< between looks at a motion [s]
 constexpr double kMoment = 1e-3;  ///< [s]
 constexpr double kPlace = 0.01;   ///< [m]
@@ -110,6 +111,46 @@ Track track_of(const world::Trajectory& trajectory, double begin, double end, st
   track.rows.push_back(rows.front());
   if (rows.size() > 1) thin_out(rows, 0, rows.size() - 1, track.rows);
   return track;
+}
+
+RoadLines lines_of(const world::Road& road) {
+  RoadLines lines{road.edge(true, kRoadStep), road.edge(false, kRoadStep), {}};
+  const double parts = std::ceil(road.length() / kRoadStep);
+  for (double k = 0; k <= parts; ++k)
+    lines.middle.push_back(road.at(road.length() * k / parts).point());
+  if (road.closed())
+    for (auto* line : {&lines.left, &lines.right}) line->push_back(line->front());
+  return lines;
+}
+
+std::vector<world::Point> goal_shape(const sim::Scenario& scenario) {
+  const auto& goal = scenario.goal;
+  const auto across = [&](double s) {
+    const auto at = scenario.road->at(s);
+    return std::vector<world::Point>{at.point() + at.aside() * at.left,
+                                     at.point() - at.aside() * at.right};
+  };
+  const auto box = [&](double psi, double length, double width) {
+    const world::Pose pose{goal.x, goal.y, psi};
+    std::vector<world::Point> corners;
+    for (const auto& p : world::Polygon::rectangle(length, width).corners())
+      corners.push_back(pose.to_world(p));
+    return corners;
+  };
+  switch (goal.kind()) {
+    case world::GoalKind::square:
+      return box(0, 2 * goal.sigma, 2 * goal.sigma);
+    case world::GoalKind::rectangle:
+      return box(goal.psi, goal.length, goal.width);
+    case world::GoalKind::line:
+      return across(goal.s);
+    case world::GoalKind::laps:
+      return across(
+          scenario.road->project({scenario.start[vehicle::X], scenario.start[vehicle::Y]}).s);
+    case world::GoalKind::time:
+      break;
+  }
+  return {};
 }
 
 }  // namespace slalom::report

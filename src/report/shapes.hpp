@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "slalom/world/obstacle.hpp"
+#include "slalom/sim/scenario.hpp"
 
 namespace slalom::report {
 
@@ -17,5 +17,15 @@ struct Track {
 };
 /// Of a motion from `begin` to `end` [s], by up to `most` rows.
 Track track_of(const world::Trajectory& trajectory, double begin, double end, std::size_t most);
+
+/// Lines of a road, from its first point to its last; a closed one's end where they begin.
+struct RoadLines {
+  std::vector<world::Point> left, right, middle;
+};
+RoadLines lines_of(const world::Road& road);
+
+/// What of a goal is drawn: corners of a place, both ends of a line across the road, laps' where
+/// the start is; nothing of a time.
+std::vector<world::Point> goal_shape(const sim::Scenario& scenario);
 
 }  // namespace slalom::report

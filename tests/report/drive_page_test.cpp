@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <regex>
 
 #include "report/markup.hpp"
@@ -64,6 +65,48 @@ TEST(DrivePage, CarriesShapesAndMotions) {
       EXPECT_NEAR(at("y"), pose.y, 0.02);
       EXPECT_NEAR(at("psi"), pose.psi, 0.02);
     }
+}
+
+TEST(DrivePage, CarriesTheRoadAndAGoalAcrossIt) {
+  auto scenario = synthetic_scenario();
+  const auto plain = page_data(drive_page(scenario, synthetic_drive()));
+  EXPECT_FALSE(plain.contains("road"));
+  EXPECT_EQ(plain["goal"]["x"].size(), 4U);
+  scenario.road = std::make_shared<world::Road>(
+      std::vector<world::RoadPoint>{{0, -20, 2, 3}, {0, 40, 2, 3}, {0, 100, 2, 3}}, false,
+      std::vector<std::vector<world::Point>>{{{0.5, -20}, {0.5, 100}}}, "road");
+  scenario.goal = {};
+  scenario.goal.s = 70;
+  const auto page = drive_page(scenario, synthetic_drive());
+  const auto data = page_data(page);
+  for (const auto& p : data["road"]["left"]) EXPECT_NEAR(p[0], -3, 1e-6);
+  for (const auto& p : data["road"]["right"]) EXPECT_NEAR(p[0], 2, 1e-6);
+  EXPECT_NEAR(data["road"]["middle"].back()[1], 100, 1e-6);
+  EXPECT_EQ(data["road"]["lanes"][0].size(), 2U);
+  ASSERT_EQ(data["goal"]["y"].size(), 2U);
+  EXPECT_NEAR(data["goal"]["y"][0], 50, 1e-6);
+  EXPECT_EQ(count(page, ">70 m</td>"), 1);
+  const auto path = drive_figures(scenario, synthetic_drive()).front().svg;
+  EXPECT_NE(path.find("stroke-dasharray=\"3 3\""), std::string::npos) << "the lane";
+}
+
+TEST(DrivePage, AClosedRoadEndsWhereItBegins) {
+  auto scenario = synthetic_scenario();
+  std::vector<world::RoadPoint> ring;
+  for (int k = 0; k < 24; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 24;
+    ring.push_back({60 * std::cos(angle), 60 * std::sin(angle), 4, 4});
+  }
+  scenario.road =
+      std::make_shared<world::Road>(ring, true, std::vector<std::vector<world::Point>>{}, "ring");
+  scenario.goal.laps = 1;
+  const auto data = page_data(drive_page(scenario, synthetic_drive()));
+  for (const char* line : {"left", "right", "middle"}) {
+    const auto& points = data["road"][line];
+    EXPECT_NEAR(double(points.front()[0]), double(points.back()[0]), 0.02) << line;
+    EXPECT_NEAR(double(points.front()[1]), double(points.back()[1]), 0.02) << line;
+  }
+  EXPECT_EQ(data["goal"]["x"].size(), 2U) << "laps begin and end at a line";
 }
 
 TEST(DrivePage, CarriesWhatWasVerified) {
