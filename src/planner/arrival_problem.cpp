@@ -62,13 +62,15 @@ ArrivalProblem::Room ArrivalProblem::room_for(const Obstacles& obstacles) {
 ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     : room_(room),
       intervals_(task.planner.arrival_N),
+      point_(world::Footprint(task.vehicle).is_point()),
       shares_(shares(task.planner.rows_between)),
       problem_("arrival") {
   add_dynamics(task);
   add_obstacles();
   add_cost_and_end(task);
-  set_obstacles({});
+  set_obstacles({}, 0, 0);
   transcription_.emplace(problem_, growing_mesh(task.planner.arrival_N), ocp::hermite_simpson());
+  tau_ = transcription_->trajectory(transcription_->point(transcription_->straight_guess())).tau;
 }
 
 void ArrivalProblem::add_dynamics(const Task& task) {
@@ -113,10 +115,22 @@ void ArrivalProblem::add_obstacles() {
   const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
   const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
-  const Expr share = Expr::symbol("share");
+  const Expr share = Expr::symbol("share"), ahead = Expr::symbol("ahead");
+  // A body's numbers end with where a disc of it is, `after` the time of the point.
+  const auto with_body = [&](std::vector<Expr> symbols) {
+    if (!point_) symbols.push_back(ahead);
+    return symbols;
+  };
+  const auto x_of = [&](const Expr& x, const Expr& psi) {
+    return point_ ? x : x + ahead * cos(psi);
+  };
+  const auto y_of = [&](const Expr& y, const Expr& psi) {
+    return point_ ? y : y + ahead * sin(psi);
+  };
   if (room_.far > 0)
-    far_rows_ = problem_.path_family("far obstacle", {xo, yo, a, b},
-                                     square((X_[X] - xo) / a) + square((X_[Y] - yo) / b) - 1,
+    far_rows_ = problem_.path_family("far obstacle", with_body({xo, yo, a, b}),
+                                     square((x_of(X_[X], X_[PSI]) - xo) / a) +
+                                         square((y_of(X_[Y], X_[PSI]) - yo) / b) - 1,
                                      Bounds::at_least(0), Points::after_first);
   if (room_.close == 0) return;
   // The length of the interval about a point, as the mesh grows along tau.
@@ -125,29 +139,57 @@ void ArrivalProblem::add_obstacles() {
       (1 + whole * problem_.tau()) * ((kGrowth - 1) / whole) * problem_.final_time();
   const Expr after = share * interval;
   const Expr t = t_start_ + problem_.time() + after;
-  const Expr x = X_[X] + after * rate_[X] - xo - vx * t, y = X_[Y] + after * rate_[Y] - yo - vy * t;
-  close_rows_ = problem_.path_family("close obstacle", {xo, yo, a, b, vx, vy, share},
+  const Expr psi = point_ ? X_[PSI] : X_[PSI] + after * rate_[PSI];
+  const Expr x = x_of(X_[X] + after * rate_[X], psi) - xo - vx * t;
+  const Expr y = y_of(X_[Y] + after * rate_[Y], psi) - yo - vy * t;
+  close_rows_ = problem_.path_family("close obstacle", with_body({xo, yo, a, b, vx, vy, share}),
                                      square(x / a) + square(y / b) - 1, Bounds::at_least(0),
                                      Points::after_first);
 }
 
+/// Of a row that holds the share of an interval after each point. Those that vary are taken as they
+/// are when a motion over tf from t_start is at the point; half an interval is known as absent.
+std::vector<double> ArrivalProblem::row_numbers(const Pair& pair, bool close, double share,
+                                                double t_start, double tf) const {
+  std::vector<double> row;
+  const auto add = [&](double t, double around) {
+    const auto n = pair.numbers(t, around);
+    row.insert(row.end(), n.begin(), close ? n.end() : n.begin() + 4);
+    if (close) row.push_back(share);
+    if (!point_) row.push_back(pair.ahead);
+  };
+  if (varies(pair.obstacle)) {
+    for (std::size_t k = 0; k < tau_.size(); ++k) {
+      const double gap = tau_[std::max<std::size_t>(k, 1)] - tau_[std::max<std::size_t>(k, 1) - 1];
+      add(t_start + tau_[k] * tf, gap * tf);
+    }
+  } else {
+    add(0, 0);
+  }
+  return row;
+}
+
 /// Places that no obstacle takes are taken by one far away from everything.
-void ArrivalProblem::set_obstacles(const Obstacles& obstacles) {
+void ArrivalProblem::set_obstacles(const Obstacles& obstacles, double t_start, double tf) {
   constexpr double away = 1e5, size = 1e3;
   std::vector<std::vector<double>> far, close;
-  for (const auto& o : obstacles.far) far.push_back({o.x, o.y, o.a, o.b});
-  for (const auto& o : obstacles.close)
-    for (const double share : shares_) close.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy, share});
-  far.resize(room_.far, {away, away, size, size});
-  close.resize(room_.close * shares_.size(), {away, away, size, size, 0, 0, 0});
-  const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers) {
-    if (numbers.empty()) return;
+  for (const auto& pair : obstacles.far)
+    far.push_back(row_numbers(pair, false, 0, t_start, tf));
+  for (const auto& pair : obstacles.close)
+    for (const double share : shares_)
+      close.push_back(row_numbers(pair, true, share, t_start, tf));
+  const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers,
+                       std::size_t room, std::vector<double> nothing) {
+    if (room == 0) return;
+    if (!point_) nothing.push_back(0);
+    numbers.resize(room, nothing);
     std::vector<std::string> names;
     for (std::size_t k = 0; k < numbers.size(); ++k) names.push_back(fmt::format("{}", k));
     problem_.set_members(rows, std::move(names), std::move(numbers));
   };
-  set(far_rows_, std::move(far));
-  set(close_rows_, std::move(close));
+  set(far_rows_, std::move(far), room_.far, {away, away, size, size});
+  set(close_rows_, std::move(close), room_.close * shares_.size(),
+      {away, away, size, size, 0, 0, 0});
 }
 
 void ArrivalProblem::add_cost_and_end(const Task& task) {
@@ -169,7 +211,7 @@ std::optional<Motion> ArrivalProblem::solve(const Motion& guess, const State& X0
                                             const Obstacles& obstacles, nlp::Solver& solver,
                                             const nlp::Options& options) {
   const double t_start = guess.begin(), tf = guess.end() - t_start;
-  set_obstacles(obstacles);
+  set_obstacles(obstacles, t_start, tf);
   for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], X0p[i]);
   problem_.set_parameter(t_start_, t_start);
   transcription_->update(problem_);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "motion.hpp"
+#include "obstacle_view.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/transcription.hpp"
@@ -18,13 +19,14 @@ namespace slalom::planner {
 /// too; intervals grow along the way, for what is near is driven first. An obstacle that moves
 /// fast, or that the way bends about, could be passed through between two points: rows of close
 /// obstacles hold at moments between them too, to which vehicle and obstacle go on at the velocity
-/// they have at the point. Transcribed once for a number of obstacles, and solved for any fewer.
+/// they have at the point. What moves by a trajectory does so at a point as it does when the guess
+/// is there. Transcribed once for a number of obstacles, and solved for any fewer.
 class ArrivalProblem {
  public:
-  /// Obstacles, grown by their margins.
+  /// Obstacles with the vehicle's discs, grown by what they keep apart.
   struct Obstacles {
-    std::vector<world::Obstacle> far;    ///< that stand and are not close
-    std::vector<world::Obstacle> close;  ///< with rows between the points
+    std::vector<Pair> far;    ///< that stand and are not close
+    std::vector<Pair> close;  ///< with rows between the points
   };
   /// How many of each kind there is room for.
   struct Room {
@@ -50,14 +52,17 @@ class ArrivalProblem {
 
  private:
   using Expr = ocp::Expr;
-  void set_obstacles(const Obstacles& obstacles);
+  void set_obstacles(const Obstacles& obstacles, double t_start, double tf);
   void add_dynamics(const Task& task);
   void add_limits(const vehicle::Model& model, const vehicle::Parameters& vehicle);
   void add_obstacles();
+  std::vector<double> row_numbers(const Pair& pair, bool close, double share, double t_start,
+                                  double tf) const;
   void add_cost_and_end(const Task& task);
 
   Room room_;
   int intervals_;
+  const bool point_;  ///< the footprint is a point
   const std::vector<double>& shares_;
   ocp::Problem problem_;
   ocp::ConstraintId far_rows_{}, close_rows_{};
@@ -65,6 +70,7 @@ class ArrivalProblem {
   std::array<Expr, vehicle::kControls> U_;
   Expr t_start_;
   std::optional<ocp::Transcription> transcription_;
+  std::vector<double> tau_;  ///< of the points
   nlp::Answer answer_;
 };
 
