@@ -62,9 +62,10 @@ ArrivalProblem::Room ArrivalProblem::room_for(const Obstacles& obstacles) {
 ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     : room_(room),
       intervals_(task.planner.arrival_N),
-      point_(world::Footprint(task.vehicle).is_point()),
       shares_(shares(task.planner.rows_between)),
       problem_("arrival") {
+  if (const world::Footprint footprint(task.vehicle); !footprint.is_point())
+    box_.emplace(footprint);
   add_dynamics(task);
   add_obstacles();
   add_cost_and_end(task);
@@ -111,26 +112,22 @@ void ArrivalProblem::add_limits(const Model& model, const Parameters& vehicle) {
     add(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle.Fz_min));
 }
 
+/// How far the vehicle is outside a body whose centre lies (x, y) from the front axle's: >= 0. A
+/// point keeps off the ellipse with the semi-axes a and b; the body keeps the smooth distance a.
+ocp::Expr ArrivalProblem::outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a,
+                                  const Expr& b) const {
+  if (box_) return box_->square_of_distance(-x, -y, psi) / square(a) - 1;
+  return square(x / a) + square(y / b) - 1;
+}
+
 void ArrivalProblem::add_obstacles() {
   const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
   const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
-  const Expr share = Expr::symbol("share"), ahead = Expr::symbol("ahead");
-  // A body's numbers end with where a disc of it is, `after` the time of the point.
-  const auto with_body = [&](std::vector<Expr> symbols) {
-    if (!point_) symbols.push_back(ahead);
-    return symbols;
-  };
-  const auto x_of = [&](const Expr& x, const Expr& psi) {
-    return point_ ? x : x + ahead * cos(psi);
-  };
-  const auto y_of = [&](const Expr& y, const Expr& psi) {
-    return point_ ? y : y + ahead * sin(psi);
-  };
+  const Expr share = Expr::symbol("share");
   if (room_.far > 0)
-    far_rows_ = problem_.path_family("far obstacle", with_body({xo, yo, a, b}),
-                                     square((x_of(X_[X], X_[PSI]) - xo) / a) +
-                                         square((y_of(X_[Y], X_[PSI]) - yo) / b) - 1,
+    far_rows_ = problem_.path_family("far obstacle", {xo, yo, a, b},
+                                     outside(X_[X] - xo, X_[Y] - yo, X_[PSI], a, b),
                                      Bounds::at_least(0), Points::after_first);
   if (room_.close == 0) return;
   // The length of the interval about a point, as the mesh grows along tau.
@@ -139,57 +136,54 @@ void ArrivalProblem::add_obstacles() {
       (1 + whole * problem_.tau()) * ((kGrowth - 1) / whole) * problem_.final_time();
   const Expr after = share * interval;
   const Expr t = t_start_ + problem_.time() + after;
-  const Expr psi = point_ ? X_[PSI] : X_[PSI] + after * rate_[PSI];
-  const Expr x = x_of(X_[X] + after * rate_[X], psi) - xo - vx * t;
-  const Expr y = y_of(X_[Y] + after * rate_[Y], psi) - yo - vy * t;
-  close_rows_ = problem_.path_family("close obstacle", with_body({xo, yo, a, b, vx, vy, share}),
-                                     square(x / a) + square(y / b) - 1, Bounds::at_least(0),
-                                     Points::after_first);
+  const Expr x = X_[X] + after * rate_[X] - xo - vx * t, y = X_[Y] + after * rate_[Y] - yo - vy * t;
+  close_rows_ = problem_.path_family("close obstacle", {xo, yo, a, b, vx, vy, share},
+                                     outside(x, y, X_[PSI] + after * rate_[PSI], a, b),
+                                     Bounds::at_least(0), Points::after_first);
 }
 
 /// Of a row that holds the share of an interval after each point. Those that vary are taken as they
-/// are when a motion over tf from t_start is at the point; half an interval is known as absent.
-std::vector<double> ArrivalProblem::row_numbers(const Pair& pair, bool close, double share,
+/// are when a motion over tf from t_start is at the point.
+std::vector<double> ArrivalProblem::row_numbers(const world::Obstacle& o, double share,
                                                 double t_start, double tf) const {
   std::vector<double> row;
   const auto add = [&](double t, double around) {
-    const auto n = pair.numbers(t, around);
-    row.insert(row.end(), n.begin(), close ? n.end() : n.begin() + 4);
-    if (close) row.push_back(share);
-    if (!point_) row.push_back(pair.ahead);
+    auto n = numbers_at(o, t, around);
+    if (box_) n[2] = box_->smooth_radius(n[2]);
+    row.insert(row.end(), n.begin(), n.end());
+    row.push_back(share);
   };
-  if (varies(pair.obstacle)) {
-    for (std::size_t k = 0; k < tau_.size(); ++k) {
-      const double gap = tau_[std::max<std::size_t>(k, 1)] - tau_[std::max<std::size_t>(k, 1) - 1];
-      add(t_start + tau_[k] * tf, gap * tf);
-    }
-  } else {
+  if (!varies(o)) {
     add(0, 0);
+    return row;
   }
+  for (std::size_t k = 0; k < tau_.size(); ++k)
+    add(t_start + tau_[k] * tf, tf * (k > 0 ? tau_[k] - tau_[k - 1] : tau_[1]));
   return row;
 }
 
 /// Places that no obstacle takes are taken by one far away from everything.
 void ArrivalProblem::set_obstacles(const Obstacles& obstacles, double t_start, double tf) {
-  constexpr double away = 1e5, size = 1e3;
   std::vector<std::vector<double>> far, close;
-  for (const auto& pair : obstacles.far)
-    far.push_back(row_numbers(pair, false, 0, t_start, tf));
-  for (const auto& pair : obstacles.close)
-    for (const double share : shares_)
-      close.push_back(row_numbers(pair, true, share, t_start, tf));
-  const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers,
-                       std::size_t room, std::vector<double> nothing) {
-    if (room == 0) return;
-    if (!point_) nothing.push_back(0);
-    numbers.resize(room, nothing);
+  for (const auto& o : obstacles.far) {
+    const auto all = row_numbers(o, 0, t_start, tf);
+    auto& row = far.emplace_back();
+    for (std::size_t k = 0; k < all.size(); k += 7) row.insert(row.end(), &all[k], &all[k] + 4);
+  }
+  for (const auto& o : obstacles.close)
+    for (const double share : shares_) close.push_back(row_numbers(o, share, t_start, tf));
+  far.resize(room_.far, {kNowhere.begin(), kNowhere.begin() + 4});
+  auto nowhere = std::vector(kNowhere.begin(), kNowhere.end());
+  nowhere.push_back(0);
+  close.resize(room_.close * shares_.size(), nowhere);
+  const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers) {
+    if (numbers.empty()) return;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < numbers.size(); ++k) names.push_back(fmt::format("{}", k));
     problem_.set_members(rows, std::move(names), std::move(numbers));
   };
-  set(far_rows_, std::move(far), room_.far, {away, away, size, size});
-  set(close_rows_, std::move(close), room_.close * shares_.size(),
-      {away, away, size, size, 0, 0, 0});
+  set(far_rows_, std::move(far));
+  set(close_rows_, std::move(close));
 }
 
 void ArrivalProblem::add_cost_and_end(const Task& task) {

@@ -11,6 +11,7 @@
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/task.hpp"
+#include "smooth_box.hpp"
 
 namespace slalom::planner {
 
@@ -23,10 +24,10 @@ namespace slalom::planner {
 /// is there. Transcribed once for a number of obstacles, and solved for any fewer.
 class ArrivalProblem {
  public:
-  /// Obstacles with the vehicle's discs, grown by what they keep apart.
+  /// Obstacles as covered() leaves them, grown by their margins.
   struct Obstacles {
-    std::vector<Pair> far;    ///< that stand and are not close
-    std::vector<Pair> close;  ///< with rows between the points
+    std::vector<world::Obstacle> far;    ///< that stand and are not close
+    std::vector<world::Obstacle> close;  ///< with rows between the points
   };
   /// How many of each kind there is room for.
   struct Room {
@@ -56,13 +57,14 @@ class ArrivalProblem {
   void add_dynamics(const Task& task);
   void add_limits(const vehicle::Model& model, const vehicle::Parameters& vehicle);
   void add_obstacles();
-  std::vector<double> row_numbers(const Pair& pair, bool close, double share, double t_start,
+  Expr outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a, const Expr& b) const;
+  std::vector<double> row_numbers(const world::Obstacle& o, double share, double t_start,
                                   double tf) const;
   void add_cost_and_end(const Task& task);
 
   Room room_;
   int intervals_;
-  const bool point_;  ///< the footprint is a point
+  std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
   const std::vector<double>& shares_;
   ocp::Problem problem_;
   ocp::ConstraintId far_rows_{}, close_rows_{};

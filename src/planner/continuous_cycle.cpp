@@ -11,9 +11,10 @@ ContinuousCycle continuous_cycle(const Task& task, const Request& request) {
   const bool in_range = goal_in_range(task, request.X0p);
   Settings straight = task.planner;
   straight.prediction = Prediction::constant_velocity;
+  const world::Footprint footprint(task.vehicle);
   const auto pairs =
-      pairs_of(covered(task.planner, believed(straight, task.obstacles, request.t0)),
-               world::Footprint(task.vehicle).covering_discs(task.planner.cover_excess));
+      pairs_of(covered(task.planner, footprint, believed(straight, task.obstacles, request.t0)),
+               footprint.covering_discs(task.planner.cover_excess));
   TrajectoryProblem stated(task, pairs, in_range);
   stated.update(request);
   ocp::Trajectory straight_on = Guess(task)(request, in_range, nullptr);

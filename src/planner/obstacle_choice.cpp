@@ -183,10 +183,11 @@ std::vector<world::Obstacle> group_obstacles(const Settings& settings,
 
 std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
                                               const std::vector<world::Obstacle>& obstacles,
-                                              double body) {
+                                              const world::Footprint& footprint) {
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
-    return in_reach(settings, request, covered(settings, obstacles), body);
-  auto chosen = covered(settings, settings.obstacle_choice == ObstacleChoice::nearest
+    return in_reach(settings, request, covered(settings, footprint, obstacles),
+                    footprint.reach());
+  auto chosen = covered(settings, footprint, settings.obstacle_choice == ObstacleChoice::nearest
                                       ? nearest(settings, request, obstacles)
                                       : obstacles);
   for (auto& o : chosen)

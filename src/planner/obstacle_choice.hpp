@@ -4,7 +4,7 @@
 
 #include "slalom/planner/planner.hpp"
 #include "slalom/planner/settings.hpp"
-#include "slalom/world/obstacle.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::planner {
 
@@ -27,11 +27,10 @@ bool any_far(const Settings& settings, const Request& request,
 
 /// Of `obstacles`, in their order, those that a plan for `request` knows of, as
 /// Settings::obstacle_choice says, as the discs that cover them. Of a long one in_reach keeps the
-/// discs in reach. Far ones stand nearer than they are, still out of reach. The vehicle's footprint
-/// reaches `body` [m] from its front axle's centre.
+/// discs in reach. Far ones stand nearer than they are, still out of reach.
 std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
                                               const std::vector<world::Obstacle>& obstacles,
-                                              double body = 0);
+                                              const world::Footprint& footprint);
 
 bool same_names(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b);
 

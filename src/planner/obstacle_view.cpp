@@ -1,7 +1,6 @@
 #include "obstacle_view.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -17,20 +16,6 @@ void go_straight(Obstacle& o, const world::Pose& at, double t0) {
   o.vx = at.vx;
   o.vy = at.vy;
   o.psi = at.psi;
-}
-
-/// An ellipse larger all around by a disc: that of the sums of semi-axes for a circle, else the
-/// smallest of the outer ellipses of the sum of two (A. Kurzhanski and I. Valyi, "Ellipsoidal
-/// calculus for estimation and control", 1997, section 2.3) by the sum of their squares.
-Obstacle larger(Obstacle o, double radius) {
-  if (o.a == o.b || radius == 0) return o.grown(radius);
-  const double share = std::hypot(o.a, o.b) / (std::sqrt(2.) * radius);
-  const auto sum = [&](double axis) {
-    return std::sqrt((1 + 1 / share) * axis * axis + (1 + share) * radius * radius);
-  };
-  o.a = sum(o.a);
-  o.b = sum(o.b);
-  return o;
 }
 
 }  // namespace
@@ -61,21 +46,23 @@ bool belief_varies(const Settings& settings, const std::vector<Obstacle>& obstac
   });
 }
 
-std::vector<double> Pair::numbers(double t, double around) const {
-  constexpr double away = 1e5, size = 1e3;
-  const Obstacle& o = obstacle;
-  if (!o.present(t - around, t + around)) return {away, away, size, size, 0, 0};
+std::array<double, 6> numbers_at(const Obstacle& o, double t, double around) {
+  if (!o.present(t - around, t + around)) return kNowhere;
   const double margin = o.margin(t), a = o.a + margin, b = o.b + margin;
   if (!o.trajectory) return {o.x, o.y, a, b, o.vx, o.vy};
   const world::Pose at = o.pose_at(t);
   return {at.x - at.vx * t, at.y - at.vy * t, a, b, at.vx, at.vy};
 }
 
-std::vector<Obstacle> covered(const Settings& settings, const std::vector<Obstacle>& obstacles) {
+std::vector<Obstacle> covered(const Settings& settings, const world::Footprint& footprint,
+                              const std::vector<Obstacle>& obstacles) {
   std::vector<Obstacle> discs;
-  for (const auto& o : obstacles)
+  for (auto o : obstacles) {
+    if (!footprint.is_point() && !o.outline && o.a != o.b)
+      o.outline = std::make_shared<world::Polygon>(world::Polygon::rectangle(2 * o.a, 2 * o.b));
     for (auto& disc : world::covering_discs(o, settings.cover_excess))
       discs.push_back(std::move(disc));
+  }
   return discs;
 }
 
@@ -83,7 +70,7 @@ std::vector<Pair> pairs_of(const std::vector<Obstacle>& discs,
                            const std::vector<world::Disc>& vehicle) {
   std::vector<Pair> pairs;
   for (const auto& o : discs)
-    for (const auto& disc : vehicle) pairs.push_back({larger(o, disc.radius), disc.ahead});
+    for (const auto& disc : vehicle) pairs.push_back({o.grown(disc.radius), disc.ahead});
   return pairs;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "slalom/planner/settings.hpp"
@@ -18,22 +19,25 @@ bool varies(const world::Obstacle& obstacle);
 /// Whether believed() depends on when one plans.
 bool belief_varies(const Settings& settings, const std::vector<world::Obstacle>& obstacles);
 
-/// What a row of an OCP keeps apart: a disc of an obstacle, or the whole of a plain one, and the
-/// centre of a disc of the vehicle.
+/// The numbers of a row about t [s]: xo, yo, a, b, vx, vy, the place at t = 0 of a body that passes
+/// with the obstacle's velocity where it is at t. Where it is absent for `around` s before and
+/// after, kNowhere.
+std::array<double, 6> numbers_at(const world::Obstacle& obstacle, double t, double around = 0);
+/// Those of one far from everything.
+inline constexpr std::array<double, 6> kNowhere = {1e5, 1e5, 1e3, 1e3, 0, 0};
+
+/// Obstacles as rows and search have them: discs that cover them (Settings::cover_excess), but for
+/// plain ones to a footprint that is a point, and for circles.
+std::vector<world::Obstacle> covered(const Settings& settings, const world::Footprint& footprint,
+                                     const std::vector<world::Obstacle>& obstacles);
+
+/// What a row at a node keeps apart: an obstacle, as covered() leaves it, and the centre of a disc
+/// of the vehicle.
 struct Pair {
   world::Obstacle obstacle;  ///< larger by the radius of the vehicle's disc
   double ahead = 0;          ///< of that disc's centre, from the front axle's on [m]
-
-  /// The numbers xo, yo, a, b, vx, vy of a row that holds at about t [s]: the place at t = 0 of a
-  /// body that passes with the obstacle's velocity where it is at t. Where it is absent for
-  /// `around` s before and after, those of one far from everything.
-  std::vector<double> numbers(double t, double around = 0) const;
 };
-
-/// Covers obstacles by discs (Settings::cover_excess).
-std::vector<world::Obstacle> covered(const Settings& settings,
-                                     const std::vector<world::Obstacle>& obstacles);
-/// Every one of `discs`, as covered() leaves them, with every disc of the vehicle.
+/// Every one of `discs` with every disc of the vehicle.
 std::vector<Pair> pairs_of(const std::vector<world::Obstacle>& discs,
                            const std::vector<world::Disc>& vehicle);
 

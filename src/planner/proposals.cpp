@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "obstacle_view.hpp"
 #include "references.hpp"
 
 namespace slalom::planner {
@@ -79,7 +80,7 @@ Proposals::Proposals(const Task& task, Tracker& tracker, Verifier& verifier)
     : task_(task),
       tracker_(tracker),
       verifier_(verifier),
-      vehicle_(world::Footprint(task.vehicle).covering_discs(task.planner.cover_excess)),
+      footprint_(task.vehicle),
       ways_(task, task.vehicle, task.planner.cover_excess),
       solver_(nlp::make_solver(to_string(task.planner.solver))) {}
 
@@ -143,25 +144,25 @@ bool Proposals::propose(const std::string& name, Motion motion, bool solved) {
   return arrives;
 }
 
-/// The pairs that the OCP keeps apart: those that come near each other along the guess, grown by
-/// their margins.
+/// The obstacles that the OCP keeps off: those that come near the guess, grown by their margins.
 ArrivalProblem::Obstacles Proposals::near(const Motion& guess,
                                           const std::vector<double>& extra) const {
   ArrivalProblem::Obstacles result;
   const double margin = question_.need.clearance + task_.planner.arrival_margin;
+  const Settings& s = task_.planner;
+  const auto vehicle = footprint_.covering_discs(s.cover_excess);
   std::vector<std::vector<Passed>> places;
-  for (const auto& disc : vehicle_) places.push_back(places_of(guess, disc.ahead));
+  for (const auto& disc : vehicle) places.push_back(places_of(guess, disc.ahead));
   for (std::size_t k = 0; k < question_.obstacles.size(); ++k)
-    for (const auto& o :
-         world::covering_discs(question_.obstacles[k], task_.planner.cover_excess)) {
-      auto pairs = pairs_of({o.grown(margin + extra[k])}, vehicle_);
-      for (std::size_t d = 0; d < pairs.size(); ++d) {
-        const double least = least_distance(o, places[d]) - vehicle_[d].radius;
-        if (extra[k] > 0 ? least < kFar + margin : least < (o.moves() ? kFar : kClose) + margin)
-          result.close.push_back(std::move(pairs[d]));
-        else if (least < kFar + margin)
-          result.far.push_back(std::move(pairs[d]));
-      }
+    for (const auto& o : covered(s, footprint_, {question_.obstacles[k]})) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t d = 0; d < vehicle.size(); ++d)
+        least = std::min(least, least_distance(o, places[d]) - vehicle[d].radius);
+      const double close = (extra[k] > 0 || o.moves() ? kFar : kClose) + margin;
+      if (least < close)
+        result.close.push_back(o.grown(margin + extra[k]));
+      else if (least < kFar + margin)
+        result.far.push_back(o.grown(margin + extra[k]));
     }
   return result;
 }

@@ -110,7 +110,7 @@ RecedingHorizon::RecedingHorizon(const Task& task)
       footprint_(task_.vehicle),
       vehicle_(footprint_.covering_discs(settings_.cover_excess)),
       known_(believed(settings_, task_.obstacles, 0)),
-      chosen_(choose_obstacles(settings_, {}, known_, footprint_.reach())),
+      chosen_(choose_obstacles(settings_, {}, known_, footprint_)),
       pairs_(pairs_of(chosen_, vehicle_)),
       guess_(task_),
       solver_(nlp::make_solver(to_string(settings_.solver))) {
@@ -160,7 +160,7 @@ void RecedingHorizon::choose(const Request& request) {
       settings_,
       request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
       request.t0);
-  chosen_ = choose_obstacles(settings_, request, known_, footprint_.reach());
+  chosen_ = choose_obstacles(settings_, request, known_, footprint_);
   pairs_ = pairs_of(chosen_, vehicle_);
   for (auto& [key, form] : forms_)
     if (std::get<1>(key) == pairs_.size()) form.problem.set_obstacles(pairs_, {request.t0});

@@ -48,7 +48,7 @@ Replayed replay(const Recording& recording, const Task& task) {
       choose_obstacles(
           settings, request,
           believed(settings, group_obstacles(settings, known.obstacles), request.t0),
-          footprint.reach()),
+          footprint),
       footprint.covering_discs(settings.cover_excess));
   TrajectoryProblem problem(known, pairs, recording.goal_in_range);
   problem.update(request);

@@ -199,7 +199,7 @@ void TrajectoryProblem::set_obstacles(const std::vector<Pair>& pairs,
     names.push_back(pair.obstacle.name);
     auto& row = numbers.emplace_back();
     const auto add = [&](double t) {
-      const auto at = pair.numbers(t);
+      const auto at = numbers_at(pair.obstacle, t);
       row.insert(row.end(), at.begin(), at.end());
       if (!footprint_.is_point()) row.push_back(pair.ahead);
     };
