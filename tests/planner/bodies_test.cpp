@@ -255,7 +255,8 @@ TEST_F(TurningCar, IsHitByAPlanThatBelievesItGoesStraightOn) {
 }
 
 TEST_F(TurningCar, ItsNameIsWhatStandsInTheWay) {
-  scene.obstacles = {box(0, 30, 30, 6, 0)};
+  scene.obstacles = {box(0, 30, 8, 6, 0.5)};
+  scene.planner.max_iterations = 1;
   scene.vehicle.footprint = FootprintKind::rectangle;
   const Plan plan = Planner(scene).plan(scene.first);
   EXPECT_FALSE(plan.report.solved);
