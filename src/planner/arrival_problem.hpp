@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "motion.hpp"
+#include "obstacle_view.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/task.hpp"
+#include "smooth_box.hpp"
 
 namespace slalom::planner {
 
@@ -18,10 +20,11 @@ namespace slalom::planner {
 /// too; intervals grow along the way, for what is near is driven first. An obstacle that moves
 /// fast, or that the way bends about, could be passed through between two points: rows of close
 /// obstacles hold at moments between them too, to which vehicle and obstacle go on at the velocity
-/// they have at the point. Transcribed once for a number of obstacles, and solved for any fewer.
+/// they have at the point. What moves by a trajectory does so at a point as it does when the guess
+/// is there. Transcribed once for a number of obstacles, and solved for any fewer.
 class ArrivalProblem {
  public:
-  /// Obstacles, grown by their margins.
+  /// Obstacles as covered() leaves them, grown by their margins.
   struct Obstacles {
     std::vector<world::Obstacle> far;    ///< that stand and are not close
     std::vector<world::Obstacle> close;  ///< with rows between the points
@@ -50,14 +53,18 @@ class ArrivalProblem {
 
  private:
   using Expr = ocp::Expr;
-  void set_obstacles(const Obstacles& obstacles);
+  void set_obstacles(const Obstacles& obstacles, double t_start, double tf);
   void add_dynamics(const Task& task);
   void add_limits(const vehicle::Model& model, const vehicle::Parameters& vehicle);
   void add_obstacles();
+  Expr outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a, const Expr& b) const;
+  std::vector<double> row_numbers(const world::Obstacle& o, double share, double t_start,
+                                  double tf) const;
   void add_cost_and_end(const Task& task);
 
   Room room_;
   int intervals_;
+  std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
   const std::vector<double>& shares_;
   ocp::Problem problem_;
   ocp::ConstraintId far_rows_{}, close_rows_{};
@@ -65,6 +72,7 @@ class ArrivalProblem {
   std::array<Expr, vehicle::kControls> U_;
   Expr t_start_;
   std::optional<ocp::Transcription> transcription_;
+  std::vector<double> tau_;  ///< of the points
   nlp::Answer answer_;
 };
 

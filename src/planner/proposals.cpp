@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "obstacle_view.hpp"
 #include "references.hpp"
 
 namespace slalom::planner {
@@ -51,20 +52,39 @@ double depth_of(const world::Goal& goal) {
   }
 }
 
-/// Least distance to an obstacle's edge, knots of the motion being seconds apart [m].
-double least_distance(const world::Obstacle& o, const Motion& motion) {
-  double least = std::numeric_limits<double>::infinity();
+/// A place at a time [m, s].
+struct Passed {
+  double t, x, y;
+};
+
+/// Where a motion, whose knots may be seconds apart, takes a point `ahead` of the front axle.
+std::vector<Passed> places_of(const Motion& motion, double ahead) {
+  std::vector<Passed> places;
   for (std::size_t k = 0; k < motion.size(); ++k) {
     const double t0 = motion.t[k], t1 = motion.t[std::min(k + 1, motion.size() - 1)];
     const int parts = std::max(1, static_cast<int>(std::ceil((t1 - t0) / Tracker::kStep)));
     for (int part = 0; part < parts; ++part) {
       const double share = static_cast<double>(part) / parts;
       const State &a = motion.states[k], &b = motion.states[std::min(k + 1, motion.size() - 1)];
-      least =
-          std::min(least, world::distance(o, a[X] + share * (b[X] - a[X]),
-                                          a[Y] + share * (b[Y] - a[Y]), t0 + share * (t1 - t0)));
+      Passed at{t0 + share * (t1 - t0), a[X] + share * (b[X] - a[X]),
+                a[Y] + share * (b[Y] - a[Y])};
+      if (ahead != 0) {
+        const double psi = a[PSI] + share * (b[PSI] - a[PSI]);
+        at.x += ahead * std::cos(psi);
+        at.y += ahead * std::sin(psi);
+      }
+      places.push_back(at);
     }
   }
+  return places;
+}
+
+/// Least distance to an obstacle's edge where it is there [m].
+double least_distance(const world::Obstacle& o, const std::vector<Passed>& places) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& p : places)
+    if (o.present(p.t, p.t))
+      least = std::min(least, world::distance(o, p.x, p.y, p.t) - o.margin(p.t));
   return least;
 }
 
@@ -74,7 +94,8 @@ Proposals::Proposals(const Task& task, Tracker& tracker, Verifier& verifier)
     : task_(task),
       tracker_(tracker),
       verifier_(verifier),
-      ways_(task, task.vehicle),
+      footprint_(task.vehicle),
+      ways_(task, task.vehicle, task.planner.cover_excess),
       solver_(nlp::make_solver(to_string(task.planner.solver))) {}
 
 void Proposals::ask(Question question) {
@@ -142,14 +163,21 @@ ArrivalProblem::Obstacles Proposals::near(const Motion& guess,
                                           const std::vector<double>& extra) const {
   ArrivalProblem::Obstacles result;
   const double margin = question_.need.clearance + task_.planner.arrival_margin;
-  for (std::size_t k = 0; k < question_.obstacles.size(); ++k) {
-    const auto& o = question_.obstacles[k];
-    const double least = least_distance(o, guess);
-    if (extra[k] > 0 || least < (o.moves() ? kFar : kClose) + margin)
-      result.close.push_back(o.grown(margin + extra[k]));
-    else if (least < kFar + margin)
-      result.far.push_back(o.grown(margin + extra[k]));
-  }
+  const Settings& s = task_.planner;
+  const auto vehicle = footprint_.covering_discs(s.cover_excess);
+  std::vector<std::vector<Passed>> places;
+  for (const auto& disc : vehicle) places.push_back(places_of(guess, disc.ahead));
+  for (std::size_t k = 0; k < question_.obstacles.size(); ++k)
+    for (const auto& o : covered(s, footprint_, {question_.obstacles[k]})) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t d = 0; d < vehicle.size(); ++d)
+        least = std::min(least, least_distance(o, places[d]) - vehicle[d].radius);
+      const double close = (extra[k] > 0 || o.moves() ? kFar : kClose) + margin;
+      if (least < close)
+        result.close.push_back(o.grown(margin + extra[k]));
+      else if (least < kFar + margin)
+        result.far.push_back(o.grown(margin + extra[k]));
+    }
   return result;
 }
 

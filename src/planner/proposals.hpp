@@ -75,6 +75,7 @@ class Proposals {
   const Task& task_;
   Tracker& tracker_;
   Verifier& verifier_;
+  const world::Footprint footprint_;
   world::WayFinder ways_;
   std::unique_ptr<nlp::Solver> solver_;
   std::map<ArrivalProblem::Room, ArrivalProblem> problems_;

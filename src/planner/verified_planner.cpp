@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "obstacle_view.hpp"
 #include "references.hpp"
 
 namespace slalom::planner {
@@ -26,9 +27,13 @@ constexpr double kRemembered = 5;
 /// which the vehicle stands, for the later it brakes the better.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
 
+/// Margins count from one moment or another: less is left of them then.
 bool same(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
-    return p.x == q.x && p.y == q.y && p.a == q.a && p.b == q.b && p.vx == q.vx && p.vy == q.vy;
+    return p.x == q.x && p.y == q.y && p.a == q.a && p.b == q.b && p.vx == q.vx && p.vy == q.vy &&
+           p.psi == q.psi && p.rounding == q.rounding && p.outline == q.outline &&
+           p.trajectory == q.trajectory && p.margin_start == q.margin_start &&
+           p.margin_rate == q.margin_rate;
   });
 }
 
@@ -94,11 +99,13 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
 }
 
 std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) const {
-  std::vector<world::Obstacle> obstacles = request.obstacles.value_or(task_.obstacles);
+  auto obstacles =
+      believed(task_.planner, request.obstacles.value_or(task_.obstacles), request.t0);
   if (task_.planner.known == Known::range) {
     const Seen seen = this->seen(request);
     std::erase_if(obstacles, [&](const auto& o) {
-      return world::distance(o, seen.x, seen.y, request.t0) > seen.radius;
+      return !o.present(request.t0, request.t0) ||
+             world::distance(o, seen.x, seen.y, request.t0) > seen.radius;
     });
   }
   return obstacles;

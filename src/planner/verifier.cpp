@@ -15,8 +15,8 @@ using namespace vehicle;
 /// An interval as short as this [s] is not divided further: what its bound does not show is
 /// refused.
 constexpr double kShortest = 1e-4;
-/// Speed grows by less than this within an interval between knots [m/s].
-constexpr double kSpeedSlack = 0.5;
+/// Speed grows by less than this within an interval between knots [m/s], and yaw rate [rad/s].
+constexpr double kSpeedSlack = 0.5, kTurnSlack = 0.3;
 /// Wheel loads are looked at this often [s] at least. Between, they change by less than what
 /// the load needed stands above that at which a wheel lifts.
 constexpr double kLoadStep = 0.026;
@@ -25,8 +25,9 @@ constexpr double kLoadStep = 0.026;
 constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e-3;
 /// A vehicle stands when it is slower than this [m/s] and accelerates by less than this [m/s^2].
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
-/// Standing, distances are looked at this far apart at the least [m].
-constexpr double kLook = 0.01;
+/// Standing, distances are looked at this far apart at the least [m]; and this often at the least,
+/// where the motion is a trajectory's [s].
+constexpr double kLook = 0.01, kLookAgain = 1;
 /// A motion that begins beyond a limit is within it after this [s].
 constexpr double kToComeBack = 1;
 /// Within the goal's square by this much counts as there [m].
@@ -39,11 +40,13 @@ double speed(const Parameters& p, const State& x) {
   return std::hypot(x[UX], x[V] + p.la * x[R]);
 }
 
-/// Distance to an obstacle's edge, or a lower bound of it where it is beyond `far`.
-double distance_within(const world::Obstacle& o, const State& x, double t, double far) {
-  const double dx = x[X] - o.x_at(t), dy = x[Y] - o.y_at(t);
-  const double bound = std::hypot(dx, dy) - std::max(o.a, o.b);
-  return bound > far || o.a == o.b ? bound : world::distance(o, x[X], x[Y], t);
+/// Distance of the footprint to an obstacle's edge, or a lower bound of it where it is beyond `far`.
+double distance_within(const world::Footprint& footprint, const world::Obstacle& o, const State& x,
+                       double t, double far) {
+  const world::Pose at = o.pose_at(t);
+  const double bound = std::hypot(x[X] - at.x, x[Y] - at.y) - o.reach() - footprint.reach();
+  const bool exact = o.a == o.b && !o.outline && footprint.is_point();
+  return bound > far || exact ? bound : footprint.distance(o, x, t);
 }
 
 /// By how much a value is beyond its range.
@@ -96,7 +99,8 @@ void Verifier::note_limits(double t, const State& x) {
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
   if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
-  if (std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y) > need_.seen.radius - need_.clearance &&
+  if (std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y) >
+          need_.seen.radius - need_.clearance - footprint_.reach() &&
       certificate.refused.empty()) {
     refuse(t, "beyond what is seen");
     verdict_.unseen = true;
@@ -110,21 +114,19 @@ void Verifier::note_limits(double t, const State& x) {
 /// obstacle can go towards each other at the most.
 void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   const auto& o = (*obstacles_)[obstacle];
-  const double need = need_.clearance;
+  if (!o.present(i.t0, i.t1)) return;
+  const double need = need_.clearance, margin0 = o.margin(i.t0), margin1 = o.margin(i.t1);
+  const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
   const double rate = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
-                      kSpeedSlack + std::hypot(o.vx, o.vy);
+                      kSpeedSlack + o.fastest(i.t0, i.t1) + turn * footprint_.reach() +
+                      o.margin_rate;
   const double reach = rate * (i.t1 - i.t0);
-  const double d0 = distance_within(o, i.x0, i.t0, need + reach);
-  const double d1 = distance_within(o, i.x1, i.t1, need + reach);
-  auto& certificate = verdict_.certificate;
-  const double least = std::min(d0, d1);
-  verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], least);
-  if (least < certificate.least_clearance) {
-    certificate.least_clearance = least;
-    certificate.nearest = o.name;
-  }
-  if (!(least >= need)) return refuse(i.t0, "clearance to " + o.name);
-  if ((d0 + d1 - reach) / 2 >= need) return;
+  const double d0 = distance_within(footprint_, o, i.x0, i.t0, need + margin0 + reach);
+  const double d1 = distance_within(footprint_, o, i.x1, i.t1, need + margin1 + reach);
+  note_distance(obstacle, std::min(d0, d1), std::min(d0 - margin0, d1 - margin1));
+  if (!(std::min(d0 - margin0, d1 - margin1) >= need))
+    return refuse(i.t0, "clearance to " + o.name);
+  if ((d0 - margin0 + (d1 - margin1) - reach) / 2 >= need) return;
   if (i.t1 - i.t0 < kShortest) return refuse(i.t0, "clearance to " + o.name);
   const double middle = (i.t0 + i.t1) / 2;
   Control u;
@@ -134,24 +136,41 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   keep_off({middle, i.t1, x, i.x1, u, i.u1}, obstacle);
 }
 
+/// Notes the distance to an obstacle and what is left of it beside its margin.
+void Verifier::note_distance(std::size_t obstacle, double distance, double spare) {
+  verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], spare);
+  auto& certificate = verdict_.certificate;
+  if (!(distance < certificate.least_clearance)) return;
+  certificate.least_clearance = distance;
+  certificate.nearest = (*obstacles_)[obstacle].name;
+}
+
 /// After its end the motion goes on straight at the speed it ends with. Distance is looked at as
-/// often as both speeds allow it to fall to what is needed.
+/// often as both speeds allow it to fall to what is needed. Margins grow no more: plans to come
+/// know better.
 void Verifier::stand_for_good(const Motion& motion) {
-  const State& x = motion.states.back();
+  State x = motion.states.back();
+  const double x0 = x[X], y0 = x[Y];
   const double forward_x = std::cos(x[PSI]) * x[UX], forward_y = std::sin(x[PSI]) * x[UX];
-  const double need = need_.clearance;
+  const double forward = std::fabs(x[UX]), horizon = task_.planner.standing_horizon;
   for (std::size_t k = 0; k < obstacles_->size(); ++k) {
     const auto& o = (*obstacles_)[k];
-    const double rate = std::hypot(o.vx - forward_x, o.vy - forward_y);
+    const double need = need_.clearance + o.margin(motion.end());
+    const double end = motion.end() + horizon;
     double after = 0;
-    while (after <= task_.planner.standing_horizon) {
-      const double d = world::distance(o, x[X] + forward_x * after, x[Y] + forward_y * after,
-                                       motion.end() + after);
-      verdict_.nearest[k] = std::min(verdict_.nearest[k], d);
-      if (!(d >= need + kLook))
-        return refuse(motion.end() + after, "standing in the way of " + o.name);
-      if (rate == 0) break;
-      after += std::max(d - need, kLook) / rate;
+    while (after <= horizon) {
+      const double t = motion.end() + after;
+      if (!o.present(t, end)) break;
+      x[X] = x0 + forward_x * after;
+      x[Y] = y0 + forward_y * after;
+      const double d = footprint_.distance(o, x, t);
+      verdict_.nearest[k] = std::min(verdict_.nearest[k], d - o.margin(motion.end()));
+      if (!(d >= need + kLook)) return refuse(t, "standing in the way of " + o.name);
+      const double rate = o.trajectory ? o.fastest(t, t + kLookAgain) + forward
+                                       : std::hypot(o.vx - forward_x, o.vy - forward_y);
+      if (rate == 0 && !o.trajectory) break;
+      const double step = std::max(d - need, kLook) / rate;
+      after += o.trajectory ? std::min(step, kLookAgain) : step;
     }
   }
 }

@@ -9,7 +9,7 @@
 #include "slalom/planner/plan.hpp"
 #include "slalom/planner/task.hpp"
 #include "slalom/vehicle/plant.hpp"
-#include "slalom/world/obstacle.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::planner {
 
@@ -24,8 +24,8 @@ enum class MotionEnd {
 struct Seen {
   double x = 0, y = 0, radius = std::numeric_limits<double>::infinity();
 };
-/// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N], and this
-/// distance within what is seen.
+/// What a verified motion keeps: distance of its footprint from obstacles' edges, beside their
+/// margins [m], wheel loads [N], and this distance within what is seen.
 struct Need {
   double clearance, wheel_load;
   Seen seen{};
@@ -36,7 +36,7 @@ struct Verdict {
   Certificate certificate;
   MotionEnd end = MotionEnd::open;
   double arrival = 0;           ///< when it arrives [s]
-  std::vector<double> nearest;  ///< least distance to each obstacle's edge [m]
+  std::vector<double> nearest;  ///< least distance to each obstacle's edge beside its margin [m]
   Need need{};                  ///< what was asked of it
   bool unseen = false;          ///< it is refused for nothing but leaving what is seen
 };
@@ -53,7 +53,8 @@ class Verifier {
   static vehicle::Plant believed_plant(const vehicle::Parameters& vehicle);
 
   /// Both outlive it.
-  Verifier(const Task& task, const vehicle::Plant& plant) : task_(task), plant_(plant) {}
+  Verifier(const Task& task, const vehicle::Plant& plant)
+      : task_(task), plant_(plant), footprint_(task.vehicle) {}
 
   /// `motion` among `obstacles`, of a cycle whose plan begins at motion.begin() and whose next
   /// checks of arrival are `tex` [s] apart from there.
@@ -74,11 +75,13 @@ class Verifier {
   void note_limits(double t, const vehicle::State& state);
   void keep_off(const Interval& interval, std::size_t obstacle);
   void find_end(const Motion& motion, double tex);
+  void note_distance(std::size_t obstacle, double distance, double spare);
   void stand_for_good(const Motion& motion);
   void refuse(double t, std::string why);
 
   const Task& task_;
   const vehicle::Plant& plant_;
+  const world::Footprint footprint_;
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
   Need need_{};
   double begin_ = 0;

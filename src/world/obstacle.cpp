@@ -69,7 +69,7 @@ std::vector<Point> Obstacle::corners_at(double t) const {
 double Obstacle::fastest(double t0, double t1) const {
   if (!trajectory) return std::hypot(vx, vy);
   const Rates rates = trajectory->fastest(t0, t1);
-  return rates.speed + rates.omega * (std::max(a, b) + rounding);
+  return rates.speed + rates.omega * reach();
 }
 
 Obstacle Obstacle::grown(double margin) const {

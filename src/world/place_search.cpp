@@ -31,15 +31,26 @@ std::uint64_t cell(double value, double size, int bits) {
 
 }  // namespace
 
-PlaceSearch::PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle)
-    : goal_(goal), vehicle_(vehicle), frame_{std::cos(goal.psi), std::sin(goal.psi)} {}
+PlaceSearch::PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle,
+                         const std::vector<Disc>& body)
+    : goal_(goal), vehicle_(vehicle), frame_{std::cos(goal.psi), std::sin(goal.psi)} {
+  for (const Disc& disc : body) {
+    ahead_.push_back(disc.ahead);
+    body_reach_ = std::max(body_reach_, std::fabs(disc.ahead));
+  }
+}
+
+std::size_t PlaceSearch::moments(const WaySearch& search) {
+  return static_cast<std::size_t>(std::ceil(search.t_max / search.dt)) + 1;
+}
 
 bool PlaceSearch::run(const Place& start, const Region& region,
-                      const std::vector<Ellipse>& obstacles, const WaySearch& search,
-                      const std::function<bool()>& out_of_budget) {
+                      const std::vector<Ellipse>& obstacles, const std::vector<Moment>& moments,
+                      const WaySearch& search, const std::function<bool()>& out_of_budget) {
   p_ = search;
   region_ = region;
   obstacles_.assign(obstacles.begin(), obstacles.end());
+  moments_.assign(moments.begin(), moments.end());
   found_ = -1;
   looked_at_ = 0;
   places_.clear();
@@ -110,19 +121,41 @@ void PlaceSearch::find_near(const Place& from) {
   const double a = std::max(std::fabs(push), p_.braking);
   const double aside = 0.5 * p_.dt * p_.dt * std::hypot(a, fast * fast * kappa);
   near_.clear();
-  for (const auto& o : obstacles_) {
-    const double dx = o.x + o.vx * t - x, dy = o.y + o.vy * t - y;
+  for (const auto& obstacle : obstacles_) {
+    Ellipse o = obstacle;
+    double dx = o.x + o.vx * t - x, dy = o.y + o.vy * t - y;
+    if (o.moments >= 0) {
+      const Moment& now = moments_[static_cast<std::size_t>(o.moments + from.moves)];
+      const Moment& then = moments_[static_cast<std::size_t>(o.moments + from.moves + 1)];
+      if (!now.there) continue;
+      dx = now.x - x;
+      dy = now.y - y;
+      o.vx = (then.x - now.x) / p_.dt;
+      o.vy = (then.y - now.y) / p_.dt;
+      o.a += then.larger;
+      o.b += then.larger;
+    }
     const double vx = v * c - o.vx, vy = v * s - o.vy, square = vx * vx + vy * vy;
     const double ahead = square > 0 ? (dx * vx + dy * vy) / square : 0;
     const double at = std::clamp(ahead, 0.0, p_.dt);
-    const double ex = dx - at * vx, ey = dy - at * vy, reach = std::max(o.a, o.b) + aside;
+    const double ex = dx - at * vx, ey = dy - at * vy, reach = std::max(o.a, o.b) + aside + body_reach_;
     if (ex * ex + ey * ey < reach * reach)
       near_.push_back({x + dx, y + dy, o.vx, o.vy, 1 / o.a, 1 / o.b});
   }
 }
 
-bool PlaceSearch::is_free(double x, double y, double after) const {
-  if (!region_.contains(x, y)) return false;
+bool PlaceSearch::is_free(const Motion& at, double after) const {
+  if (!region_.contains(at.x, at.y)) return false;
+  if (body_reach_ == 0) return is_clear(at.x, at.y, after);
+  // The front wheels roll where the way leads; the body's axis is off that by their steering.
+  double c = at.c, s = at.s;
+  turn(c, s, -(vehicle_.la + vehicle_.lb) * at.kappa);
+  return std::all_of(ahead_.begin(), ahead_.end(), [&](double ahead) {
+    return is_clear(at.x + ahead * c, at.y + ahead * s, after);
+  });
+}
+
+bool PlaceSearch::is_clear(double x, double y, double after) const {
   for (const auto& o : near_) {
     const double dx = (x - o.x - o.vx * after) * o.per_a;
     const double dy = (y - o.y - o.vy * after) * o.per_b;
@@ -150,7 +183,7 @@ bool PlaceSearch::move(Motion& at, double a, double kappa_rate, double v_least,
   const double h = p_.dt / kParts;
   for (int part = 1; part <= kParts; ++part) {
     advance(at, a, kappa_rate, h, v_least, v_most);
-    if (!is_free(at.x, at.y, part * h)) return false;
+    if (!is_free(at, part * h)) return false;
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #include "cell_set.hpp"
 #include "goal_field.hpp"
 #include "slalom/vehicle/parameters.hpp"
+#include "slalom/world/footprint.hpp"
 #include "slalom/world/way_finder.hpp"
 
 namespace slalom::world {
@@ -21,11 +22,16 @@ class PlaceSearch {
     std::int32_t moves = 0, parent = -1;
   };
 
-  PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle);
+  /// Of the vehicle what keeps off obstacles are the centres of the discs of `body`.
+  PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle, const std::vector<Disc>& body);
 
-  /// Whether a way was found; region and obstacles as the search is to keep out of them.
+  /// How many moments an obstacle has that moves by a trajectory: one for each move, and the end.
+  static std::size_t moments(const WaySearch& search);
+  /// Whether a way was found; region and obstacles as the search is to keep out of them. Between
+  /// the moments of an obstacle it goes straight.
   bool run(const Place& start, const Region& region, const std::vector<Ellipse>& obstacles,
-           const WaySearch& search, const std::function<bool()>& out_of_budget);
+           const std::vector<Moment>& moments, const WaySearch& search,
+           const std::function<bool()>& out_of_budget);
 
   int looked_at() const { return looked_at_; }
   /// Of the last search: the way found, its times and places absolute.
@@ -59,15 +65,19 @@ class PlaceSearch {
   bool move(Motion& at, double a, double kappa_rate, double v_least, double v_most) const;
   void advance(Motion& at, double a, double kappa_rate, double h, double v_least,
                double v_most) const;
-  bool is_free(double x, double y, double after) const;
+  bool is_free(const Motion& at, double after) const;
+  bool is_clear(double x, double y, double after) const;
   bool arrived(const Place& place) const;
 
   const Goal goal_;
   const vehicle::Parameters vehicle_;
   const Frame frame_;
+  std::vector<double> ahead_;  ///< of the body's discs, from the front axle's centre on [m]
+  double body_reach_ = 0;      ///< how far their centres are from it [m]
   WaySearch p_;
   Region region_;
   std::vector<Ellipse> obstacles_;
+  std::vector<Moment> moments_;
   GoalField field_;
   std::vector<Place> places_;
   std::vector<Open> open_;  ///< a heap
