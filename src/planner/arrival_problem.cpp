@@ -26,8 +26,6 @@ const std::vector<double>& shares(bool between) {
   static const std::vector<double> all = {-0.2, -0.1, 0, 0.1, 0.2}, none = {0};
   return between ? all : none;
 }
-/// Where the end may lie, in half-widths of the goal's square from its centre.
-constexpr double kEnd = 0.6;
 /// Points of the guess for each interval.
 constexpr int kGuessPoints = 4;
 /// An answer that is not solved starts a tracked motion still, up to this violation [its unit].
@@ -63,12 +61,17 @@ ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     : room_(room),
       intervals_(task.planner.arrival_N),
       shares_(shares(task.planner.rows_between)),
-      problem_("arrival") {
+      problem_("arrival"),
+      road_(task.road) {
   if (const world::Footprint footprint(task.vehicle); !footprint.is_point())
     box_.emplace(footprint);
   add_dynamics(task);
   add_obstacles();
-  add_cost_and_end(task);
+  if (road_)
+    corridor_.emplace(problem_, X_[X], X_[Y], X_[PSI], world::Footprint(task.vehicle),
+                      task.planner.cover_excess);
+  add_cost(task);
+  end_.emplace(problem_, task, X_, t_start_);
   set_obstacles({}, 0, 0);
   transcription_.emplace(problem_, growing_mesh(task.planner.arrival_N), ocp::hermite_simpson());
   tau_ = transcription_->trajectory(transcription_->point(transcription_->straight_guess())).tau;
@@ -186,26 +189,39 @@ void ArrivalProblem::set_obstacles(const Obstacles& obstacles, double t_start, d
   set(close_rows_, std::move(close));
 }
 
-void ArrivalProblem::add_cost_and_end(const Task& task) {
+void ArrivalProblem::add_cost(const Task& task) {
   const Settings& s = task.planner;
   const auto& goal = task.goal;
   problem_.mayer("final_time", s.w_t * problem_.final_time());
   problem_.lagrange("control_effort",
                     s.w_ce * (s.w_sa * square(X_[SA]) + kSteeringRate * s.w_sr * square(U_[SR]) +
                               kJerk * s.w_jx * square(U_[JX])));
+  // A road says where it leads.
+  if (task.road) return;
   problem_.lagrange("heading_area", kArea * s.w_haf *
                                         square(std::sin(goal.psi) * (X_[X] - goal.x) -
                                                std::cos(goal.psi) * (X_[Y] - goal.y)));
-  const double within = kEnd * goal.sigma;
-  problem_.boundary("goal x", problem_.final(X_[X]) - goal.x, {-within, within});
-  problem_.boundary("goal y", problem_.final(X_[Y]) - goal.y, {-within, within});
+}
+
+void ArrivalProblem::set_corridor(const Motion& guess, const State& X0p, double tf, double margin) {
+  if (!corridor_) return;
+  std::vector<State> at;
+  std::vector<double> after;
+  for (const double tau : tau_) {
+    after.push_back(tau * tf);
+    at.push_back(guess.state_at(guess.begin() + tau * tf));
+  }
+  at[0] = X0p;
+  corridor_->set(problem_, *road_, at, after, margin);
 }
 
 std::optional<Motion> ArrivalProblem::solve(const Motion& guess, const State& X0p,
-                                            const Obstacles& obstacles, nlp::Solver& solver,
-                                            const nlp::Options& options) {
-  const double t_start = guess.begin(), tf = guess.end() - t_start;
+                                            const Obstacles& obstacles, double edge_margin,
+                                            nlp::Solver& solver, const nlp::Options& options) {
+  const double t_start = guess.begin(), tf = end_->duration(guess);
   set_obstacles(obstacles, t_start, tf);
+  set_corridor(guess, X0p, tf, edge_margin);
+  end_->set(problem_, guess);
   for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], X0p[i]);
   problem_.set_parameter(t_start_, t_start);
   transcription_->update(problem_);

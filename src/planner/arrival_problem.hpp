@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "arrival_end.hpp"
+#include "corridor_rows.hpp"
 #include "motion.hpp"
 #include "obstacle_view.hpp"
 #include "slalom/nlp/solver.hpp"
@@ -42,10 +44,10 @@ class ArrivalProblem {
   static Room room_for(const Obstacles& obstacles);
 
   /// Solves from `guess` (whose end is the guess of the final time) for obstacles, no more of them
-  /// than there is room for. None when it is not solved, nor near it. `solver` is used for this
-  /// alone.
+  /// than there is room for, and within the road's edges by a margin [m]. None when it is not
+  /// solved, nor near it. `solver` is used for this alone.
   std::optional<Motion> solve(const Motion& guess, const vehicle::State& X0p,
-                              const Obstacles& obstacles, nlp::Solver& solver,
+                              const Obstacles& obstacles, double edge_margin, nlp::Solver& solver,
                               const nlp::Options& options);
 
   int iterations() const { return answer_.iterations; }  ///< of the last solve
@@ -60,7 +62,8 @@ class ArrivalProblem {
   Expr outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a, const Expr& b) const;
   std::vector<double> row_numbers(const world::Obstacle& o, double share, double t_start,
                                   double tf) const;
-  void add_cost_and_end(const Task& task);
+  void add_cost(const Task& task);
+  void set_corridor(const Motion& guess, const vehicle::State& X0p, double tf, double margin);
 
   Room room_;
   int intervals_;
@@ -68,6 +71,9 @@ class ArrivalProblem {
   const std::vector<double>& shares_;
   ocp::Problem problem_;
   ocp::ConstraintId far_rows_{}, close_rows_{};
+  std::optional<CorridorRows> corridor_;
+  std::optional<ArrivalEnd> end_;
+  std::shared_ptr<const world::Road> road_;
   std::array<Expr, vehicle::kStates> X_, X0p_, rate_;
   std::array<Expr, vehicle::kControls> U_;
   Expr t_start_;

@@ -36,6 +36,7 @@ Task LocalFrame::to_local(Task task) const {
   task.region.y_min -= y_;
   task.region.y_max -= y_;
   move(task.obstacles);
+  if (task.road && (x_ != 0 || y_ != 0)) task.road = task.road->moved({-x_, -y_});
   return task;
 }
 

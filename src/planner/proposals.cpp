@@ -6,6 +6,7 @@
 
 #include "obstacle_view.hpp"
 #include "references.hpp"
+#include "road_reference.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kFar = 18;
 constexpr double kClose = 1.5;
 /// An obstacle that a tracked motion came too near to grows by the shortfall and this [m], so many
 /// times.
-constexpr double kRegrow = 0.08;
+constexpr double kRegrow = 0.08, kRegrowEdge = 0.03;
 constexpr int kRounds = 5;
 /// A way found while another leads to the goal is looked at if it is sooner by this [s].
 constexpr double kSooner = 0.3;
@@ -66,8 +67,7 @@ std::vector<Passed> places_of(const Motion& motion, double ahead) {
     for (int part = 0; part < parts; ++part) {
       const double share = static_cast<double>(part) / parts;
       const State &a = motion.states[k], &b = motion.states[std::min(k + 1, motion.size() - 1)];
-      Passed at{t0 + share * (t1 - t0), a[X] + share * (b[X] - a[X]),
-                a[Y] + share * (b[Y] - a[Y])};
+      Passed at{t0 + share * (t1 - t0), a[X] + share * (b[X] - a[X]), a[Y] + share * (b[Y] - a[Y])};
       if (ahead != 0) {
         const double psi = a[PSI] + share * (b[PSI] - a[PSI]);
         at.x += ahead * std::cos(psi);
@@ -131,8 +131,8 @@ void Proposals::follow_ways() {
 bool Proposals::follow(const world::Way& way, const std::string& name) {
   if (way.back().t > question_.arrival - kSooner) return false;
   turns_.wait_for(longest_besides_s_);
-  const Motion reference =
-      braked_on(reference_of(way, task_.vehicle), task_.vehicle, question_.beyond);
+  const Motion reference = braked_on(reference_of(way, task_.vehicle), task_.vehicle,
+                                     task_.road.get(), question_.beyond);
   Motion guess = tracked(reference);
   const bool arrives = propose(name, guess, false);
   const State &end = guess.states.back(), &wanted = reference.states.back();
@@ -209,9 +209,10 @@ Motion Proposals::to_the_goal(Motion motion) const {
   return motion;
 }
 
-/// The answer of the OCP among obstacles grown by their margins and `extra`.
-std::optional<Motion> Proposals::answer_from(const Motion& guess,
-                                             const std::vector<double>& extra) {
+/// The answer of the OCP among obstacles grown by their margins and `extra`, and so far from the
+/// road's edges.
+std::optional<Motion> Proposals::answer_from(const Motion& guess, const std::vector<double>& extra,
+                                             double edge_margin) {
   const auto obstacles = near(guess, extra);
   ArrivalProblem* problem = problem_for(obstacles);
   if (!problem) return std::nullopt;
@@ -221,7 +222,7 @@ std::optional<Motion> Proposals::answer_from(const Motion& guess,
   options.max_iterations = task_.planner.arrival_max_iterations;
   options.stop = cancelled;
   options.stop_data = &turns_;
-  auto answer = problem->solve(guess, question_.from, obstacles, *solver_, options);
+  auto answer = problem->solve(guess, question_.from, obstacles, edge_margin, *solver_, options);
   iterations_ += problem->iterations();
   return answer;
 }
@@ -230,31 +231,36 @@ std::optional<Motion> Proposals::answer_from(const Motion& guess,
 /// again with it grown. Whether it comes to a verified arrival.
 bool Proposals::solve(const Motion& guess, const std::string& name) {
   std::vector<double> extra(question_.obstacles.size(), 0);
+  double edge_margin = question_.need.edge;
   Motion from = to_the_goal(guess);
   for (int round = 0; round < kRounds; ++round) {
     if (from.end() - from.begin() < kShortest) return false;
-    auto answer = answer_from(from, extra);
+    auto answer = answer_from(from, extra, edge_margin);
     turns_.wait_for(longest_besides_s_);
     if (!answer || turns_.spend(0)) return false;
     const Timer timer;
-    Motion motion = tracked(braked_on(*answer, task_.vehicle, question_.beyond));
+    Motion motion = tracked(braked_on(*answer, task_.vehicle, task_.road.get(), question_.beyond));
     const bool arrives = propose(name, std::move(motion), true);
     longest_besides_s_ = std::max(longest_besides_s_, timer.cpu());
     if (arrives) return true;
-    if (!regrow(extra)) return false;
+    if (!regrow(extra, edge_margin)) return false;
     from = std::move(*answer);
   }
   return false;
 }
 
-/// Whether an obstacle was too near to the last motion, and is grown.
-bool Proposals::regrow(std::vector<double>& extra) const {
+/// Whether an obstacle or an edge was too near to the last motion, and is grown.
+bool Proposals::regrow(std::vector<double>& extra, double& edge_margin) const {
   const Verdict& verdict = verifier_.last();
   bool regrown = false;
   for (std::size_t k = 0; k < extra.size(); ++k) {
     const double short_of = question_.need.clearance - verdict.nearest[k];
     if (short_of <= 0) continue;
     extra[k] += short_of + kRegrow;
+    regrown = true;
+  }
+  if (const double short_of = question_.need.edge - verdict.nearest_edge; short_of > 0) {
+    edge_margin += short_of + kRegrowEdge;
     regrown = true;
   }
   return regrown;

@@ -65,8 +65,9 @@ class Proposals {
   bool follow(const world::Way& way, const std::string& name);
   bool propose(const std::string& name, Motion motion, bool solved);
   bool solve(const Motion& guess, const std::string& name);
-  bool regrow(std::vector<double>& extra) const;
-  std::optional<Motion> answer_from(const Motion& guess, const std::vector<double>& extra);
+  bool regrow(std::vector<double>& extra, double& edge_margin) const;
+  std::optional<Motion> answer_from(const Motion& guess, const std::vector<double>& extra,
+                                    double edge_margin);
   Motion tracked(const Motion& reference);
   ArrivalProblem::Obstacles near(const Motion& guess, const std::vector<double>& extra) const;
   ArrivalProblem* problem_for(const ArrivalProblem::Obstacles& obstacles);

@@ -32,6 +32,13 @@ constexpr double kLook = 0.01, kLookAgain = 1;
 constexpr double kToComeBack = 1;
 /// Within the goal's square by this much counts as there [m].
 constexpr double kInside = 0.1;
+/// Another goal is reached by so much [its unit].
+constexpr double kWell = 0.02;
+/// No point of the body accelerates by more [m/s^2]: the tyres' 10, and as much again for a yaw
+/// rate of 1 rad/s, or 2 rad/s^2, five metres off.
+constexpr double kMostAcceleration = 20;
+/// A motion that begins nearer to the road's edge than is needed keeps that but for this [m].
+constexpr double kEdgeSlack = 0.01;
 
 /// The plant's integrator as the loop has it by default.
 constexpr double kPlantTolerance = 1e-9, kSampleStep = 0.02;
@@ -40,7 +47,8 @@ double speed(const Parameters& p, const State& x) {
   return std::hypot(x[UX], x[V] + p.la * x[R]);
 }
 
-/// Distance of the footprint to an obstacle's edge, or a lower bound of it where it is beyond `far`.
+/// Distance of the footprint to an obstacle's edge, or a lower bound of it where it is beyond
+/// `far`.
 double distance_within(const world::Footprint& footprint, const world::Obstacle& o, const State& x,
                        double t, double far) {
   const world::Pose at = o.pose_at(t);
@@ -136,6 +144,31 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   keep_off({middle, i.t1, x, i.x1, u, i.u1}, obstacle);
 }
 
+/// Along an interval each point of the body is off its chord, and an edge bends away from its own,
+/// by less than second derivatives times the square of the duration over 8.
+void Verifier::keep_on_road(const Interval& i) {
+  const double need = i.t0 - begin_ < kToComeBack && first_edge_ < need_.edge
+                          ? first_edge_ - kEdgeSlack
+                          : need_.edge;
+  const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
+  const double fast = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
+                      kSpeedSlack + turn * footprint_.reach();
+  const double dt = i.t1 - i.t0;
+  const double slack = (kMostAcceleration + task_.road->sharpest() * fast * fast) * dt * dt / 8;
+  const double least = std::min(footprint_.edge_distance(*task_.road, i.x0),
+                                footprint_.edge_distance(*task_.road, i.x1));
+  verdict_.nearest_edge = std::min(verdict_.nearest_edge, least);
+  if (!(least >= need)) return refuse(i.t0, "off the road");
+  if (least - slack >= need) return;
+  if (dt < kShortest) return refuse(i.t0, "off the road");
+  const double middle = (i.t0 + i.t1) / 2;
+  Control u;
+  for (std::size_t c = 0; c < kControls; ++c) u[c] = (i.u0[c] + i.u1[c]) / 2;
+  const State x = plant_.advance(i.x0, i.u0, u, i.t0, middle);
+  keep_on_road({i.t0, middle, i.x0, x, i.u0, u});
+  keep_on_road({middle, i.t1, x, i.x1, u, i.u1});
+}
+
 /// Notes the distance to an obstacle and what is left of it beside its margin.
 void Verifier::note_distance(std::size_t obstacle, double distance, double spare) {
   verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], spare);
@@ -175,16 +208,10 @@ void Verifier::stand_for_good(const Motion& motion) {
   }
 }
 
-void Verifier::find_end(const Motion& motion, double tex) {
-  const auto outside = [&](const State& x, double t) {
-    return task_.goal.outside(x, t, task_.road.get());
-  };
-  const bool by_time = task_.goal.kind() == world::GoalKind::time;
-  const double inside = by_time ? 0 : kInside;
+void Verifier::find_end_by_square(const Motion& motion, double tex) {
+  const auto outside = [&](const State& x, double t) { return task_.goal.outside(x, t, nullptr); };
   for (double t = motion.begin(); t <= motion.end() + 1e-9; t += tex) {
-    // The loop looks when the time is up, too.
-    if (by_time && t > task_.goal.time && t - tex < task_.goal.time) t = task_.goal.time;
-    if (outside(motion.state_at(t), t) > -inside) continue;
+    if (outside(motion.state_at(t), t) > -kInside) continue;
     verdict_.end = MotionEnd::arrives;
     verdict_.arrival = t;
     // The square's edge is passed a little earlier, which tells motions apart that are looked at
@@ -196,6 +223,19 @@ void Verifier::find_end(const Motion& motion, double tex) {
       }
     return;
   }
+}
+
+void Verifier::find_end(const Motion& motion, double tex) {
+  if (task_.goal.kind() == world::GoalKind::square) {
+    find_end_by_square(motion, tex);
+  } else {
+    for (std::size_t k = 0; k < motion.size() && verdict_.end == MotionEnd::open; ++k) {
+      if (task_.goal.outside(motion.states[k], motion.t[k], task_.road.get()) > -kWell) continue;
+      verdict_.end = MotionEnd::arrives;
+      verdict_.arrival = motion.t[k];
+    }
+  }
+  if (verdict_.end == MotionEnd::arrives) return;
   const State& last = motion.states.back();
   if (last[UX] < kStanding && std::fabs(last[AX]) < kStandingAcceleration)
     verdict_.end = MotionEnd::stands;
@@ -218,6 +258,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   certificate.until = motion.end();
   begin_ = motion.begin();
   first_ = excess_of(motion.states[0], plant_.dynamics().wheel_loads(motion.states[0]));
+  if (task_.road) first_edge_ = footprint_.edge_distance(*task_.road, motion.states[0]);
   note_limits(motion.t[0], motion.states[0]);
   for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {
     const Interval i{motion.t[k],          motion.t[k + 1],    motion.states[k],
@@ -231,6 +272,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
     }
     try {
       for (std::size_t o = 0; o < obstacles.size(); ++o) keep_off(i, o);
+      if (task_.road) keep_on_road(i);
     } catch (const PlantError& error) {
       refuse(i.t0, error.what());
     }

@@ -15,7 +15,7 @@ namespace slalom::planner {
 
 /// How a motion ends.
 enum class MotionEnd {
-  arrives,  ///< it is within the goal's square when the loop looks
+  arrives,  ///< it reaches the goal; it is within a square when the loop looks
   stands,   ///< it creeps, clear of every obstacle's path for good
   open      ///< neither
 };
@@ -29,6 +29,7 @@ struct Seen {
 struct Need {
   double clearance, wheel_load;
   Seen seen{};
+  double edge = 0;  ///< and distance of its footprint from the road's edges [m]
 };
 
 /// What judge() found.
@@ -37,8 +38,9 @@ struct Verdict {
   MotionEnd end = MotionEnd::open;
   double arrival = 0;           ///< when it arrives [s]
   std::vector<double> nearest;  ///< least distance to each obstacle's edge beside its margin [m]
-  Need need{};                  ///< what was asked of it
-  bool unseen = false;          ///< it is refused for nothing but leaving what is seen
+  double nearest_edge = std::numeric_limits<double>::infinity();  ///< of the road [m]
+  Need need{};                                                    ///< what was asked of it
+  bool unseen = false;  ///< it is refused for nothing but leaving what is seen
 };
 
 /// Judges motions of the plant: whether, driven as they stand, they keep off all obstacles as
@@ -74,7 +76,9 @@ class Verifier {
   Excess excess_of(const vehicle::State& state, const vehicle::WheelLoads& loads) const;
   void note_limits(double t, const vehicle::State& state);
   void keep_off(const Interval& interval, std::size_t obstacle);
+  void keep_on_road(const Interval& interval);
   void find_end(const Motion& motion, double tex);
+  void find_end_by_square(const Motion& motion, double tex);
   void note_distance(std::size_t obstacle, double distance, double spare);
   void stand_for_good(const Motion& motion);
   void refuse(double t, std::string why);
@@ -85,7 +89,8 @@ class Verifier {
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
   Need need_{};
   double begin_ = 0;
-  Excess first_;  ///< at the motion's beginning
+  Excess first_;           ///< at the motion's beginning
+  double first_edge_ = 0;  ///< distance from the road's edge there [m]
   Verdict verdict_;
 };
 

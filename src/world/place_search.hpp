@@ -7,6 +7,7 @@
 
 #include "cell_set.hpp"
 #include "goal_field.hpp"
+#include "road_field.hpp"
 #include "slalom/vehicle/parameters.hpp"
 #include "slalom/world/footprint.hpp"
 #include "slalom/world/way_finder.hpp"
@@ -23,15 +24,17 @@ class PlaceSearch {
   };
 
   /// Of the vehicle what keeps off obstacles are the centres of the discs of `body`.
-  PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle, const std::vector<Disc>& body);
+  /// A road's field, or none, outlives it; to the goal it is `to_go` [m] from the road's start.
+  PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle, const std::vector<Disc>& body,
+              const RoadField* road, double to_go);
 
   /// How many moments an obstacle has that moves by a trajectory: one for each move, and the end.
   static std::size_t moments(const WaySearch& search);
   /// Whether a way was found; region and obstacles as the search is to keep out of them. Between
   /// the moments of an obstacle it goes straight.
-  bool run(const Place& start, const Region& region, const std::vector<Ellipse>& obstacles,
-           const std::vector<Moment>& moments, const WaySearch& search,
-           const std::function<bool()>& out_of_budget);
+  bool run(const Place& start, double t_start, const Region& region,
+           const std::vector<Ellipse>& obstacles, const std::vector<Moment>& moments,
+           const WaySearch& search, const std::function<bool()>& out_of_budget);
 
   int looked_at() const { return looked_at_; }
   /// Of the last search: the way found, its times and places absolute.
@@ -68,12 +71,21 @@ class PlaceSearch {
   bool is_free(const Motion& at, double after) const;
   bool is_clear(double x, double y, double after) const;
   bool arrived(const Place& place) const;
+  bool meets_conditions(const Place& place) const;
+  bool on_road(double x, double y) const;
+  double way_left(double x, double y) const;
+  void place_start(const Place& start);
 
   const Goal goal_;
   const vehicle::Parameters vehicle_;
   const Frame frame_;
   std::vector<double> ahead_;  ///< of the body's discs, from the front axle's centre on [m]
   double body_reach_ = 0;      ///< how far their centres are from it [m]
+  const RoadField* road_;
+  const double to_go_;
+  double disc_radius_ = 0;  ///< of the body's [m]
+  double edge_ = 0;         ///< kept by the discs' centres from the road's edges [m]
+  double t_start_ = 0;      ///< [s]
   WaySearch p_;
   Region region_;
   std::vector<Ellipse> obstacles_;

@@ -70,6 +70,15 @@ constexpr double kWallAfter = 1;    ///< sooner there is no time left to pass ot
 constexpr int kWallsPerWay = 4;     ///< tried at the most, for each way wanted
 constexpr int kWallPlaces = 4;      ///< a wall's search looks at so many times fewer places
 
+/// Where the goal lies along the road [m]; its end, where the goal is a time.
+double to_go(const Environment& environment) {
+  if (!environment.road) return 0;
+  const Goal& goal = environment.goal;
+  if (goal.kind() == GoalKind::line) return goal.s;
+  return goal.is_place() ? environment.road->project({goal.x, goal.y}).s
+                         : environment.road->length();
+}
+
 }  // namespace
 
 class WayFinder::Impl {
@@ -80,7 +89,8 @@ class WayFinder::Impl {
         vehicle_(vehicle),
         cover_excess_(cover_excess),
         body_(Footprint(vehicle).covering_discs(cover_excess)),
-        search_(environment.goal, vehicle, body_) {}
+        road_(environment.road ? std::make_unique<RoadField>(*environment.road) : nullptr),
+        search_(environment.goal, vehicle, body_, road_.get(), to_go(environment)) {}
 
   std::optional<Way> find(const State& start, double t_start,
                           const std::vector<Obstacle>& obstacles, const WaySearch& search,
@@ -148,8 +158,8 @@ class WayFinder::Impl {
     for (const auto& o : q.obstacles) add(o, q, search);
     for (const auto& o : wall_) add(o, q, search);
     const auto place = first_place(q.start, goal_, vehicle_);
-    const bool found =
-        search_.run(place, region_for(place, search), ellipses_, moments_, search, q.out_of_budget);
+    const bool found = search_.run(place, q.t_start, region_for(place, search), ellipses_, moments_,
+                                   search, q.out_of_budget);
     looked_at_ += search_.looked_at();
     if (!found) return std::nullopt;
     Way way;
@@ -265,6 +275,7 @@ class WayFinder::Impl {
   const vehicle::Parameters vehicle_;
   const double cover_excess_;
   const std::vector<Disc> body_;  ///< that cover the vehicle's footprint, of one radius
+  const std::unique_ptr<RoadField> road_;
   PlaceSearch search_;
   std::vector<Obstacle> wall_;
   std::vector<Ellipse> ellipses_;

@@ -103,6 +103,7 @@ struct Settings {
   double verified_clearance = 2.15;  ///< from obstacles' edges, at all times [m]
   double verified_wheel_load = 400;  ///< [N]
   double kept_clearance = 2.05;      ///< by its rest, where belief was wrong [m]
+  double edge_clearance = 0.05;      ///< from the road's edges; its rest keeps 0 [m]
   double kept_wheel_load = 200;      ///< [N]
   double standing_horizon = 60;      ///< for which standing must be clear of obstacles [s]
   double arrival_margin = 0.3;       ///< of the OCP's obstacles beyond verified_clearance [m]

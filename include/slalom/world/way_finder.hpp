@@ -26,6 +26,7 @@ struct WaySearch {
   double dt = 0.4;                    ///< of a move [s]
   double clearance = 0.8;             ///< kept from the obstacles [m]
   double inset = 0.5;                 ///< kept from the region's sides [m]
+  double edge = 0.1;                  ///< kept from the road's edges [m]
   double v_min = 1.5, v_max = 28;     ///< [m/s]
   double lateral_acceleration = 3.2;  ///< most [m/s^2]
   double curvature = 0.15;            ///< most [1/m]
@@ -68,8 +69,8 @@ class WayFinder {
   /// half the goal's sigma along its direction and 0.6 sigma across. nullopt when the search finds
   /// none within max_places or before out_of_budget(), asked every kAskedEvery places, says so.
   ///
-  /// Obstacles with a trajectory go straight from where they are at the beginning of a move to where
-  /// they are at its end, with the margin they have there.
+  /// Obstacles with a trajectory go straight from where they are at the beginning of a move to
+  /// where they are at its end, with the margin they have there.
   ///
   /// A start that keeps too little distance may leave. An obstacle that has it within the clearance
   /// counts without clearance; one that contains it counts by an ellipse of the same shape half as
