@@ -16,7 +16,7 @@ using ocp::Expr;
 /// Where the end may lie, in half-widths of the goal's place from its middle.
 constexpr double kEnd = 0.6;
 /// Beyond a line across the road [m].
-constexpr double kBeyondLine = 0.2;
+constexpr double kBeyondLine = 0.2, kLineDepth = 5;
 /// Of the ranges of what else is asked, or so much inside them where they are wide [their unit].
 constexpr double kShare = 0.25, kInside = 0.1;
 
@@ -56,7 +56,7 @@ void ArrivalEnd::add_place(ocp::Problem& problem, const States& states) const {
       problem.boundary("across goal", c * dy - s * dx, within(goal_.width / 2));
       break;
     case world::GoalKind::line:
-      problem.boundary("beyond line", c * dx + s * dy, Bounds::at_least(kBeyondLine));
+      problem.boundary("beyond line", c * dx + s * dy, {kBeyondLine, kBeyondLine + kLineDepth});
       break;
     case world::GoalKind::time:
     case world::GoalKind::laps:

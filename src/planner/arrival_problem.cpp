@@ -67,9 +67,7 @@ ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     box_.emplace(footprint);
   add_dynamics(task);
   add_obstacles();
-  if (road_)
-    corridor_.emplace(problem_, X_[X], X_[Y], X_[PSI], world::Footprint(task.vehicle),
-                      task.planner.cover_excess);
+  if (road_) corridor_.emplace(problem_, X_[X], X_[Y], X_[PSI], world::Footprint(task.vehicle));
   add_cost(task);
   end_.emplace(problem_, task, X_, t_start_);
   set_obstacles({}, 0, 0);

@@ -16,6 +16,9 @@ using world::Point;
 
 /// The sharpest circle that an edge is taken for [1/m]: where an inner edge folds it has none.
 constexpr double kSharpest = 0.5;
+/// How far an answer's points may be from the guess's along the road: while it turns by so much
+/// [rad], within these bounds [m].
+constexpr double kShiftTurn = 0.15, kLeastShift = 3, kMostShift = 12;
 /// A start that is nearer to an edge than discs are to be leaves it at this rate [m/s], from so
 /// much nearer still [m].
 constexpr double kLeaving = 0.5, kNearer = 0.03;
@@ -38,6 +41,15 @@ Edge edge_at(const world::RoadPlace& road, bool left) {
           std::clamp(bend, -kSharpest, kSharpest)};
 }
 
+/// What of the vehicle an edge touches first, as discs of half its width: at both ends, for a
+/// straight edge, and in the middle, for one that bends towards the road.
+std::vector<world::Disc> discs_of(const world::Footprint& footprint) {
+  if (footprint.is_point()) return {{}};
+  const double front = footprint.corners()[0].x, back = footprint.corners()[1].x;
+  const double half = footprint.corners()[0].y;
+  return {{back, half}, {(back + front) / 2, half}, {front, half}};
+}
+
 double spare_of(double radius, double bend) {
   return radius - bend * radius * radius / 2;
 }
@@ -45,8 +57,8 @@ double spare_of(double radius, double bend) {
 }  // namespace
 
 CorridorRows::CorridorRows(ocp::Problem& problem, const Expr& X, const Expr& Y, const Expr& psi,
-                           const world::Footprint& footprint, double cover_excess)
-    : discs_(footprint.covering_discs(cover_excess)), rows_{} {
+                           const world::Footprint& footprint)
+    : discs_(discs_of(footprint)), rows_{}, along_{} {
   const auto symbol = [](const char* name) { return Expr::symbol(name); };
   const Symbols s{symbol("xe"),   symbol("ye"),    symbol("nx"),   symbol("ny"),
                   symbol("bend"), symbol("spare"), symbol("ahead")};
@@ -66,6 +78,25 @@ CorridorRows::CorridorRows(ocp::Problem& problem, const Expr& X, const Expr& Y, 
     nothing.push_back(std::vector<double>(symbols.size(), 0));
   }
   problem.set_members(rows_, std::move(names), std::move(nothing));
+  along_ = problem.path_family("along the guess", {s.x, s.y, s.nx, s.ny, s.spare},
+                               (s.nx * (X - s.x) + s.ny * (Y - s.y)) / s.spare, {-1, 1},
+                               ocp::Points::after_first);
+  problem.set_members(along_, {"guess"}, {{0, 0, 1, 0, 1}});
+}
+
+void CorridorRows::set_along(ocp::Problem& problem, const world::Road& road,
+                             const std::vector<State>& at) const {
+  std::vector<double> list;
+  for (const State& x : at) {
+    const double s = road.project({x[X], x[Y]}).s;
+    double sharpest = 0;
+    for (double part = -1; part <= 1; part += 0.5)
+      sharpest = std::max(sharpest, std::fabs(road.at(s + part * kMostShift).curvature));
+    const double shift = std::clamp(kShiftTurn / sharpest, kLeastShift, kMostShift);
+    const Point ahead = road.at(s).ahead();
+    list.insert(list.end(), {x[X], x[Y], ahead.x, ahead.y, shift});
+  }
+  problem.set_members(along_, {"guess"}, {std::move(list)});
 }
 
 void CorridorRows::set(ocp::Problem& problem, const world::Road& road, const std::vector<State>& at,
@@ -94,6 +125,7 @@ void CorridorRows::set(ocp::Problem& problem, const world::Road& road, const std
       numbers.push_back(std::move(list));
     }
   problem.set_members(rows_, std::move(names), std::move(numbers));
+  set_along(problem, road, at);
 }
 
 }  // namespace slalom::planner

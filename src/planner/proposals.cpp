@@ -23,7 +23,7 @@ constexpr double kRegrow = 0.08, kRegrowEdge = 0.03;
 constexpr int kRounds = 5;
 /// A way found while another leads to the goal is looked at if it is sooner by this [s].
 constexpr double kSooner = 0.3;
-/// What ways keep off beyond the clearance needed at first [m].
+/// What ways keep off beyond the clearance needed at first [m], and as much as that at the most.
 constexpr double kWayClearance = 0.65;
 /// Shorter motions are not solved [s].
 constexpr double kShortest = 0.4;
@@ -118,7 +118,7 @@ void Proposals::follow_ways() {
   auto obstacles = question_.obstacles;
   for (auto& o : obstacles) o = o.grown(question_.need.clearance);
   world::WaySearch search;
-  search.clearance = kWayClearance;
+  search.clearance = std::min(kWayClearance, question_.need.clearance);
   search.max_places = question_.places;
   int number = 0;
   ways_.find_ways(

@@ -162,8 +162,8 @@ class ClosedLoop {
 
   /// The goal's square is looked at now; any other goal is reached at any moment.
   bool arrived() const {
-    return scenario_.goal.kind() == world::GoalKind::square ? scenario_.arrived(state_, t_)
-                                                            : watch_.goal_time().has_value();
+    return scenario_.arrived(state_, t_) ||
+           (scenario_.goal.kind() != world::GoalKind::square && watch_.goal_time());
   }
 
   End arrival() const {
