@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "acceleration_limits.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::vehicle {
@@ -22,8 +24,13 @@ void add_body(OptionTable<Parameters>& table) {
             kTable)
       .real("lb", &P::lb, Range::positive(), "m", "Distance from the c.g. to the rear axle.",
             kTable)
-      .real("width", &P::width, Range::positive(), "m", "Width as drawn; no equation uses it.")
-      .real("length", &P::length, Range::positive(), "m", "Length as drawn; no equation uses it.")
+      .real("width", &P::width, Range::positive(), "m", "Width of the body.")
+      .real("length", &P::length, Range::positive(), "m", "Length of the body.")
+      .real("front_overhang", &P::front_overhang, Range::any(), "m",
+            "From the front axle to the front of the body.")
+      .choice("footprint", &P::footprint, {"point", "rectangle"},
+              "What keeps off obstacles and stays on the road: the front axle's centre, so that "
+              "margins have to make up for the body as in the paper, or the body's rectangle.")
       .real(
           "h", &P::h, Range::positive(), "m",
           "Height of the c.g. No equation uses it; KZX, KZYR and KZYF follow from it where a file "
@@ -53,6 +60,9 @@ void add_tyre(OptionTable<Parameters>& table) {
   using P = Parameters;
   const auto any = Range::any();
   table
+      .choice("tyre", &P::tyre, {"pure_slip", "combined_slip"},
+              "combined_slip: the longitudinal force of an axle takes from its lateral one "
+              "(docs/vehicles.md); the paper's tyre is pure_slip.")
       .real("FZ0", &P::FZ0, Range::positive(), "N", "Nominal load of the tyre formula, per axle.",
             kSection)
       .real("PCY1", &P::PCY1, Range::positive(), "1", "Shape factor C.", kSection)
@@ -86,6 +96,20 @@ void add_tyre(OptionTable<Parameters>& table) {
                kSection);
 }
 
+void add_longitudinal(OptionTable<Parameters>& table) {
+  using P = Parameters;
+  const auto share = Range::closed(0, 1);
+  table
+      .real("PDX1", &P::PDX1, Range::positive(), "1",
+            "Longitudinal friction, used by combined_slip and friction_share. Where a file states "
+            "PDY1 and not this, it is PDY1.")
+      .real("drive_front", &P::drive_front, share, "1",
+            "Share of the driving force that the front axle has; of combined_slip and "
+            "friction_share.")
+      .real("brake_front", &P::brake_front, share, "1",
+            "Share of the braking force that the front axle has; likewise.");
+}
+
 void add_limits(OptionTable<Parameters>& table) {
   using P = Parameters;
   table
@@ -104,7 +128,12 @@ void add_limits(OptionTable<Parameters>& table) {
       .vector("ax_max", &P::ax_max, Range::any(), "m/s^2 over m/s",
               "Greatest longitudinal acceleration as a cubic in ux, highest power first.", kSection)
       .vector("ax_min", &P::ax_min, Range::any(), "m/s^2 over m/s",
-              "Least longitudinal acceleration as a cubic in ux, highest power first.", kSection);
+              "Least longitudinal acceleration as a cubic in ux, highest power first.", kSection)
+      .real("power", &P::power, Range::non_negative(), "W",
+            "Power of the drive: ax is also below power/(m ux), smoothly. 0 limits nothing.")
+      .real("friction_share", &P::friction_share, Range::closed(0, 1), "1",
+            "Share of its friction PDX1 Fz that driving and braking may take of an axle: ax is "
+            "also within what that allows, smoothly. 0 limits nothing.");
 }
 
 }  // namespace
@@ -118,11 +147,15 @@ double Parameters::sr_max() const {
 }
 
 double Parameters::ax_max_at(double speed) const {
-  return ((ax_max[0] * speed + ax_max[1]) * speed + ax_max[2]) * speed + ax_max[3];
+  return acceleration::most(*this, speed);
 }
 
 double Parameters::ax_min_at(double speed) const {
-  return ((ax_min[0] * speed + ax_min[1]) * speed + ax_min[2]) * speed + ax_min[3];
+  return acceleration::least(*this, speed);
+}
+
+double Parameters::cornering_stiffness(double Fz) const {
+  return -PKY1 * FZ0 * std::sin(2 * std::atan(Fz / (PKY2 * FZ0)));
 }
 
 const OptionTable<Parameters>& parameter_options() {
@@ -130,6 +163,7 @@ const OptionTable<Parameters>& parameter_options() {
     OptionTable<Parameters> options;
     add_body(options);
     add_tyre(options);
+    add_longitudinal(options);
     add_limits(options);
     return options;
   }();
