@@ -48,6 +48,15 @@ class Simulate(ProgramTest):
         self.assertAlmostEqual(summary["least_clearance_m"],
                                min(float(row["clearance"]) for row in plant), delta=0.02)
         self.assertIn("<html", (out / "report.html").read_text())
+
+    def test_every_vehicle_arrives_by_either_planner(self):
+        for vehicle in ("ford_escort", "bmw_320i", "vw_vanagon"):
+            for planner in ("P_D", "P_E"):
+                result = run("simulate", "E_B", "--vehicle", vehicle, "--planner", planner, "--expect", "goal")
+                self.assertEqual((result.code, result.err), (0, ""), f"{vehicle} {planner}")
+        result = run("simulate", "E_B", "--vehicle", "tank")
+        self.assertEqual(result.code, 2)
+        self.assertIn("--vehicle: found vehicle 'tank'", result.err)
         for figure in (out / "figures").glob("*.svg"):
             xml.etree.ElementTree.parse(figure)
 
