@@ -117,7 +117,7 @@ void Proposals::look() {
 void Proposals::follow_ways() {
   auto obstacles = question_.obstacles;
   for (auto& o : obstacles) o = o.grown(question_.need.clearance);
-  world::WaySearch search;
+  auto search = world::way_search(task_.vehicle);
   search.clearance = std::min(kWayClearance, question_.need.clearance);
   search.max_places = question_.places;
   int number = 0;
