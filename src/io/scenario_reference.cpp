@@ -68,9 +68,12 @@ std::string table(const OptionTable<S>& options) {
 std::string section_rows(const ScenarioSection& section) {
   sim::Scenario defaults;
   const auto& needed = section.required;
+  std::string required = "required";
+  if (!section.instead.empty())
+    required += fmt::format(", or `{}`", fmt::join(section.instead, "`, `"));
   return rows(section.bind(defaults), [&](const Field& field) {
     return std::find(needed.begin(), needed.end(), field.info.name) != needed.end()
-               ? "required"
+               ? required
                : default_text(field.load());
   });
 }
@@ -135,7 +138,9 @@ std::string scenario_reference() {
   sim::Scenario defaults;
   std::string text = kIntroduction;
   for (const auto& section : scenario_sections()) {
-    text += fmt::format("\n## `{}`\n\n{}\n\n{}", section.name, section.about, kHead);
+    text += fmt::format("\n## `{}`\n\n{}\n", section.name, section.about);
+    if (section.form == ScenarioSection::Form::road) continue;
+    text += fmt::format("\n{}", kHead);
     text += section.bind == nullptr ? obstacle_rows()
                                     : section_rows(section) + degrees_note(section.bind(defaults));
   }

@@ -55,7 +55,7 @@ void passes_between(const Scenario& s, std::vector<std::string>& found) {
 }
 
 void goal_behind(const Scenario& s, std::vector<std::string>& found) {
-  if (verifies(s) || s.goal.contains(s.start[X], s.start[Y])) return;
+  if (verifies(s) || s.arrived(s.start, 0)) return;
   const double bearing = std::atan2(s.goal.y - s.start[Y], s.goal.x - s.start[X]) - s.start[PSI];
   const double off = std::fabs(std::remainder(bearing, 2 * std::numbers::pi));
   if (off <= std::numbers::pi / 2) return;
@@ -95,6 +95,7 @@ void narrow_gaps(const Scenario& s, std::vector<std::string>& found) {
 }
 
 void no_way(const Scenario& s, std::vector<std::string>& found) {
+  if (s.road || s.goal.kind() != world::GoalKind::square) return;  // not what it searches
   world::PathSearch search;
   search.clearance = verifies(s) ? s.planner.verified_clearance : s.planner.sm_start;
   search.v_max = std::min(search.v_max, s.vehicle.ux_max);

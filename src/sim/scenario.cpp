@@ -8,6 +8,7 @@
 #include "slalom/base/error.hpp"
 #include "slalom/sim/latency.hpp"
 #include "slalom/vehicle/model.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::sim {
 namespace {
@@ -38,7 +39,7 @@ void check_parts(const Scenario& s, const std::string& where) {
   check_options("plant", plant_options(), s.plant);
   check_options("sensing", sensing_options(), s.sensing);
   check_options("start", vehicle::state_options(), s.start);
-  check_options("goal", world::goal_options(), s.goal);
+  check_within("goal", [&] { world::check(s.goal, s.road.get(), where + ": goal"); });
   check_within("region", [&] { check_region(s.region, where + ": region"); });
   for (const auto& obstacle : s.obstacles)
     check_within("obstacles." + obstacle.name, [&] {
@@ -107,8 +108,34 @@ void check_start_clear(const Scenario& s, const std::string& where) {
   }
 }
 
+/// The road is wide enough for the vehicle, and start and goal are on it.
+void check_road(const Scenario& s, const std::string& where) {
+  if (!s.road) return;
+  const world::Footprint footprint(s.vehicle);
+  const double needed = footprint.is_point() ? 0 : s.vehicle.width;
+  if (s.road->narrowest() <= needed)
+    throw InvalidValue(where + ": road", fmt::format("a width of {:.6g} m", s.road->narrowest()),
+                       fmt::format("more than the vehicle's width of {:.6g} m", needed),
+                       {"road", "vehicle.width"});
+  if (const double off = -footprint.edge_distance(*s.road, s.start); off > 0)
+    throw InvalidValue(
+        where + ": start",
+        fmt::format("({:.6g}, {:.6g}), {}{:.6g} m off the road", s.start[vehicle::X],
+                    s.start[vehicle::Y], footprint.is_point() ? "" : "its footprint ", off),
+        "a start on the road", {"start", "road"});
+  if (s.goal.is_place() && s.road->edge_distance(world::Point{s.goal.x, s.goal.y}) < 0)
+    throw InvalidValue(where + ": goal",
+                       fmt::format("({:.6g}, {:.6g}), {:.6g} m off the road", s.goal.x, s.goal.y,
+                                   -s.road->edge_distance(world::Point{s.goal.x, s.goal.y})),
+                       "a goal on the road", {"goal", "road"});
+  if (s.goal.kind() == world::GoalKind::laps)
+    throw InvalidValue(where + ": goal", fmt::format("laps = {:.6g}", s.goal.laps),
+                       "another goal: laps are not driven yet", {"goal.laps"});
+}
+
 /// A plan ends at the goal, within the region and off every obstacle that stands.
 void check_goal(const Scenario& s, const std::string& where) {
+  if (!s.goal.is_place()) return;
   if (!s.region.contains(s.goal.x, s.goal.y))
     throw InvalidValue(where + ": goal", fmt::format("({:.6g}, {:.6g})", s.goal.x, s.goal.y),
                        "a goal within the region", {"goal", "region"});
@@ -145,6 +172,7 @@ void check(const Scenario& scenario, const std::string& where) {
                        {"start.ax", "planner.model"});
   check_start_clear(scenario, where);
   check_goal(scenario, where);
+  check_road(scenario, where);
 }
 
 }  // namespace slalom::sim

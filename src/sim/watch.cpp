@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "off_road.hpp"
+
 namespace slalom::sim {
 namespace {
 
@@ -73,10 +75,6 @@ double clearance_of(const world::Obstacle& grown, double t, const State& state) 
   return world::distance(grown, state[vehicle::X], state[vehicle::Y], t);
 }
 
-double outside(const world::Goal& goal, const State& state) {
-  return goal.outside(state[vehicle::X], state[vehicle::Y]);
-}
-
 /// Loads change by less than this [N/s], five times what full steering and braking give.
 constexpr double kLoadRate = 1e5;
 
@@ -118,7 +116,11 @@ Stretch Stretch::driven(const vehicle::Plant& plant, const vehicle::ControlSigna
 }
 
 Watch::Watch(const Criteria& criteria, const vehicle::Dynamics& dynamics)
-    : dynamics_(dynamics), goal_(criteria.goal), Fz_failure_(criteria.Fz_failure) {
+    : dynamics_(dynamics),
+      goal_(criteria.goal),
+      Fz_failure_(criteria.Fz_failure),
+      footprint_(criteria.footprint),
+      road_(criteria.road) {
   for (const auto& obstacle : criteria.obstacles)
     obstacles_.push_back(obstacle.grown(criteria.margin));
 }
@@ -134,12 +136,17 @@ void Watch::begin(double t, const State& state) {
   note_clearance(instant);
   note_wheel_loads(instant);
   note_goal(instant);
+  note_edge(state);
 }
 
 std::optional<Event> Watch::pass(const Stretch& stretch) {
   std::optional<Event> event = first_crash(stretch);
   const std::optional<Event> lift = first_wheel_lift(stretch);
   if (lift && (!event || lift->t < event->t)) event = lift;
+  if (road_)
+    if (const auto off = first_off_road(*road_, footprint_, dynamics_, stretch);
+        off && (!event || stretch.t0 + *off < event->t))
+      event = Event{Outcome::off_road, stretch.t0 + *off, ""};
 
   Stretch seen = stretch;
   if (event) {
@@ -149,6 +156,7 @@ std::optional<Event> Watch::pass(const Stretch& stretch) {
   note_clearance(seen);
   note_wheel_loads(seen);
   note_goal(seen);
+  note_edge(seen.state1);
   return event;
 }
 
@@ -206,10 +214,18 @@ void Watch::note_wheel_loads(const Stretch& s) {
 
 void Watch::note_goal(const Stretch& s) {
   if (goal_time_) return;
+  const auto outside = [&](double t, const State& state) {
+    return goal_.outside(state, t, road_.get());
+  };
   const auto entry =
-      first_entry([&](double t) { return outside(goal_, s.at(s.t0 + t)); }, s.t1 - s.t0,
-                  outside(goal_, s.state0), outside(goal_, s.state1), speed_bound(dynamics_, s));
+      first_entry([&](double t) { return outside(s.t0 + t, s.at(s.t0 + t)); }, s.t1 - s.t0,
+                  outside(s.t0, s.state0), outside(s.t1, s.state1), speed_bound(dynamics_, s));
   if (entry) goal_time_ = s.t0 + *entry;
+}
+
+void Watch::note_edge(const State& state) {
+  if (road_)
+    least_edge_distance_ = std::min(least_edge_distance_, footprint_.edge_distance(*road_, state));
 }
 
 }  // namespace slalom::sim

@@ -2,14 +2,17 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "slalom/sim/drive.hpp"
 #include "slalom/vehicle/plant.hpp"
+#include "slalom/world/footprint.hpp"
 #include "slalom/world/goal.hpp"
 #include "slalom/world/obstacle.hpp"
+#include "slalom/world/road.hpp"
 
 namespace slalom::sim {
 
@@ -31,11 +34,13 @@ struct Criteria {
   double margin = 0;  ///< by which they grow [m]
   world::Goal goal;
   double Fz_failure = 0;  ///< a wheel that bears less lifts [N]
+  world::Footprint footprint{vehicle::Parameters{}};
+  std::shared_ptr<const world::Road> road = {};  ///< to stay on
 };
 
 /// What ends a drive while the plant moves.
 struct Event {
-  Outcome outcome = Outcome::crash;  ///< crash or wheel_lift
+  Outcome outcome = Outcome::crash;  ///< crash, wheel_lift or off_road
   double t = 0;                      ///< located in time to 1e-9 s [s]
   std::string what;                  ///< name of the obstacle or wheel
 };
@@ -66,6 +71,8 @@ class Watch {
   double least_clearance_t() const { return least_clearance_t_; }  ///< [s]
   const std::string& least_clearance_obstacle() const { return least_clearance_obstacle_; }
   double least_wheel_load() const { return least_wheel_load_; }  ///< [N]
+  /// Of the footprint from the road's edge at the ends of stretches [m]; infinity without a road.
+  double least_edge_distance() const { return least_edge_distance_; }
 
  private:
   std::optional<Event> first_crash(const Stretch& stretch) const;
@@ -73,11 +80,15 @@ class Watch {
   void note_clearance(const Stretch& stretch);
   void note_wheel_loads(const Stretch& stretch);
   void note_goal(const Stretch& stretch);
+  void note_edge(const vehicle::State& state);
 
   const vehicle::Dynamics& dynamics_;
   std::vector<world::Obstacle> obstacles_;  ///< grown by the margin
   world::Goal goal_;
   double Fz_failure_;
+  world::Footprint footprint_;
+  std::shared_ptr<const world::Road> road_;
+  double least_edge_distance_ = std::numeric_limits<double>::infinity();
   std::optional<double> goal_time_;
   double least_clearance_ = std::numeric_limits<double>::infinity();
   double least_clearance_t_ = 0;

@@ -5,6 +5,7 @@
 #include "slalom/vehicle/parameters.hpp"
 #include "slalom/vehicle/state.hpp"
 #include "slalom/world/obstacle.hpp"
+#include "slalom/world/road.hpp"
 
 namespace slalom::world {
 
@@ -35,6 +36,9 @@ class Footprint {
   /// Distance between the footprint of a vehicle in this state and the obstacle at t [s]; negative
   /// where they overlap.
   double distance(const Obstacle& obstacle, const vehicle::State& state, double t) const;
+  /// How far all of the footprint is from the road's nearer edge; negative where a part of it is
+  /// off the road (Road::edge_distance).
+  double edge_distance(const Road& road, const vehicle::State& state) const;
 
  private:
   std::vector<Point> corners_;
