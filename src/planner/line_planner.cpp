@@ -7,7 +7,6 @@
 
 #include "slalom/base/timer.hpp"
 #include "slalom/nlp/check.hpp"
-#include "slalom/ocp/mesh.hpp"
 #include "slalom/ocp/scheme.hpp"
 
 namespace slalom::planner {
@@ -19,6 +18,9 @@ using namespace vehicle;
 constexpr double kLateralShare = 0.9, kBrakingShare = 0.8, kCalm = 0.6;
 /// The slowest at which plans end [m/s]: where the road does, they end creeping.
 constexpr double kCreep = 0.6;
+/// Price of going beyond a limit (LineSettings::w_excess), some times what limits are worth [s/m]: a
+/// vehicle at its limits finds itself a little beyond them when it plans anew.
+constexpr double kExcess = 1;
 /// Between the points of a guess [m].
 constexpr double kStep = 2;
 /// A guess accelerates so [m/s^2].
@@ -43,7 +45,7 @@ LinePlanner::LinePlanner(const Task& task)
       profile_(*task_.road, task_.vehicle, kLateralShare, kBrakingShare),
       calm_(*task_.road, task_.vehicle, kCalm, kCalm),
       line_(*task_.road, task_.vehicle, settings_.L_range,
-            {.margin = settings_.road_margin, .w_t = settings_.w_t}),
+            {.margin = settings_.road_margin, .w_t = settings_.w_t, .w_excess = kExcess}),
       solver_(nlp::make_solver(to_string(settings_.solver))) {
   check(settings_, "planner " + settings_.name);
   auto& problem = line_.problem();

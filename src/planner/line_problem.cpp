@@ -113,17 +113,21 @@ void LineProblem::add_motion() {
                         (square(U_[SR] / p.sr_max()) + square(U_[JX] / p.jx_max)) / s_dot_);
 }
 
+/// A row that is at least 0 after the beginning, where the vehicle is as it is.
+void LineProblem::add_limit(const std::string& name, const Expr& room) {
+  const auto row = problem_.path(name, room, Bounds::at_least(0), ocp::Points::after_first);
+  if (settings_.w_excess > 0)
+    problem_.soften(row, {ocp::Norm::l1, settings_.w_t * settings_.w_excess, 0});
+}
+
 void LineProblem::add_limits() {
   const Model model = make_model(vehicle_);
   const auto limits = in_terms_of(std::array{model.ax_min, model.ax_max}, model, X_, U_);
-  problem_.path("ax above ax_min", X_[AX] - limits[0], Bounds::at_least(0),
-                ocp::Points::after_first);
-  problem_.path("ax below ax_max", limits[1] - X_[AX], Bounds::at_least(0),
-                ocp::Points::after_first);
+  add_limit("ax above ax_min", X_[AX] - limits[0]);
+  add_limit("ax below ax_max", limits[1] - X_[AX]);
   const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
   for (std::size_t w = 0; w < kWheels; ++w)
-    problem_.path(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle_.Fz_min),
-                  Bounds::at_least(0), ocp::Points::after_first);
+    add_limit(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle_.Fz_min));
 }
 
 void LineProblem::add_edges() {
@@ -140,8 +144,7 @@ void LineProblem::add_edges() {
     const bool left = aside > 0;
     const Expr width = (left ? left_ : right_)[0] + (left ? left_ : right_)[1] * along;
     const Expr room = left ? width - offset : width + offset;
-    problem_.path(std::string("edge at ") + names[k], room, Bounds::at_least(0),
-                  ocp::Points::after_first);
+    add_limit(std::string("edge at ") + names[k], room);
   }
 }
 
