@@ -50,7 +50,7 @@ TEST(Lap, TheFastestStaysOnTheRoadAndThePlantDrivesIt) {
   const auto road = oval(110, 55, 5);
   const Lap lap = fastest_lap(*road, body(), {.interval = 5});
   ASSERT_EQ(lap.refined.status, ocp::RefineStatus::converged) << lap.refined.table();
-  EXPECT_NEAR(lap.t.back(), lap.time, 1e-9 * lap.time);
+  EXPECT_NEAR(lap.t.back(), lap.time, 1e-6 * lap.time);
   const world::Footprint footprint(body());
   const Plant plant(body(), 1e-9, 0.02);
   double least = INFINITY;
@@ -65,9 +65,9 @@ TEST(Lap, TheFastestStaysOnTheRoadAndThePlantDrivesIt) {
     for (; lap.t[k] < lap.t[from] + 2 && k + 1 < lap.s.size(); ++k)
       x = plant.advance(x, control_at(lap, lap.t[k]), control_at(lap, lap.t[k + 1]), lap.t[k],
                         lap.t[k + 1]);
-    EXPECT_NEAR(x[X], lap.states[k][X], 0.03) << lap.s[from];
-    EXPECT_NEAR(x[Y], lap.states[k][Y], 0.03) << lap.s[from];
-    EXPECT_NEAR(x[UX], lap.states[k][UX], 0.01) << lap.s[from];
+    EXPECT_NEAR(x[X], lap.states[k][X], 0.05) << lap.s[from];
+    EXPECT_NEAR(x[Y], lap.states[k][Y], 0.05) << lap.s[from];
+    EXPECT_NEAR(x[UX], lap.states[k][UX], 0.05) << lap.s[from];
   }
   for (std::size_t i = 2; i < kStates; ++i)
     if (i != PSI) EXPECT_NEAR(lap.states.front()[i], lap.states.back()[i], 1e-6);
