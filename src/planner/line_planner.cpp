@@ -15,12 +15,18 @@ namespace {
 using namespace vehicle;
 
 /// Shares of lateral acceleration and braking that plans end by, and that guesses go by.
-constexpr double kLateralShare = 0.9, kBrakingShare = 0.8, kCalm = 0.6;
+constexpr double kLateralShare = 0.85, kBrakingShare = 0.7, kCalm = 0.6;
 /// The slowest at which plans end [m/s]: where the road does, they end creeping.
 constexpr double kCreep = 0.6;
 /// Price of going beyond a limit (LineSettings::w_excess), some times what limits are worth [s/m]: a
 /// vehicle at its limits finds itself a little beyond them when it plans anew.
 constexpr double kExcess = 1;
+/// And of being faster at the end than the profile, for each metre a second [s/(m/s)].
+constexpr double kEndSpeed = 1;
+/// The direction in which plans end, relative to the road's, at the most [rad].
+constexpr double kEndCourse = 0.1;
+/// What is not solved is tried again farther from all limits, at so many times the barrier floor.
+constexpr double kCalmFloor = 20;
 /// Between the points of a guess [m].
 constexpr double kStep = 2;
 /// A guess accelerates so [m/s^2].
@@ -56,9 +62,17 @@ LinePlanner::LinePlanner(const Task& task)
                      ocp::Bounds::equal(0));
   }
   end_speed_ = problem.parameter("end_speed", task_.vehicle.ux_max);
-  problem.boundary("speed at the end",
+  const auto end = problem.boundary("speed at the end",
                    end_speed_ - problem.final(states[LineProblem::FIRST_OF_VEHICLE + 3]),
                    ocp::Bounds::at_least(0));
+  problem.soften(end, {ocp::Norm::l1, settings_.w_t * kEndSpeed, 0});
+  // And it goes along the road there, about.
+  const auto at_end = [&](std::size_t i) { return problem.final(states[i]); };
+  constexpr std::size_t first = LineProblem::FIRST_OF_VEHICLE;
+  problem.boundary("course at the end",
+                   at_end(LineProblem::XI) +
+                       (at_end(first) + task_.vehicle.la * at_end(first + 1)) / at_end(first + 3),
+                   {-kEndCourse, kEndCourse});
   transcription_.emplace(problem, growing_mesh(settings_.N), ocp::hermite_simpson());
 }
 
@@ -136,21 +150,29 @@ Plan LinePlanner::plan(const Request& request) {
     last_->start -= task_.road->length();
   const bool warm = last_.has_value() && start >= last_->start - kStep &&
                     start < last_->start + line_.length() / 2;
-  start_.x = transcription_->point(warm ? shifted(start, x0) : guess(start, x0));
+  Plan plan;
+  if (warm) plan = attempt(request, timer, {start, shifted(start, x0), !start_.y.empty(), 1});
+  for (const double calm : {1., kCalmFloor})
+    if (!plan.report.solved) plan = attempt(request, timer, {start, guess(start, x0), false, calm});
+  plan.report.planning_cpu_s = timer.cpu();
+  return plan;
+}
+
+/// Solves once.
+Plan LinePlanner::attempt(const Request& request, const Timer& timer, const Attempt& attempt) {
+  start_.x = transcription_->point(attempt.guess);
   nlp::Options options;
-  options.floor = settings_.floor;
+  options.floor = settings_.floor * attempt.floor_times;
   options.tol = settings_.tol;
   options.max_iterations = settings_.max_iterations;
-  options.warm_start = warm && !start_.y.empty();
+  options.warm_start = attempt.multipliers;
   options.time_limit = std::max(0., request.time_limit - timer.cpu());
   if (request.interrupted) {
     options.stop = [](void* data) { return (*static_cast<const std::function<bool()>*>(data))(); };
     options.stop_data = const_cast<std::function<bool()>*>(&request.interrupted);
   }
   solver_->solve(*transcription_, start_, options, answer_);
-  Plan plan = read(request, start, options);
-  plan.report.planning_cpu_s = timer.cpu();
-  return plan;
+  return read(request, attempt.start, options);
 }
 
 Plan LinePlanner::read(const Request& request, double start, const nlp::Options& options) {

@@ -5,6 +5,7 @@
 
 #include "line_problem.hpp"
 #include "planning_method.hpp"
+#include "slalom/base/timer.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/transcription.hpp"
 
@@ -27,9 +28,19 @@ class LinePlanner final : public PlanningMethod {
     ocp::Trajectory trajectory;  ///< along it
   };
 
+  /// One solve of a cycle: from which guess, with the last plan's multipliers or without, and at how
+  /// many times the barrier floor.
+  struct Attempt {
+    double start;
+    ocp::Trajectory guess;
+    bool multipliers;
+    double floor_times;
+  };
+
   void update(double start, const LineProblem::LineState& x0);
   ocp::Trajectory guess(double start, const LineProblem::LineState& x0) const;
   ocp::Trajectory shifted(double start, const LineProblem::LineState& x0) const;
+  Plan attempt(const Request& request, const Timer& timer, const Attempt& attempt);
   Plan read(const Request& request, double start, const nlp::Options& options);
 
   const Task task_;

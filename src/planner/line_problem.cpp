@@ -123,8 +123,10 @@ void LineProblem::add_limit(const std::string& name, const Expr& room) {
 void LineProblem::add_limits() {
   const Model model = make_model(vehicle_);
   const auto limits = in_terms_of(std::array{model.ax_min, model.ax_max}, model, X_, U_);
-  add_limit("ax above ax_min", X_[AX] - limits[0]);
-  add_limit("ax below ax_max", limits[1] - X_[AX]);
+  problem_.path("ax above ax_min", X_[AX] - limits[0], Bounds::at_least(0),
+                ocp::Points::after_first);
+  problem_.path("ax below ax_max", limits[1] - X_[AX], Bounds::at_least(0),
+                ocp::Points::after_first);
   const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
   for (std::size_t w = 0; w < kWheels; ++w)
     add_limit(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle_.Fz_min));
@@ -212,8 +214,12 @@ SpeedProfile::SpeedProfile(const world::Road& road, const Parameters& vehicle,
     speed_.push_back(std::min(vehicle.ux_max, std::sqrt(lateral / std::max(kappa, 1e-9))));
   }
   if (!closed_) speed_.back() = 0;
+  // What the turn takes of the tyres, braking lacks: a friction ellipse.
   const auto slow_down = [&](std::size_t k, std::size_t next) {
-    const double braking = -braking_share * vehicle.ax_min_at(speed_[next]);
+    const double kappa = road.at(step_ * static_cast<double>(k)).curvature;
+    const double turning = std::min(1., speed_[next] * speed_[next] * std::fabs(kappa) / lateral);
+    const double braking = -braking_share * vehicle.ax_min_at(speed_[next]) *
+                           std::sqrt(1 - turning * turning);
     speed_[k] = std::min(speed_[k], std::sqrt(speed_[next] * speed_[next] + 2 * braking * step_));
   };
   for (int pass = 0; pass < (closed_ ? 2 : 1); ++pass) {

@@ -15,7 +15,7 @@ namespace slalom::planner {
 struct LineSettings {
   double margin = 0;        ///< that the body keeps from the road's edges [m]
   double w_t = 1;           ///< of all of it [1/s]
-  double w_control = 1e-3;  ///< cost of a control at its limit [s/s]
+  double w_control = 0.01;  ///< cost of a control at its limit [s/s]
   /// Of going beyond limits of acceleration [m/s^2], wheel load [kN] and edge [m], in each metre of
   /// the road, times w_t [s/m]; 0: they are hard.
   double w_excess = 0;

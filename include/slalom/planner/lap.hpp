@@ -16,7 +16,7 @@ struct LapSettings {
   double margin = 0;    ///< that the body keeps from the road's edges [m]
   /// Cost of a control at its limit [s/s]: small beside the time, and enough to make the answer
   /// unique where time alone leaves the controls open.
-  double w_control = 1e-3;
+  double w_control = 0.01;
   double tolerance = 1e-5;  ///< of the refinement
   int max_meshes = 4;
   std::function<bool()> interrupted = {};  ///< polled at every iteration
