@@ -38,6 +38,10 @@ class Loader {
     read_names();
     for (const auto& section : scenario_sections()) read_section(section);
     apply_command_line();
+    // The default margin makes up for the body that a point has not.
+    if (scenario_.vehicle.footprint != vehicle::FootprintKind::point &&
+        places_.count("loop.sm_crash") == 0)
+      scenario_.loop.sm_crash = 0;
     scenario_.goal = world::placed(scenario_.goal, scenario_.road.get());
     check_scenario(scenario_, {file_.string(), 1, 1}, places_);
     return std::move(scenario_);
@@ -258,6 +262,13 @@ sim::Scenario parse_scenario(const std::string& text, const std::string& source)
 sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& request) {
   const auto& source = request.name_or_file;
   return Loader(request, source, parse_text(text, source, "a scenario")).load();
+}
+
+world::Obstacle parse_obstacle(const std::string& text, const std::string& source) {
+  auto obstacles = read_obstacles(parse_argument(text, source), 1);
+  if (obstacles.size() != 1)
+    throw InvalidValue(source, fmt::format("repeat = {}", obstacles.size()), "one obstacle");
+  return std::move(obstacles[0]);
 }
 
 }  // namespace slalom::io

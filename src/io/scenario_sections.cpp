@@ -82,7 +82,11 @@ const std::vector<ScenarioSection>& scenario_sections() {
            "[x, y]."},
       {.name = "obstacles",
        .form = Form::list,
-       .about = "A list; each obstacle is a circle or an ellipse along the axes."},
+       .about =
+           "A list. Each obstacle has one place: `x` and `y`, a `table`, or a `path`; and one "
+           "size: "
+           "`r`, `a` and `b`, `length` and `width`, or a `polygon`. [obstacles.md](obstacles.md) "
+           "shows each."},
       {.name = "loop",
        .about = "The closed loop.",
        .bind = [](Scenario& s) { return section("loop", sim::loop_options(), s.loop); }},

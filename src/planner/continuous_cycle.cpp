@@ -9,7 +9,13 @@ namespace slalom::planner {
 
 ContinuousCycle continuous_cycle(const Task& task, const Request& request) {
   const bool in_range = goal_in_range(task, request.X0p);
-  TrajectoryProblem stated(task, in_range);
+  Settings straight = task.planner;
+  straight.prediction = Prediction::constant_velocity;
+  const world::Footprint footprint(task.vehicle);
+  const auto pairs =
+      pairs_of(covered(task.planner, footprint, believed(straight, task.obstacles, request.t0)),
+               footprint.covering_discs(task.planner.cover_excess));
+  TrajectoryProblem stated(task, pairs, in_range);
   stated.update(request);
   ocp::Trajectory straight_on = Guess(task)(request, in_range, nullptr);
   stated.map().to_planner(straight_on);

@@ -64,6 +64,18 @@ void add_what_tells_planners_apart(Table& table) {
       .real("w_obstacle", &S::w_obstacle, Range::positive(), "1/s",
             "Weight of going into obstacles, where they are soft.")
       .choice(
+          "prediction", &S::prediction, {"known", "constant_velocity", "constant_turn"},
+          "How obstacles with a table or a path are believed to move, each time a plan is made. "
+          "known: as they will; constant_velocity: straight on at the velocity that they have "
+          "then; constant_turn: on at their speed and turn rate. By the last two, one that is "
+          "not there yet is not known of. Obstacles without either go straight on anyway.")
+      .real(
+          "cover_excess", &S::cover_excess, Range::positive(), "m",
+          "By how much the discs that stand in for a box, a polygon, a turned ellipse or the "
+          "vehicle's body may stick out of it in the OCP and the search, where the body's width "
+          "allows with 16 discs: half as much takes 1.4 times as many rows. What judges plans and "
+          "drives has the exact shapes.")
+      .choice(
           "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
           "Rows of obstacles hold at nodes alone, as in the paper. A plan that between them goes "
           "deeper than passage_depth into the margin of an obstacle, by the smaller of sm_start "
@@ -200,6 +212,10 @@ void add_verification(Table& table) {
       .real("kept_clearance", &S::kept_clearance, Range::non_negative(), "m",
             "Least distance of the rest of a plan where state or obstacles are not those it was "
             "verified for; a new plan keeps this and the greatest error of the last 5 s.")
+      .real(
+          "edge_clearance", &S::edge_clearance, Range::non_negative(), "m",
+          "Least distance of the footprint from the road's edges, where there is a road; the rest "
+          "of a plan keeps on the road.")
       .real("kept_wheel_load", &S::kept_wheel_load, Range::any(), "N",
             "Least wheel load of such a rest.")
       .real("standing_horizon", &S::standing_horizon, Range::positive(), "s",

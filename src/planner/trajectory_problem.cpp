@@ -26,10 +26,23 @@ const ocp::Scheme& scheme_of(const Settings& settings) {
   }
 }
 
-TrajectoryProblem::TrajectoryProblem(const Task& task, bool goal_in_range)
+std::vector<double> obstacle_times(const Settings& settings, const Request& request,
+                                   const ocp::Transcription& transcription,
+                                   std::span<const double> x) {
+  if (!settings.moving_avoidance) return {request.t0};
+  const auto trajectory = transcription.trajectory(x);
+  std::vector<double> times;
+  for (std::size_t k = 0; k < trajectory.tau.size(); ++k)
+    times.push_back(request.t_start + trajectory.time(k));
+  return times;
+}
+
+TrajectoryProblem::TrajectoryProblem(const Task& task, const std::vector<Pair>& pairs,
+                                     bool goal_in_range)
     : settings_(task.planner),
       vehicle_(task.vehicle),
       goal_(task.goal),
+      footprint_(task.vehicle),
       goal_in_range_(goal_in_range),
       map_(task.vehicle, task.planner.model),
       problem_("trajectory") {
@@ -40,7 +53,7 @@ TrajectoryProblem::TrajectoryProblem(const Task& task, bool goal_in_range)
   add_initial_state(model);
   add_vehicle_limits(model);
   add_obstacles();
-  set_obstacles(task.obstacles);
+  set_obstacles(pairs, {0});
   add_lidar_region();
   add_goal();
 }
@@ -162,19 +175,44 @@ void TrajectoryProblem::add_obstacles() {
   const Expr t = settings_.moving_avoidance ? t_start_ + problem_.time() : t_planning_;
   const Expr x = xo + vx * t, y = yo + vy * t;
   const Expr sm = settings_.sm_start + (settings_.sm_end - settings_.sm_start) * problem_.tau();
-  const Expr outside = square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
-  obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
-                                        Bounds::at_least(0), Points::after_first);
+  std::vector<Expr> symbols = {xo, yo, a, b, vx, vy};
+  Expr X_at = X_[X], Y_at = X_[Y];
+  if (!footprint_.is_point()) {  // the centre of one of the vehicle's discs
+    const Expr ahead = Expr::symbol("ahead");
+    symbols.push_back(ahead);
+    X_at += ahead * cos(X_[PSI]);
+    Y_at += ahead * sin(X_[PSI]);
+  }
+  const Expr outside = square((X_at - x) / (a + sm)) + square((Y_at - y) / (b + sm));
+  obstacle_rows_ = problem_.path_family("obstacle", symbols, outside - 1, Bounds::at_least(0),
+                                        Points::after_first);
   if (settings_.obstacle_constraint == ObstacleConstraint::soft)
     problem_.soften(obstacle_rows_, {ocp::Norm::l1, settings_.w_obstacle, 0});
 }
 
-void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstacles) {
+void TrajectoryProblem::set_obstacles(const std::vector<Pair>& pairs,
+                                      const std::vector<double>& times) {
+  const bool held = times.size() == 1;
   std::vector<std::string> names;
   std::vector<std::vector<double>> numbers;
-  for (const auto& o : obstacles) {
-    names.push_back(o.name);
-    numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
+  for (const auto& pair : pairs) {
+    names.push_back(pair.obstacle.name);
+    auto& row = numbers.emplace_back();
+    const auto add = [&](double t) {
+      const auto at = numbers_at(pair.obstacle, t);
+      row.insert(row.end(), at.begin(), at.end());
+      if (!footprint_.is_point()) row.push_back(pair.ahead);
+    };
+    if (!varies(pair.obstacle)) {
+      add(0);
+    } else if (held) {
+      add(times[0]);
+      row[0] += row[4] * times[0];
+      row[1] += row[5] * times[0];
+      row[4] = row[5] = 0;
+    } else {
+      for (const double t : times) add(t);
+    }
   }
   problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
 }

@@ -2,11 +2,14 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "model_map.hpp"
+#include "obstacle_view.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/planner.hpp"
 #include "slalom/planner/task.hpp"
 #include "slalom/vehicle/model.hpp"
@@ -16,15 +19,23 @@ namespace slalom::planner {
 /// The collocation scheme that the settings name.
 const ocp::Scheme& scheme_of(const Settings& settings);
 
+/// The absolute time [s] at which the trajectory of x is at each point of the mesh, for obstacles
+/// that vary to be placed; or the one at which they are held (Settings::moving_avoidance).
+std::vector<double> obstacle_times(const Settings& settings, const Request& request,
+                                   const ocp::Transcription& transcription,
+                                   std::span<const double> x);
+
 /// The trajectory-planning OCP of section 3 of docs/formulation.md (the paper's section II-B), in
 /// one of its two forms: goal within the LiDAR range, or beyond it. What a form does not have is
 /// absent from it, not switched to zero.
 class TrajectoryProblem {
  public:
-  TrajectoryProblem(const Task& task, bool goal_in_range);
+  /// The task's obstacles are not used.
+  TrajectoryProblem(const Task& task, const std::vector<Pair>& pairs, bool goal_in_range);
 
-  /// Puts other obstacles, as many, in the place of those the problem has.
-  void set_obstacles(const std::vector<world::Obstacle>& obstacles);
+  /// Puts others, as many, in the place of those the problem has. What varies has the numbers of
+  /// obstacle_times(); of one time for all it is held as it is then.
+  void set_obstacles(const std::vector<Pair>& pairs, const std::vector<double>& times);
   /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
   void update(const Request& request);
 
@@ -46,6 +57,7 @@ class TrajectoryProblem {
   const Settings settings_;
   const vehicle::Parameters vehicle_;
   const world::Goal goal_;
+  const world::Footprint footprint_;
   const bool goal_in_range_;
   const ModelMap map_;
 

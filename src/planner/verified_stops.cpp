@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "references.hpp"
+#include "road_reference.hpp"
 #include "slalom/vehicle/agility.hpp"
 #include "verified_planner.hpp"
 
@@ -110,6 +111,13 @@ void VerifiedPlanner::stop(Cycle& cycle) {
   if (cycle.rest && cycle.rest->motion().size() > 3) {
     if (stop_late(cycle, cycle.rest->proposal)) return;
     stops.push_back({"stop along the rest", {}, cycle.rest->motion()});
+  }
+  if (task_.road) {
+    // As far as the gentlest stop goes, and on.
+    const double enough = X0p[UX] / kStops.back() + 1;
+    stops.push_back({"stop along the road",
+                     {},
+                     road_reference(*task_.road, X0p, t0, enough, 0, task_.vehicle)});
   }
   stops.push_back({"stop straight on", {}, straight_reference(X0p, t0, 1)});
   stops.push_back(

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "slalom/base/error.hpp"
 #include "slalom/sim/latency.hpp"
@@ -27,6 +28,27 @@ void check_region(const world::Region& region, const std::string& where) {
   side(region.y_min, region.y_max, "y");
 }
 
+/// A polygon says an obstacle's size, and a trajectory where it is: what is set beside them would
+/// say nothing.
+void check_obstacle(const world::Obstacle& obstacle, const std::string& where) {
+  world::obstacle_options().check(obstacle, where);
+  const auto refuse = [&](bool applies, const char* key, double value, double silent,
+                          const char* told_by) {
+    if (applies && value != silent)
+      throw InvalidValue(where, fmt::format("{} = {:.9g}", key, value),
+                         fmt::format("none, for {} says it", told_by), {key});
+  };
+  const double reach = obstacle.outline ? obstacle.outline->reach() : 0;
+  for (const auto& [key, value] : {std::pair{"a", obstacle.a}, {"b", obstacle.b}})
+    refuse(obstacle.outline != nullptr, key, value, reach, "the polygon");
+  for (const auto& [key, value] : {std::pair{"x", obstacle.x},
+                                   {"y", obstacle.y},
+                                   {"vx", obstacle.vx},
+                                   {"vy", obstacle.vy},
+                                   {"psi", obstacle.psi}})
+    refuse(obstacle.trajectory != nullptr, key, value, 0, "the table or path");
+}
+
 /// What each part of a scenario says of its own values.
 void check_parts(const Scenario& s, const std::string& where) {
   check_within("planner", [&] { planner::check(s.planner, where); });
@@ -43,8 +65,7 @@ void check_parts(const Scenario& s, const std::string& where) {
   check_within("region", [&] { check_region(s.region, where + ": region"); });
   for (const auto& obstacle : s.obstacles)
     check_within("obstacles." + obstacle.name, [&] {
-      world::obstacle_options().check(obstacle,
-                                      fmt::format("{}: obstacle {}", where, obstacle.name));
+      check_obstacle(obstacle, fmt::format("{}: obstacle {}", where, obstacle.name));
     });
 }
 
@@ -94,15 +115,18 @@ void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
 }
 
 void check_start_clear(const Scenario& s, const std::string& where) {
+  const world::Footprint footprint(s.vehicle);
   for (const auto& obstacle : s.obstacles) {
-    const double clearance = world::distance(obstacle.grown(s.loop.sm_crash), s.start[vehicle::X],
-                                             s.start[vehicle::Y], 0);
+    if (!obstacle.present(0, 0)) continue;
+    const double clearance = footprint.distance(obstacle.grown(s.loop.sm_crash), s.start, 0);
     if (!(clearance >= 0))
       throw InvalidValue(
           where + ": start",
-          fmt::format("({:.6g}, {:.6g}), {:.6g} m inside obstacle {} grown by sm_crash = {:.6g} m",
-                      s.start[vehicle::X], s.start[vehicle::Y], -clearance, obstacle.name,
-                      s.loop.sm_crash),
+          fmt::format(
+              "({:.6g}, {:.6g}), {}{:.6g} m inside obstacle {} grown by sm_crash = {:.6g} m",
+              s.start[vehicle::X], s.start[vehicle::Y],
+              footprint.is_point() ? "" : "its footprint ", -clearance, obstacle.name,
+              s.loop.sm_crash),
           "a start outside every grown obstacle",
           {"start", "obstacles." + obstacle.name, "loop.sm_crash"});
   }

@@ -66,6 +66,7 @@ class Search {
   bool free(const Place& p) const {
     if (!region_.contains(p.x, p.y)) return false;
     return std::none_of(obstacles_.begin(), obstacles_.end(), [&](const auto& o) {
+      if (!o.is_plain()) return o.present(p.t, p.t) && distance(o, p.x, p.y, p.t) < 0;
       const double dx = (p.x - o.x_at(p.t)) / o.a, dy = (p.y - o.y_at(p.t)) / o.b;
       return dx * dx + dy * dy < 1;
     });

@@ -46,10 +46,14 @@ struct Event {
 };
 
 /// Watches a drive stretch by stretch for the events of section 4 of docs/formulation.md, and keeps
-/// its extremes. An obstacle moving at constant velocity, grown to an ellipse, and the goal's
-/// square are convex, and over one stretch (at most .02 s) the plant's path is straight but for
-/// millimetres: the distance to them has one minimum a stretch, which is searched for wherever the
-/// speeds allow it to matter. A graze between two samples is therefore not missed.
+/// its extremes. Obstacles, grown, and the goal's square are convex, and over one stretch (at most
+/// .02 s) the plant's path is straight but for millimetres: the distance of a point to those that
+/// move at constant velocity has one minimum a stretch, which is searched for wherever the speeds
+/// allow it to matter. Distances of a body, and to obstacles that move by a trajectory, may have
+/// several: they are looked at as often as the speeds allow a contact, or a lower one, between. A
+/// graze between two samples is therefore not missed, but for one of a body or with a trajectory
+/// that is less than .05 mm deep; least distances of these are known to 1 mm. An obstacle that is
+/// absent is not there; one that appears upon the vehicle is a crash at that moment.
 class Watch {
  public:
   /// `dynamics`, of the vehicle that drives, outlive it.
@@ -61,8 +65,8 @@ class Watch {
   /// to that event only.
   std::optional<Event> pass(const Stretch& stretch);
 
-  /// Signed distance [m] from the front axle's centre to the edge of the nearest obstacle, grown by
-  /// the margin, at time t [s]; infinity without obstacles.
+  /// Signed distance [m] from the footprint to the edge of the nearest obstacle, grown by the
+  /// margin, at time t [s]; infinity without obstacles.
   double clearance(double t, const vehicle::State& state) const;
 
   /// When the goal's square was first entered [s].
@@ -75,6 +79,8 @@ class Watch {
   double least_edge_distance() const { return least_edge_distance_; }
 
  private:
+  struct Approach;
+
   std::optional<Event> first_crash(const Stretch& stretch) const;
   std::optional<Event> first_wheel_lift(const Stretch& stretch) const;
   void note_clearance(const Stretch& stretch);
