@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,8 @@
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/io/drive_files.hpp"
+#include "slalom/io/results_folder.hpp"
 #include "slalom/planner/lap.hpp"
 #include "slalom/vehicle/state.hpp"
 
@@ -55,28 +58,32 @@ int lap(const LapOptions& options) {
   check_expectations(options.common.expect, kOutcomes);
   const auto scenario = io::load_scenario(options.common.request);
   if (!scenario.road)
-    throw InvalidValue(scenario.name, "a scenario without a road", "a section `road` that is closed",
-                       {"road"});
+    throw InvalidValue(scenario.name, "a scenario without a road",
+                       "a section `road` that is closed", {"road"});
   planner::LapSettings settings;
   settings.interval = options.interval;
   settings.margin = options.margin;
   settings.max_meshes = options.max_meshes;
   settings.interrupted = interrupted;
+  io::ResultsFolder folder;
+  if (options.common.writes())
+    write_or_fail([&] { folder = {options.common.out, options.common.force}; });
   const auto lap = planner::fastest_lap(*scenario.road, scenario.vehicle, settings);
   const bool solved = !lap.s.empty();
   if (interrupted()) return exit_code_for("interrupted", options.common.expect);
   if (options.common.writes() && solved)
-    write_or_fail([&] { io::write_file(options.common.out, csv(lap), options.common.force); });
+    write_or_fail(
+        [&] { io::write_file(std::filesystem::path(options.common.out) / "lap.csv", csv(lap)); });
   if (options.common.json) {
     print(json(scenario, lap));
   } else if (!options.common.quiet) {
     const auto& refined = lap.refined;
-    print(solved ? fmt::format("{} with {}: {:.3f} s for {:.1f} m, {:.1f} m/s on average\n{}",
-                               scenario.name, scenario.vehicle.name, lap.time,
-                               scenario.road->length(), scenario.road->length() / lap.time,
-                               refined.table())
-                 : fmt::format("{} with {}: no lap was found\n{}", scenario.name,
-                               scenario.vehicle.name, refined.table()));
+    print(solved
+              ? fmt::format("{} with {}: {:.3f} s for {:.1f} m, {:.1f} m/s on average\n{}",
+                            scenario.name, scenario.vehicle.name, lap.time, scenario.road->length(),
+                            scenario.road->length() / lap.time, refined.table())
+              : fmt::format("{} with {}: no lap was found\n{}", scenario.name,
+                            scenario.vehicle.name, refined.table()));
   }
   return exit_code_for(solved ? "solved" : "not_solved", options.common.expect);
 }
@@ -102,8 +109,8 @@ void add_lap(CLI::App& app, Command& run) {
   add_expect(*command, options->common, "solved, not_solved, interrupted");
   command->footer(
       std::string("The vehicle's own model along the road, offline, without obstacles. Columns of\n"
-                  "the file that --out names are SI units and radians.\n"
-                  "Example: slalom lap lap --vehicle bmw_320i --out lap.csv\n\n") +
+                  "lap.csv in the folder that --out names are SI units and radians.\n"
+                  "Example: slalom lap oval --vehicle bmw_320i --out laps/bmw\n\n") +
       kExitCodeHelp);
   command->callback([options, &run] { run = [options] { return lap(*options); }; });
 }

@@ -206,8 +206,8 @@ std::vector<Dag::Id> Dag::import(const std::vector<Expr>& outputs,
       std::array<Id, 3> arg{};
       for (std::size_t i = 0; i < node->args().size(); ++i)
         arg[i] = image.at(node->args()[i].node());
-      id = node->steps() ? lookup(node->steps(), arg[0])
-                         : apply(node->op(), arg[0], arg[1], arg[2]);
+      id =
+          node->steps() ? lookup(node->steps(), arg[0]) : apply(node->op(), arg[0], arg[1], arg[2]);
     }
     image.emplace(node, id);
   }

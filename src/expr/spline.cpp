@@ -97,9 +97,7 @@ Expr assemble(const Expr& at_x, const Vector& knots, const std::vector<Expr>& va
     add(knots[i], i, begin, m[i], (m[i + 1] - m[i]) / h);
     if (i + 1 == last) add(knots[last], last, chord + h * (m[i] + 2 * m[i + 1]) / 6, 0, 0);
   }
-  const auto chosen = [&](const std::vector<Expr>& list) {
-    return pick(x, begins, list);
-  };
+  const auto chosen = [&](const std::vector<Expr>& list) { return pick(x, begins, list); };
   const Expr d = x - chosen(at);
   const Expr spline =
       chosen(value) + d * (chosen(slope) + d * (chosen(second) + d * chosen(third)));
@@ -154,10 +152,10 @@ std::vector<Expr> without_lookups(const std::vector<Expr>& outputs) {
       image.emplace(node, pick(of(args[0]), steps->begins, values, 0, values.size() - 1));
     } else if (std::any_of(args.begin(), args.end(),
                            [&](const Expr& arg) { return image.contains(arg.node()); })) {
-      image.emplace(node, args.size() == 1   ? Expr::apply(node->op(), of(args[0]))
-                          : args.size() == 2 ? Expr::apply(node->op(), of(args[0]), of(args[1]))
-                                             : Expr::apply(node->op(), of(args[0]), of(args[1]),
-                                                           of(args[2])));
+      image.emplace(node, args.size() == 1 ? Expr::apply(node->op(), of(args[0]))
+                          : args.size() == 2
+                              ? Expr::apply(node->op(), of(args[0]), of(args[1]))
+                              : Expr::apply(node->op(), of(args[0]), of(args[1]), of(args[2])));
     }
   }
   std::vector<Expr> result;

@@ -15,6 +15,10 @@ using namespace vehicle;
 /// Of what the guess uses, of the most lateral acceleration and braking; and how it accelerates
 /// [m/s^2].
 constexpr double kShare = 0.6, kDriving = 0.8;
+/// Each mesh's intervals are shorter than the last one's by this factor, and a solve ends after so
+/// many iterations.
+constexpr double kFiner = 1.6;
+constexpr int kIterations = 1500;
 /// Between the guess's points [m].
 constexpr double kStep = 2;
 
@@ -45,6 +49,45 @@ ocp::Trajectory lap_guess(const world::Road& road, const SpeedProfile& profile,
   return guess;
 }
 
+/// On meshes of ever shorter intervals. Uniform ones, for among intervals that are cut here and
+/// there the controls at their limits ring; and each from the calm guess, for from the last mesh's
+/// answer, which lies on many bounds, a solve takes longer.
+ocp::Refined finer_and_finer(const ocp::Problem& problem, double length,
+                             const LapSettings& settings, ocp::SolveSettings solve) {
+  ocp::Refined refined;
+  double interval = settings.interval;
+  for (int mesh = 0; mesh < settings.max_meshes; ++mesh, interval /= kFiner) {
+    solve.mesh = ocp::Mesh::uniform(static_cast<int>(std::ceil(length / interval)));
+    auto solution = ocp::solve(problem, solve);
+    ocp::MeshRecord record;
+    record.intervals = solve.mesh.intervals();
+    record.points = solution.trajectory.tau.size();
+    record.status = solution.status;
+    record.iterations = solution.iterations;
+    record.wall_s = solution.wall_s;
+    record.objective = solution.objective;
+    if (!solution.solved()) {
+      refined.meshes.push_back(record);
+      refined.status = ocp::RefineStatus::not_solved;
+      if (mesh == 0) refined.solution = std::move(solution);
+      return refined;
+    }
+    refined.errors = ocp::estimate_errors(problem, solution);
+    record.largest_error = refined.errors.largest;
+    record.worst_interval = refined.errors.worst;
+    record.objective_error =
+        mesh == 0 ? INFINITY : std::fabs(record.objective / refined.meshes.back().objective - 1);
+    refined.meshes.push_back(record);
+    refined.solution = std::move(solution);
+    if (record.objective_error < settings.tolerance) {
+      refined.status = ocp::RefineStatus::converged;
+      return refined;
+    }
+  }
+  refined.status = ocp::RefineStatus::mesh_limit;
+  return refined;
+}
+
 }  // namespace
 
 Lap fastest_lap(const world::Road& road, const Parameters& vehicle, const LapSettings& settings) {
@@ -54,21 +97,19 @@ Lap fastest_lap(const world::Road& road, const Parameters& vehicle, const LapSet
   for (const auto& state : line.states())
     problem.boundary("closed " + state.name(), problem.final(state) - problem.initial(state),
                      ocp::Bounds::equal(0));
-  ocp::SolveSettings start;
-  start.mesh = ocp::Mesh::uniform(static_cast<int>(std::ceil(road.length() / settings.interval)));
-  start.guess = lap_guess(road, SpeedProfile(road, vehicle, kShare, kShare), vehicle);
+  ocp::SolveSettings solve;
+  solve.guess = lap_guess(road, SpeedProfile(road, vehicle, kShare, kShare), vehicle);
+  // At the tyres' limits the adaptive rule takes several times as many iterations, where it ends.
+  solve.options.barrier_rule = nlp::BarrierRule::monotone;
+  solve.options.max_iterations = kIterations;
   if (settings.interrupted) {
-    start.options.stop = [](void* asked) {
+    solve.options.stop = [](void* asked) {
       return (*static_cast<std::function<bool()>*>(asked))();
     };
-    start.options.stop_data = const_cast<std::function<bool()>*>(&settings.interrupted);
+    solve.options.stop_data = const_cast<std::function<bool()>*>(&settings.interrupted);
   }
-  ocp::RefineRules rules;
-  rules.tolerance = settings.tolerance;
-  rules.max_meshes = settings.max_meshes;
-  rules.resolve_controls = false;
   Lap lap;
-  lap.refined = ocp::refine(problem, start, rules);
+  lap.refined = finer_and_finer(problem, road.length(), settings, std::move(solve));
   const auto& solution = lap.refined.solution;
   if (!solution.solved()) return lap;
   lap.time = solution.cost_term("time");

@@ -18,8 +18,8 @@ using namespace vehicle;
 constexpr double kLateralShare = 0.85, kBrakingShare = 0.7, kCalm = 0.6;
 /// The slowest at which plans end [m/s]: where the road does, they end creeping.
 constexpr double kCreep = 0.6;
-/// Price of going beyond a limit (LineSettings::w_excess), some times what limits are worth [s/m]: a
-/// vehicle at its limits finds itself a little beyond them when it plans anew.
+/// Price of going beyond a limit (LineSettings::w_excess), some times what limits are worth [s/m]:
+/// a vehicle at its limits finds itself a little beyond them when it plans anew.
 constexpr double kExcess = 1;
 /// And of being faster at the end than the profile, for each metre a second [s/(m/s)].
 constexpr double kEndSpeed = 1;
@@ -62,9 +62,9 @@ LinePlanner::LinePlanner(const Task& task)
                      ocp::Bounds::equal(0));
   }
   end_speed_ = problem.parameter("end_speed", task_.vehicle.ux_max);
-  const auto end = problem.boundary("speed at the end",
-                   end_speed_ - problem.final(states[LineProblem::FIRST_OF_VEHICLE + 3]),
-                   ocp::Bounds::at_least(0));
+  const auto end = problem.boundary(
+      "speed at the end", end_speed_ - problem.final(states[LineProblem::FIRST_OF_VEHICLE + 3]),
+      ocp::Bounds::at_least(0));
   problem.soften(end, {ocp::Norm::l1, settings_.w_t * kEndSpeed, 0});
   // And it goes along the road there, about.
   const auto at_end = [&](std::size_t i) { return problem.final(states[i]); };
@@ -177,8 +177,7 @@ Plan LinePlanner::attempt(const Request& request, const Timer& timer, const Atte
 
 Plan LinePlanner::read(const Request& request, double start, const nlp::Options& options) {
   auto trajectory = transcription_->trajectory(answer_.point.x);
-  auto motion =
-      line_.to_world(trajectory, start, request.t_start, request.X0p[PSI]);
+  auto motion = line_.to_world(trajectory, start, request.t_start, request.X0p[PSI]);
   Plan plan;
   plan.t_start = request.t_start;
   for (const double t : motion.t) plan.t.push_back(t - request.t_start);

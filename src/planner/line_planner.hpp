@@ -28,8 +28,8 @@ class LinePlanner final : public PlanningMethod {
     ocp::Trajectory trajectory;  ///< along it
   };
 
-  /// One solve of a cycle: from which guess, with the last plan's multipliers or without, and at how
-  /// many times the barrier floor.
+  /// One solve of a cycle: from which guess, with the last plan's multipliers or without, and at
+  /// how many times the barrier floor.
   struct Attempt {
     double start;
     ocp::Trajectory guess;

@@ -55,8 +55,9 @@ LineProblem::LineProblem(const world::Road& road, const Parameters& vehicle, dou
   if (!(road.narrowest() > vehicle.width + 2 * settings.margin))
     throw InvalidValue(
         "road", fmt::format("{:.4g} m wide where it is narrowest", road.narrowest()),
-        fmt::format("more than the vehicle's width of {:.4g} m and {:.4g} m to be kept on each side",
-                    vehicle.width, settings.margin));
+        fmt::format(
+            "more than the vehicle's width of {:.4g} m and {:.4g} m to be kept on each side",
+            vehicle.width, settings.margin));
   start_ = problem_.parameter("start", 0);
   s_ = start_ + problem_.time();
   problem_.initial_time(Bounds::equal(0), 0);
@@ -202,8 +203,8 @@ LineProblem::Motion LineProblem::to_world(const ocp::Trajectory& found, double s
   return motion;
 }
 
-SpeedProfile::SpeedProfile(const world::Road& road, const Parameters& vehicle,
-                           double lateral_share, double braking_share)
+SpeedProfile::SpeedProfile(const world::Road& road, const Parameters& vehicle, double lateral_share,
+                           double braking_share)
     : closed_(road.closed()) {
   const double parts = std::ceil(road.length() / kKnot);
   step_ = road.length() / parts;
@@ -218,8 +219,8 @@ SpeedProfile::SpeedProfile(const world::Road& road, const Parameters& vehicle,
   const auto slow_down = [&](std::size_t k, std::size_t next) {
     const double kappa = road.at(step_ * static_cast<double>(k)).curvature;
     const double turning = std::min(1., speed_[next] * speed_[next] * std::fabs(kappa) / lateral);
-    const double braking = -braking_share * vehicle.ax_min_at(speed_[next]) *
-                           std::sqrt(1 - turning * turning);
+    const double braking =
+        -braking_share * vehicle.ax_min_at(speed_[next]) * std::sqrt(1 - turning * turning);
     speed_[k] = std::min(speed_[k], std::sqrt(speed_[next] * speed_[next] + 2 * braking * step_));
   };
   for (int pass = 0; pass < (closed_ ? 2 : 1); ++pass) {

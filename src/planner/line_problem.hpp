@@ -23,14 +23,14 @@ struct LineSettings {
 
 /// The fastest motion along a road, as an optimal-control problem whose independent variable is the
 /// length along the road's line from where it begins [m]. States: the offset n of the front axle's
-/// centre to the left of the line [m], the heading xi relative to the line's [rad], and those of the
-/// vehicle but for its place and heading. The line's length s at its beginning is a parameter.
+/// centre to the left of the line [m], the heading xi relative to the line's [rad], and those of
+/// the vehicle but for its place and heading. The line's length s at its beginning is a parameter.
 ///
 /// s' = V_t / (1 - n kappa), n' = V_n, xi' = r - kappa s', where V_t and V_n are the front axle's
 /// velocity along and across the line (G. Perantoni and D. J. N. Limebeer, "Optimal control for a
 /// Formula One car with variable parameters", Vehicle System Dynamics 52(5), 2014, Eqns. 1 to 3).
-/// Every corner of the body stays within the road's widths where it is; the line between is taken as
-/// a parabola.
+/// Every corner of the body stays within the road's widths where it is; the line between is taken
+/// as a parabola.
 class LineProblem {
  public:
   enum Index : std::size_t { N, XI, FIRST_OF_VEHICLE };
@@ -40,8 +40,8 @@ class LineProblem {
   static constexpr std::size_t kLineStates = FIRST_OF_VEHICLE + kOfVehicle.size();
   using LineState = std::array<double, kLineStates>;
 
-  /// Over `length` of the road [m]. The road outlives it. Throws InvalidValue for a road that leaves
-  /// less than the vehicle's width between its margins.
+  /// Over `length` of the road [m]. The road outlives it. Throws InvalidValue for a road that
+  /// leaves less than the vehicle's width between its margins.
   LineProblem(const world::Road& road, const vehicle::Parameters& vehicle, double length,
               const LineSettings& settings);
 
@@ -88,9 +88,9 @@ class LineProblem {
   double widest_ = 0;
 };
 
-/// Speeds [m/s] from which a vehicle in the middle of the road can drive on, or stop at the end of a
-/// road that is not closed: by the lateral acceleration that tyres and wheel loads allow, and shares
-/// of what it brakes and accelerates with.
+/// Speeds [m/s] from which a vehicle in the middle of the road can drive on, or stop at the end of
+/// a road that is not closed: by the lateral acceleration that tyres and wheel loads allow, and
+/// shares of what it brakes and accelerates with.
 class SpeedProfile {
  public:
   /// Shares of lateral acceleration and of braking.

@@ -156,10 +156,10 @@ void RecedingHorizon::choose(const Request& request) {
                        !belief_varies(settings_, task_.obstacles);
   if (settings_.obstacle_choice == ObstacleChoice::all && as_made && as_made_) return;
   as_made_ = as_made;
-  known_ = believed(
-      settings_,
-      request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
-      request.t0);
+  known_ =
+      believed(settings_,
+               request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
+               request.t0);
   chosen_ = choose_obstacles(settings_, request, known_, footprint_);
   pairs_ = pairs_of(chosen_, vehicle_);
   for (auto& [key, form] : forms_)

@@ -45,10 +45,9 @@ Replayed replay(const Recording& recording, const Task& task) {
   if (recording.obstacles) known.obstacles = *recording.obstacles;
   const world::Footprint footprint(known.vehicle);
   const auto pairs = pairs_of(
-      choose_obstacles(
-          settings, request,
-          believed(settings, group_obstacles(settings, known.obstacles), request.t0),
-          footprint),
+      choose_obstacles(settings, request,
+                       believed(settings, group_obstacles(settings, known.obstacles), request.t0),
+                       footprint),
       footprint.covering_discs(settings.cover_excess));
   TrajectoryProblem problem(known, pairs, recording.goal_in_range);
   problem.update(request);

@@ -158,9 +158,10 @@ void add_horizon(Table& table) {
             kTable)
       .real("kappa", &S::kappa, Range::non_negative(), "m",
             "Relaxation of the LiDAR's range (paper Eqn. 8, 19, 20): 5, and 10 in E_C.", kTable)
-      .real("road_margin", &S::road_margin, Range::non_negative(), "m",
-            "What a plan along a road keeps the body from the road's edges by, for they are kept at "
-            "the nodes of its mesh and the plant's path between.")
+      .real(
+          "road_margin", &S::road_margin, Range::non_negative(), "m",
+          "What a plan along a road keeps the body from the road's edges by, for they are kept at "
+          "the nodes of its mesh and the plant's path between.")
       .real("sm_start", &S::sm_start, Range::non_negative(), "m",
             "Margin by which obstacles grow at the first node (sm_1 in paper Eqn. 7).", kTable)
       .real("sm_end", &S::sm_end, Range::non_negative(), "m",

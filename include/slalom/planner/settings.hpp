@@ -30,8 +30,8 @@ enum class Prediction { known, constant_velocity, constant_turn };
 /// is solved again on finer meshes.
 enum class BetweenNodes { ignore, report, refine };
 
-/// How a planner plans: the paper's OCP over a receding horizon; whole ways to the goal of which none
-/// is driven before it is verified; or the fastest motion along a road without obstacles.
+/// How a planner plans: the paper's OCP over a receding horizon; whole ways to the goal of which
+/// none is driven before it is verified; or the fastest motion along a road without obstacles.
 enum class Method { receding_horizon, verified, along_road };
 
 /// The obstacles that a verifying planner is told of: all, or those within L_range.
