@@ -72,7 +72,7 @@ double driven(const Task& truth, const Task& believed, int cycles) {
         if (o.present(t, t)) least = std::min(least, body.distance(o, x, t));
       x = plant.predict(x, signal, t, t + 0.01);
     }
-    if (truth.goal.contains(x[X], x[Y])) return least;
+    if (truth.arrived(x, 0)) return least;
     request.X0p = x;
     request.t0 += 0.2;
     request.t_start += 0.2;
