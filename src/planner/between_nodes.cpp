@@ -59,7 +59,8 @@ class Search {
         deepest_(deepest) {
     const double moving = held < 0 ? obstacle.fastest(time(0), time(1)) + obstacle.margin_rate : 0;
     rate_ = (interval.fastest() + moving) * interval.length;
-    if (!footprint.is_point()) rate_ += interval.fastest_turn() * footprint.reach() * interval.length;
+    if (!footprint.is_point())
+      rate_ += interval.fastest_turn() * footprint.reach() * interval.length;
   }
 
   void run() {

@@ -113,9 +113,9 @@ std::vector<world::Obstacle> nearest(const Settings& s, const Request& request,
   std::vector<double> distance;
   for (const auto& o : obstacles) {
     if (!o.is_plain()) {
-      distance.push_back(o.present(t, t) ? world::distance(o, request.X0p[vehicle::X],
-                                                           request.X0p[vehicle::Y], t)
-                                         : INFINITY);
+      distance.push_back(
+          o.present(t, t) ? world::distance(o, request.X0p[vehicle::X], request.X0p[vehicle::Y], t)
+                          : INFINITY);
       continue;
     }
     const double dx = o.x_at(t) - request.X0p[vehicle::X], dy = o.y_at(t) - request.X0p[vehicle::Y];
@@ -167,7 +167,9 @@ std::vector<world::Obstacle> group_obstacles(const Settings& settings,
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
       const auto &p = obstacles[i], &q = obstacles[j];
-      if (!p.is_plain() || !q.is_plain() || p.vx != q.vx || p.vy != q.vy || gap(p, q) >= settings.obstacle_group_gap) continue;
+      if (!p.is_plain() || !q.is_plain() || p.vx != q.vx || p.vy != q.vy ||
+          gap(p, q) >= settings.obstacle_group_gap)
+        continue;
       const auto keep = std::min(group[i], group[j]), drop = std::max(group[i], group[j]);
       std::replace(group.begin(), group.end(), drop, keep);
     }
@@ -185,11 +187,11 @@ std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Re
                                               const std::vector<world::Obstacle>& obstacles,
                                               const world::Footprint& footprint) {
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
-    return in_reach(settings, request, covered(settings, footprint, obstacles),
-                    footprint.reach());
-  auto chosen = covered(settings, footprint, settings.obstacle_choice == ObstacleChoice::nearest
-                                      ? nearest(settings, request, obstacles)
-                                      : obstacles);
+    return in_reach(settings, request, covered(settings, footprint, obstacles), footprint.reach());
+  auto chosen = covered(settings, footprint,
+                        settings.obstacle_choice == ObstacleChoice::nearest
+                            ? nearest(settings, request, obstacles)
+                            : obstacles);
   for (auto& o : chosen)
     if (far(settings, request, o)) o = parked(settings, request, o);
   return chosen;

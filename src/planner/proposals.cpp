@@ -52,8 +52,7 @@ std::vector<Passed> places_of(const Motion& motion, double ahead) {
     for (int part = 0; part < parts; ++part) {
       const double share = static_cast<double>(part) / parts;
       const State &a = motion.states[k], &b = motion.states[std::min(k + 1, motion.size() - 1)];
-      Passed at{t0 + share * (t1 - t0), a[X] + share * (b[X] - a[X]),
-                a[Y] + share * (b[Y] - a[Y])};
+      Passed at{t0 + share * (t1 - t0), a[X] + share * (b[X] - a[X]), a[Y] + share * (b[Y] - a[Y])};
       if (ahead != 0) {
         const double psi = a[PSI] + share * (b[PSI] - a[PSI]);
         at.x += ahead * std::cos(psi);

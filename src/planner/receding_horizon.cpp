@@ -154,10 +154,10 @@ void RecedingHorizon::choose(const Request& request) {
                        !belief_varies(settings_, task_.obstacles);
   if (settings_.obstacle_choice == ObstacleChoice::all && as_made && as_made_) return;
   as_made_ = as_made;
-  known_ = believed(
-      settings_,
-      request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
-      request.t0);
+  known_ =
+      believed(settings_,
+               request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
+               request.t0);
   chosen_ = choose_obstacles(settings_, request, known_, footprint_);
   for (auto& [key, form] : forms_)
     if (std::get<1>(key) == chosen_.size()) form.problem.set_obstacles(chosen_, {request.t0});
@@ -166,8 +166,8 @@ void RecedingHorizon::choose(const Request& request) {
 /// Gives rows of obstacles whose numbers vary those of the times at which the start of the solve is
 /// at the points of the mesh.
 void RecedingHorizon::place_obstacles(const Request& request, Form& form) const {
-  form.problem.set_obstacles(
-      chosen_, obstacle_times(settings_, request, form.transcription, start_.x));
+  form.problem.set_obstacles(chosen_,
+                             obstacle_times(settings_, request, form.transcription, start_.x));
   form.transcription.update(form.problem.problem());
 }
 
@@ -266,9 +266,9 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
     const State& x = plan.states[node];
     const double t =
         plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[node];
-    const double margin =
-        settings_.sm_start + (settings_.sm_end - settings_.sm_start) * plan.t[node] / plan.tf +
-        o.margin(t);
+    const double margin = settings_.sm_start +
+                          (settings_.sm_end - settings_.sm_start) * plan.t[node] / plan.tf +
+                          o.margin(t);
     const double distance = footprint_.distance(o, x, t);
     return fmt::format(
                "{} in the way: node {} of the plan comes {} its edge, where a margin of {:.2f} m "
@@ -310,9 +310,9 @@ SolveReport RecedingHorizon::report(const Request& request, ocp::Transcription& 
 void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
   if (settings_.obstacle_constraint == ObstacleConstraint::soft) return;
   SolveReport& report = plan.report;
-  const auto known = believed(
-      settings_, cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles,
-      cycle.request.t0);
+  const auto known =
+      believed(settings_, cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles,
+               cycle.request.t0);
   report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
                                    footprint_, task_.vehicle.la);
   if (report.status != PlanStatus::solved || report.passage.depth <= settings_.passage_depth)

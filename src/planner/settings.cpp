@@ -62,16 +62,18 @@ void add_what_tells_planners_apart(Table& table) {
           "far its rows fall below 1, integrated over time (l1).")
       .real("w_obstacle", &S::w_obstacle, Range::positive(), "1/s",
             "Weight of going into obstacles, where they are soft.")
-      .choice("prediction", &S::prediction, {"known", "constant_velocity", "constant_turn"},
-              "How obstacles with a table or a path are believed to move, each time a plan is made. "
-              "known: as they will; constant_velocity: straight on at the velocity that they have "
-              "then; constant_turn: on at their speed and turn rate. By the last two, one that is "
-              "not there yet is not known of. Obstacles without either go straight on anyway.")
-      .real("cover_excess", &S::cover_excess, Range::positive(), "m",
-            "By how much the discs that stand in for a box, a polygon or a turned ellipse may stick "
-            "out of it in the OCP and the search, where 16 discs do; half as much takes 1.4 times as "
-            "many rows. In the search discs stand in for the vehicle's body too. What judges plans "
-            "and drives has the exact shapes.")
+      .choice(
+          "prediction", &S::prediction, {"known", "constant_velocity", "constant_turn"},
+          "How obstacles with a table or a path are believed to move, each time a plan is made. "
+          "known: as they will; constant_velocity: straight on at the velocity that they have "
+          "then; constant_turn: on at their speed and turn rate. By the last two, one that is "
+          "not there yet is not known of. Obstacles without either go straight on anyway.")
+      .real(
+          "cover_excess", &S::cover_excess, Range::positive(), "m",
+          "By how much the discs that stand in for a box, a polygon or a turned ellipse may stick "
+          "out of it in the OCP and the search, where 16 discs do; half as much takes 1.4 times as "
+          "many rows. In the search discs stand in for the vehicle's body too. What judges plans "
+          "and drives has the exact shapes.")
       .choice(
           "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
           "Rows of obstacles hold at nodes alone, as in the paper. A plan that between them goes "

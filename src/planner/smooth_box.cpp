@@ -32,9 +32,8 @@ double SmoothBox::smooth_radius(double radius) const {
   double most = 0;
   for (int k = 0; k <= kParts; ++k) {
     const double angle = std::numbers::pi / 2 * k / kParts;
-    most = std::max(most,
-                    std::hypot(beyond(half_length_ + radius * std::cos(angle), half_length_),
-                               beyond(half_width_ + radius * std::sin(angle), half_width_)));
+    most = std::max(most, std::hypot(beyond(half_length_ + radius * std::cos(angle), half_length_),
+                                     beyond(half_width_ + radius * std::sin(angle), half_width_)));
   }
   return most;
 }

@@ -12,8 +12,8 @@ namespace slalom::planner {
 /// closer to the body (docs/obstacles.md has both in figures).
 ///
 /// With the place (u, v) in the rectangle's middle, l and w its half sides and e the smoothing, of
-/// f(z, h) = (q + sqrt(q^2 + e^2)) / 2, q = sqrt(z^2 + e^2) - h, which is above max(|z| - h, 0), the
-/// distance is sqrt(f(u, l)^2 + f(v, w)^2).
+/// f(z, h) = (q + sqrt(q^2 + e^2)) / 2, q = sqrt(z^2 + e^2) - h, which is above max(|z| - h, 0),
+/// the distance is sqrt(f(u, l)^2 + f(v, w)^2).
 class SmoothBox {
  public:
   /// Of a footprint that is not a point.

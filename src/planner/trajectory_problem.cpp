@@ -37,7 +37,8 @@ std::vector<double> obstacle_times(const Settings& settings, const Request& requ
   return times;
 }
 
-TrajectoryProblem::TrajectoryProblem(const Task& task, const std::vector<world::Obstacle>& obstacles,
+TrajectoryProblem::TrajectoryProblem(const Task& task,
+                                     const std::vector<world::Obstacle>& obstacles,
                                      bool goal_in_range)
     : settings_(task.planner),
       vehicle_(task.vehicle),

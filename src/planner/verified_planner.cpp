@@ -99,8 +99,7 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
 }
 
 std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) const {
-  auto obstacles =
-      believed(task_.planner, request.obstacles.value_or(task_.obstacles), request.t0);
+  auto obstacles = believed(task_.planner, request.obstacles.value_or(task_.obstacles), request.t0);
   if (task_.planner.known == Known::range) {
     const Seen seen = this->seen(request);
     std::erase_if(obstacles, [&](const auto& o) {

@@ -40,7 +40,8 @@ double speed(const Parameters& p, const State& x) {
   return std::hypot(x[UX], x[V] + p.la * x[R]);
 }
 
-/// Distance of the footprint to an obstacle's edge, or a lower bound of it where it is beyond `far`.
+/// Distance of the footprint to an obstacle's edge, or a lower bound of it where it is beyond
+/// `far`.
 double distance_within(const world::Footprint& footprint, const world::Obstacle& o, const State& x,
                        double t, double far) {
   const world::Pose at = o.pose_at(t);

@@ -138,7 +138,8 @@ void PlaceSearch::find_near(const Place& from) {
     const double vx = v * c - o.vx, vy = v * s - o.vy, square = vx * vx + vy * vy;
     const double ahead = square > 0 ? (dx * vx + dy * vy) / square : 0;
     const double at = std::clamp(ahead, 0.0, p_.dt);
-    const double ex = dx - at * vx, ey = dy - at * vy, reach = std::max(o.a, o.b) + aside + body_reach_;
+    const double ex = dx - at * vx, ey = dy - at * vy,
+                 reach = std::max(o.a, o.b) + aside + body_reach_;
     if (ex * ex + ey * ey < reach * reach)
       near_.push_back({x + dx, y + dy, o.vx, o.vy, 1 / o.a, 1 / o.b});
   }

@@ -40,7 +40,9 @@ struct Obstacle {
   /// What no point of the body is faster than from t0 to t1 [m/s].
   double fastest(double t0, double t1) const;
   /// By how much a prediction takes it for larger at t [m].
-  double margin(double t) const { return margin_start + margin_rate * std::max(t - predicted_at, 0.0); }
+  double margin(double t) const {
+    return margin_start + margin_rate * std::max(t - predicted_at, 0.0);
+  }
   /// Radius about its point of reference of a circle that covers it [m], without margins.
   double reach() const { return std::max(a, b) + rounding; }
   /// The body larger by `margin` [m]: an ellipse's semi-axes are longer, a polygon is so far off.

@@ -68,8 +68,8 @@ class WayFinder {
   /// half the goal's sigma along its direction and 0.6 sigma across. nullopt when the search finds
   /// none within max_places or before out_of_budget(), asked every kAskedEvery places, says so.
   ///
-  /// Obstacles with a trajectory go straight from where they are at the beginning of a move to where
-  /// they are at its end, with the margin they have there.
+  /// Obstacles with a trajectory go straight from where they are at the beginning of a move to
+  /// where they are at its end, with the margin they have there.
   ///
   /// A start that keeps too little distance may leave. An obstacle that has it within the clearance
   /// counts without clearance; one that contains it counts by an ellipse of the same shape half as
