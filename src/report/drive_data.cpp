@@ -46,6 +46,19 @@ std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
   return indices;
 }
 
+/// Least and greatest acceleration [m/s^2] at speeds as far apart as those at 0 and `ux_step`
+/// [m/s].
+Json acceleration_limits(const vehicle::Parameters& v) {
+  constexpr int kSteps = 60;
+  const double step = v.ux_max / kSteps;
+  Json least = Json::array(), most = Json::array();
+  for (int i = 0; i <= kSteps; ++i) {
+    least.push_back(rounded(v.ax_min_at(i * step), 4));
+    most.push_back(rounded(v.ax_max_at(i * step), 4));
+  }
+  return {{"ux_step", step}, {"least", least}, {"most", most}};
+}
+
 Json scenario_data(const sim::Scenario& scenario) {
   const auto& v = scenario.vehicle;
   const auto& goal = scenario.goal;
@@ -70,10 +83,10 @@ Json scenario_data(const sim::Scenario& scenario) {
                                  {"vy", exact(o.vy)},
                                  {"grown", {{"a", exact(grown.a)}, {"b", exact(grown.b)}}}});
   }
-  json["vehicle"] = {{"la", v.la},         {"lb", v.lb},           {"width", v.width},
-                     {"length", v.length}, {"ax_max", v.ax_max},   {"ax_min", v.ax_min},
-                     {"ux_max", v.ux_max}, {"sa_max", v.sa_max()}, {"sr_max", v.sr_max()},
-                     {"Fz_min", v.Fz_min}};
+  json["vehicle"] = {{"la", v.la},           {"lb", v.lb},         {"width", v.width},
+                     {"length", v.length},   {"ux_max", v.ux_max}, {"sa_max", v.sa_max()},
+                     {"sr_max", v.sr_max()}, {"Fz_min", v.Fz_min}};
+  json["vehicle"]["ax_limits"] = acceleration_limits(v);
   json["loop"] = {{"tex", scenario.loop.tex},
                   {"sm_crash", scenario.loop.sm_crash},
                   {"Fz_failure", scenario.loop.Fz_failure}};
