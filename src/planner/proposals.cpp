@@ -96,7 +96,7 @@ void Proposals::look() {
 void Proposals::follow_ways() {
   auto obstacles = question_.obstacles;
   for (auto& o : obstacles) o = o.grown(question_.need.clearance);
-  world::WaySearch search;
+  auto search = world::way_search(task_.vehicle);
   search.clearance = kWayClearance;
   search.max_places = question_.places;
   int number = 0;

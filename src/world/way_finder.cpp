@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "place_search.hpp"
+#include "slalom/vehicle/agility.hpp"
 #include "slalom/world/way_signature.hpp"
 
 namespace slalom::world {
@@ -58,6 +59,9 @@ WaySearch varied(const WaySearch& search, const Variant& by) {
   if (by.slowest < 1) result.cell_time = std::min(search.cell_time, search.dt);
   return result;
 }
+
+/// Below the top speed, for the tracker to catch up [m/s].
+constexpr double kSpeedSpare = 1;
 
 /// A wall of circles that goes along with an obstacle and shuts the side on which a way passes it,
 /// from its edge to so far beyond the way; the half of its thickness [m].
@@ -224,6 +228,17 @@ class WayFinder::Impl {
   std::vector<Ellipse> ellipses_;
   int looked_at_ = 0;
 };
+
+WaySearch way_search(const vehicle::Parameters& vehicle) {
+  const auto can = vehicle::agility(vehicle);
+  WaySearch search;
+  search.v_max = std::max(vehicle.ux_max - kSpeedSpare, search.v_min);
+  search.braking *= can.braking;
+  search.lateral_acceleration *= can.lateral;
+  search.curvature *= can.curvature;
+  search.curvature_rate *= can.curvature_rate;
+  return search;
+}
 
 WayFinder::WayFinder(const Environment& environment, const vehicle::Parameters& vehicle)
     : impl_(std::make_unique<Impl>(environment, vehicle)) {}

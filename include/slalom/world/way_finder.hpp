@@ -21,7 +21,7 @@ struct WayPoint {
 /// Points about 0.05 s apart, from the start into the goal; never fewer than one.
 using Way = std::vector<WayPoint>;
 
-/// The search of WayFinder, and what the vehicle in it does.
+/// The search of WayFinder, and what the vehicle in it does; the defaults are for the HMMWV.
 struct WaySearch {
   double dt = 0.4;                    ///< of a move [s]
   double clearance = 0.8;             ///< kept from the obstacles [m]
@@ -40,6 +40,9 @@ struct WaySearch {
          cell_time = 0.8;
   int max_places = 150'000;  ///< looked at before the search gives up
 };
+
+/// The search with the limits of another vehicle, by its agility and top speed.
+WaySearch way_search(const vehicle::Parameters& vehicle);
 
 /// Finds ways to the goal among obstacles of constant velocity: hybrid A* (D. Dolgov, S. Thrun, M.
 /// Montemerlo and J. Diebel, "Path planning for autonomous vehicles in unknown semi-structured
