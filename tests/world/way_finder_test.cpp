@@ -100,7 +100,7 @@ void expect_drivable(const World& w, const Way& way, const WaySearch& search = {
   EXPECT_NEAR(way.front().y, w.start[vehicle::Y], 1e-4);
   EXPECT_NEAR(way.front().v, w.start[vehicle::UX], 1e-5);
   const auto& goal = w.environment.goal;
-  EXPECT_LT(goal.outside(way.back().x, way.back().y), 0);
+  EXPECT_LT(goal.outside({way.back().x, way.back().y}, way.back().t, nullptr), 0);
   const double dx = way.back().x - goal.x, dy = way.back().y - goal.y;
   EXPECT_LE(std::fabs(dx * std::cos(goal.psi) + dy * std::sin(goal.psi)), 0.5 * goal.sigma + 1e-4);
   EXPECT_LE(std::fabs(dy * std::cos(goal.psi) - dx * std::sin(goal.psi)), 0.6 * goal.sigma + 1e-4);
