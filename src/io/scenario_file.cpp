@@ -7,6 +7,7 @@
 
 #include "config_dir.hpp"
 #include "document.hpp"
+#include "obstacle_reader.hpp"
 #include "overrides.hpp"
 #include "scenario_sections.hpp"
 #include "semantic_check.hpp"
@@ -168,29 +169,9 @@ class Loader {
     if (list.kind == Value::Kind::null) return;
     if (list.kind != Value::Kind::sequence)
       throw InvalidValue(list.place.to_string(), list.describe(), "a list of obstacles");
-    for (const auto& item : list.items) read_obstacle(item);
-  }
-
-  void read_obstacle(const Value& map) {
-    require_map(map, "an obstacle (a map with x, y, r, ...)");
-    ObstacleEntry entry;
-    auto& obstacle = entry.obstacle;
-    obstacle.name = fmt::format("O{}", scenario_.obstacles.size() + 1);
-    Places local;
-    entry_section(entry).read(map, local);
-    require_key(map, "an obstacle", "x");
-    require_key(map, "an obstacle", "y");
-    if (map.find("r") == nullptr && (map.find("a") == nullptr || map.find("b") == nullptr))
-      throw InvalidValue(map.place.to_string(), "an obstacle without size", "r, or a and b");
-    if (map.find("step") != nullptr && map.find("repeat") == nullptr)
-      throw InvalidValue(map.place.to_string(), "an obstacle with step alone", "repeat beside it");
-    for (int k = 0; k < entry.repeat; ++k) {
-      world::Obstacle one = obstacle;
-      one.x += k * entry.step[0];
-      one.y += k * entry.step[1];
-      if (map.find("repeat") != nullptr) one.name += std::to_string(k + 1);
-      add_obstacle(one, map.place);
-    }
+    for (const auto& item : list.items)
+      for (const auto& obstacle : io::read_obstacles(item, scenario_.obstacles.size() + 1))
+        add_obstacle(obstacle, item.place);
   }
 
   void add_obstacle(const world::Obstacle& obstacle, const Place& place) {

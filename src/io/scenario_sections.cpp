@@ -8,12 +8,27 @@ namespace {
 using sim::Scenario;
 using Form = ScenarioSection::Form;
 
-/// repeat, step: how a file writes many obstacles.
-const OptionTable<ObstacleEntry>& repeat_options() {
+/// What files say of an obstacle beside its own options.
+const OptionTable<ObstacleEntry>& entry_options() {
   static const auto table = [] {
+    using E = ObstacleEntry;
+    const auto any = OptionRange::any();
     OptionTable<ObstacleEntry> t;
-    t.integer("repeat", &ObstacleEntry::repeat, OptionRange::closed(1, 1000), "1",
-              "How many of these stand in a row; they are named name1, name2, ...")
+    t.real("length", &E::length, OptionRange::positive(), "m",
+           "Of a box, along its own x axis and about its centre.")
+        .real("width", &E::width, OptionRange::positive(), "m", "Of a box, across.")
+        .real("speed", &E::speed, OptionRange::non_negative(), "m/s",
+              "Along a path, from its first point at t = 0.")
+        .real("acceleration", &E::acceleration, any, "m/s^2",
+              "Along a path, until the obstacle stands or has come to the end.")
+        .choice(
+            "before", &E::before, world::beyond_end_names(),
+            "Before the first row of a table: it stands there, goes on as it moves there, or is "
+            "absent.")
+        .choice("after", &E::after, world::beyond_end_names(),
+                "After the last row of a table: likewise.")
+        .integer("repeat", &ObstacleEntry::repeat, OptionRange::closed(1, 1000), "1",
+                 "How many of these stand in a row; they are named name1, name2, ...")
         .vector("step", &ObstacleEntry::step, OptionRange::any(), "m",
                 "From the centre of one to the centre of the next, [east, north].");
     return t;
@@ -111,11 +126,11 @@ Section obstacle_section(world::Obstacle& obstacle, const std::string& path) {
        [&obstacle](const OptionValue& value) { obstacle.a = obstacle.b = std::get<double>(value); },
        [&obstacle] { return OptionValue(obstacle.a); },
        {"a", "b"}});
-  return section;
+  return section.add_degrees("psi");
 }
 
 Section entry_section(ObstacleEntry& entry) {
-  return obstacle_section(entry.obstacle, "an obstacle").add(repeat_options(), entry);
+  return obstacle_section(entry.obstacle, "an obstacle").add(entry_options(), entry);
 }
 
 std::vector<std::pair<std::string, OptionValue>> values_of(const sim::Scenario& scenario) {

@@ -31,16 +31,24 @@ std::vector<std::string> section_names();
 /// Every key a scenario file may have.
 std::vector<std::string> scenario_keys();
 
-/// name, x, y, a, b, vx, vy of one obstacle, and its radius r.
+/// The shortest decimal that reads back to the same bits, as YAML has it.
+std::string yaml_number(double number);
+
+/// The options of one obstacle, and its radius r.
 Section obstacle_section(world::Obstacle& obstacle, const std::string& path);
 
-/// An obstacle as files write it: a circle or an ellipse, once or in a row.
+/// An obstacle as files write it, once or in a row. Its polygon, table and path are lists, which
+/// the reader takes itself.
 struct ObstacleEntry {
   world::Obstacle obstacle;
+  double length = 1, width = 1;  ///< of a box [m]
+  double speed = 0;              ///< along a path [m/s]
+  double acceleration = 0;       ///< [m/s^2]
+  world::BeyondEnd before = world::BeyondEnd::stands, after = world::BeyondEnd::goes_on;
   int repeat = 1;
   std::array<double, 2> step = {0, 0};  ///< from one to the next [m]
 };
-/// The section of an obstacle with repeat and step.
+/// The section of an obstacle with all keys that are no lists.
 Section entry_section(ObstacleEntry& entry);
 
 }  // namespace slalom::io

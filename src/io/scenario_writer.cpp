@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "obstacle_reader.hpp"
 #include "scenario_sections.hpp"
 #include "slalom/io/scenario_file.hpp"
 
@@ -13,16 +15,6 @@ namespace {
 /// `text` in double quotes; a JSON string is a YAML string.
 std::string yaml_text(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-/// The shortest decimal that reads back to the same bits. With an exponent it gets a point too, for
-/// many readers take 1e-09 for text.
-std::string yaml_number(double number) {
-  auto text = fmt::format("{}", number);
-  const auto exponent = text.find('e');
-  if (exponent != std::string::npos && text.find('.') == std::string::npos)
-    text.insert(exponent, ".0");
-  return text;
 }
 
 std::string yaml_value(const OptionInfo& info, const OptionValue& value) {
@@ -45,24 +37,38 @@ std::string block(const Section& section) {
   return text;
 }
 
-/// "{key: value, ...}" for every key that is not infinite (an absent side) and not another way to
-/// write one of the others.
-std::string flow(const Section& section) {
+/// "{key: value, ...}" for every key that is not infinite (an absent side), not another way to
+/// write one of the others, and not to be left out.
+std::string flow(const Section& section, const std::set<std::string>& without = {}) {
   std::string text;
   for (const auto& field : section.fields()) {
     const auto value = field.load();
     if (const auto* number = std::get_if<double>(&value); number && std::isinf(*number)) continue;
-    if (!field.excludes.empty()) continue;
+    if (!field.excludes.empty() || without.count(field.info.name) > 0) continue;
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", field.info.name,
                         yaml_value(field.info, value));
   }
   return "{" + text + "}";
 }
 
+/// What other keys say of an obstacle, and what has its default in a plain one.
+std::set<std::string> left_out(const world::Obstacle& o) {
+  std::set<std::string> names;
+  if (o.outline) names.insert({"a", "b"});
+  if (o.trajectory) names.insert({"x", "y", "vx", "vy", "psi"});
+  if (o.is_plain() && o.psi == 0) names.insert("psi");
+  if (o.margin_start == 0) names.insert("margin_start");
+  if (o.margin_rate == 0) names.insert("margin_rate");
+  return names;
+}
+
 std::string list(std::vector<world::Obstacle>& obstacles) {
   std::string text = obstacles.empty() ? " []\n" : "\n";
-  for (auto& obstacle : obstacles)
-    text += fmt::format("  - {}\n", flow(obstacle_section(obstacle, "obstacles")));
+  for (auto& obstacle : obstacles) {
+    auto line = flow(obstacle_section(obstacle, "obstacles"), left_out(obstacle));
+    line.insert(line.size() - 1, obstacle_extras(obstacle));
+    text += fmt::format("  - {}\n", line);
+  }
   return text;
 }
 
@@ -80,6 +86,15 @@ std::string content(const ScenarioSection& section, sim::Scenario& scenario) {
 }
 
 }  // namespace
+
+/// With an exponent it gets a point too, for many readers take 1e-09 for text.
+std::string yaml_number(double number) {
+  auto text = fmt::format("{}", number);
+  const auto exponent = text.find('e');
+  if (exponent != std::string::npos && text.find('.') == std::string::npos)
+    text.insert(exponent, ".0");
+  return text;
+}
 
 std::string to_yaml(const sim::Scenario& scenario) {
   std::string text = "# Everything resolved: this file alone gives the drive. SI units, radians.\n";

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "builder.hpp"
+#include "slalom/base/error.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -24,9 +27,9 @@ void fill_column(const Problem& problem, const Layout& layout, std::size_t famil
     case Kind::parameter:
       return same(problem.parameters()[source.index].value);
     case Kind::member: {
-      const auto& members = problem.constraints()[family].member_values;
+      const auto& rows = problem.constraints()[family];
       for (std::size_t lane = 0; lane < batch.lanes; ++lane)
-        to[lane] = members[batch.lane_member[lane]][source.index];
+        to[lane] = rows.numbers_at(batch.lane_member[lane], batch.lane_point[lane])[source.index];
     }
   }
 }
@@ -34,6 +37,15 @@ void fill_column(const Problem& problem, const Layout& layout, std::size_t famil
 }  // namespace
 
 void fill_data(const Problem& problem, Transcribed& transcribed) {
+  const std::size_t points = transcribed.layout.tau.size();
+  for (const auto& row : problem.constraints())
+    for (std::size_t m = 0; m < row.member_values.size(); ++m)
+      if (const std::size_t size = row.member_values[m].size(), once = row.symbols.size();
+          size != once && size != once * points)
+        throw InvalidValue(
+            fmt::format("{}: family {}[{}]", problem.name(), row.name, row.members[m]),
+            fmt::format("numbers for {} points", size / once),
+            fmt::format("one for each symbol, or for each of the mesh's {} points", points));
   for (std::size_t b = 0; b < transcribed.batches.size(); ++b) {
     Batch& batch = transcribed.batches[b];
     const BatchData& data = transcribed.batch_data[b];

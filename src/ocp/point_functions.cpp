@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "slalom/base/error.hpp"
+
 namespace slalom::ocp {
 namespace {
 
@@ -69,8 +71,12 @@ PointFunctions::PointFunctions(const Problem& problem, const Trajectory& at)
   for (const auto& row : problem.constraints()) {
     if (!row.enabled || !row.over_time()) continue;
     if (row.kind == Problem::Kind::path) add_row(row.name, row.value, row.bounds, row.points);
+    if (row.by_point())
+      throw InvalidValue(problem.name() + ": family " + row.name, "numbers at the points of a mesh",
+                         "numbers that hold between points too");
     for (std::size_t m = 0; m < row.member_values.size(); ++m) {
-      const std::vector<Expr> numbers(row.member_values[m].begin(), row.member_values[m].end());
+      const auto own = row.numbers_at(m);
+      const std::vector<Expr> numbers(own.begin(), own.end());
       add_row(row.name + "[" + row.members[m] + "]",
               expr::substitute({row.value}, row.symbols, numbers).front(), row.bounds, row.points);
     }

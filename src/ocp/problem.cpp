@@ -270,6 +270,18 @@ ConstraintId Problem::path_family(const std::string& name, const std::vector<Exp
   return {constraints_.size() - 1};
 }
 
+bool Problem::Constraint::by_point() const {
+  return std::any_of(member_values.begin(), member_values.end(),
+                     [&](const auto& numbers) { return numbers.size() > symbols.size(); });
+}
+
+std::span<const double> Problem::Constraint::numbers_at(std::size_t member,
+                                                        std::size_t point) const {
+  const auto& numbers = member_values[member];
+  const std::size_t first = numbers.size() > symbols.size() ? point * symbols.size() : 0;
+  return {numbers.data() + first, symbols.size()};
+}
+
 Problem::Constraint& Problem::constraint(ConstraintId id) {
   if (id.index >= constraints_.size())
     throw InvalidValue(name_, fmt::format("constraint {}", id.index),
@@ -286,9 +298,10 @@ void Problem::set_members(ConstraintId family, std::vector<std::string> names,
     throw InvalidValue(where, fmt::format("{} names, {} members", names.size(), values.size()),
                        "one name a member");
   for (const auto& numbers : values) {
-    if (numbers.size() != target.symbols.size())
+    const std::size_t once = target.symbols.size();
+    if (numbers.size() != once && (once == 0 || numbers.empty() || numbers.size() % once != 0))
       throw InvalidValue(where, fmt::format("a member with {} numbers", numbers.size()),
-                         fmt::format("{}, one a symbol", target.symbols.size()));
+                         fmt::format("{}, one a symbol, or so many for each point", once));
     if (!std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
       throw InvalidValue(where, "a member with NaN or infinity", "finite numbers");
   }

@@ -60,7 +60,7 @@ class Sizes {
     if (const double size = size_of(row.bounds); size > 0) return size;
     std::vector<Expr> values{row.value};
     if (!row.member_values.empty()) {
-      const auto& member = row.member_values.front();
+      const auto member = row.numbers_at(0);
       values = expr::substitute(values, row.symbols, {member.begin(), member.end()});
     }
     const auto symbols = expr::symbols_of(values);

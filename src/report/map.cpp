@@ -119,7 +119,7 @@ void draw_path(Svg& svg, const MapVehicle& v, const View& view) {
 void draw_vehicle(Svg& svg, const vehicle::Parameters& p, const vehicle::State& state,
                   const std::string& colour, const View& view) {
   const double size = std::max(1.0, 7 / (p.length * view.scale));
-  const double front = std::max((p.length - p.la - p.lb) / 2, 0.0) * size;
+  const double front = p.front_overhang * size;
   const double back = front - p.length * size;
   const double half = p.width / 2 * size;
   const double c = std::cos(state[vehicle::PSI]), s = std::sin(state[vehicle::PSI]);

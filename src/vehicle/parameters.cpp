@@ -22,8 +22,13 @@ void add_body(OptionTable<Parameters>& table) {
             kTable)
       .real("lb", &P::lb, Range::positive(), "m", "Distance from the c.g. to the rear axle.",
             kTable)
-      .real("width", &P::width, Range::positive(), "m", "Width as drawn; no equation uses it.")
-      .real("length", &P::length, Range::positive(), "m", "Length as drawn; no equation uses it.")
+      .real("width", &P::width, Range::positive(), "m", "Width of the body.")
+      .real("length", &P::length, Range::positive(), "m", "Length of the body.")
+      .real("front_overhang", &P::front_overhang, Range::any(), "m",
+            "From the front axle to the front of the body.")
+      .choice("footprint", &P::footprint, {"point", "rectangle"},
+              "What keeps off obstacles and stays on the road: the front axle's centre, so that "
+              "margins have to make up for the body as in the paper, or the body's rectangle.")
       .real(
           "h", &P::h, Range::positive(), "m",
           "Height of the c.g. No equation uses it; KZX, KZYR and KZYF follow from it where a file "

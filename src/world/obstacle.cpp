@@ -1,8 +1,33 @@
 #include "slalom/world/obstacle.hpp"
 
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "covering.hpp"
 #include "slalom/world/ellipse.hpp"
 
 namespace slalom::world {
+namespace {
+
+double distance_in_body(const Obstacle& o, Point p) {
+  if (!o.outline) return signed_distance_to_ellipse(p.x, p.y, o.a, o.b);
+  return o.outline->distance(p) - o.rounding;
+}
+
+/// Least signed distance to a convex body along the segment, along which it is convex.
+double distance_along(const Obstacle& o, Point from, Point to) {
+  const auto at = [&](double share) { return distance_in_body(o, from + (to - from) * share); };
+  std::uintmax_t iterations = 60;
+  const double inside = boost::math::tools::brent_find_minima(at, 0., 1., 40, iterations).second;
+  return std::min({at(0), at(1), inside});
+}
+
+}  // namespace
 
 const OptionTable<Obstacle>& obstacle_options() {
   static const auto table = [] {
@@ -15,15 +40,96 @@ const OptionTable<Obstacle>& obstacle_options() {
         .real("a", &Obstacle::a, OptionRange::positive(), "m", "Semi-axis along x.")
         .real("b", &Obstacle::b, OptionRange::positive(), "m", "Semi-axis along y.")
         .real("vx", &Obstacle::vx, any, "m/s", "Constant speed eastward.")
-        .real("vy", &Obstacle::vy, any, "m/s", "Constant speed northward.");
+        .real("vy", &Obstacle::vy, any, "m/s", "Constant speed northward.")
+        .real("psi", &Obstacle::psi, any, "rad",
+              "Direction of the body's own x axis: an ellipse's a, a box's length, a polygon's x.")
+        .real("margin_start", &Obstacle::margin_start, OptionRange::non_negative(), "m",
+              "What predictions take the obstacle to be larger by all around, at the moment of "
+              "planning.")
+        .real("margin_rate", &Obstacle::margin_rate, OptionRange::non_negative(), "m/s",
+              "And by how much more for each second ahead, for a prediction that is uncertain.");
     return t;
   }();
   return table;
 }
 
+Pose Obstacle::pose_at(double t) const {
+  if (trajectory) return trajectory->at(t);
+  return {x + vx * t, y + vy * t, psi, vx, vy, 0};
+}
+
+double Obstacle::fastest(double t0, double t1) const {
+  if (!trajectory) return std::hypot(vx, vy);
+  const Rates rates = trajectory->fastest(t0, t1);
+  return rates.speed + rates.omega * (std::max(a, b) + rounding);
+}
+
+Obstacle Obstacle::grown(double margin) const {
+  Obstacle result = *this;
+  result.a += margin;
+  result.b += margin;
+  if (outline) result.rounding += margin;
+  return result;
+}
+
 double distance(const Obstacle& obstacle, double x, double y, double t) {
-  return signed_distance_to_ellipse(x - obstacle.x_at(t), y - obstacle.y_at(t), obstacle.a,
-                                    obstacle.b);
+  if (obstacle.is_plain())
+    return signed_distance_to_ellipse(x - obstacle.x_at(t), y - obstacle.y_at(t), obstacle.a,
+                                      obstacle.b);
+  return distance_in_body(obstacle, obstacle.pose_at(t).to_body({x, y}));
+}
+
+double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, double t) {
+  const Pose pose = obstacle.pose_at(t);
+  std::vector<Point> corners;
+  for (const Point& p : polygon) corners.push_back(pose.to_body(p));
+  if (obstacle.outline) return distance(corners, obstacle.outline->corners()) - obstacle.rounding;
+  double least = std::numeric_limits<double>::infinity();
+  bool holds_centre = true;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point a = corners[k], b = corners[(k + 1) % corners.size()];
+    least = std::min(least, distance_along(obstacle, a, b));
+    holds_centre = holds_centre && cross(b - a, Point{} - a) >= 0;
+  }
+  // A polygon about the whole ellipse is nowhere inside it.
+  return holds_centre ? std::min(least, -std::min(obstacle.a, obstacle.b)) : least;
+}
+
+std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess) {
+  if (obstacle.is_plain() || (!obstacle.outline && obstacle.a == obstacle.b)) return {obstacle};
+  double left = -obstacle.a, right = obstacle.a, low = -obstacle.b, high = obstacle.b;
+  if (obstacle.outline) {
+    left = low = std::numeric_limits<double>::infinity();
+    right = high = -left;
+    for (const Point& p : obstacle.outline->corners()) {
+      left = std::min(left, p.x);
+      right = std::max(right, p.x);
+      low = std::min(low, p.y);
+      high = std::max(high, p.y);
+    }
+  }
+  const Point middle{(left + right) / 2, (low + high) / 2};
+  const bool along_x = right - left >= high - low;
+  const double length = std::max(right - left, high - low);
+  const double width = std::min(right - left, high - low);
+  std::vector<Obstacle> result;
+  for (const auto& [ahead, radius] : discs_along(length, width, excess)) {
+    const Point at = middle + (along_x ? Point{ahead, 0} : Point{0, ahead});
+    Obstacle disc = obstacle;
+    disc.outline = nullptr;
+    disc.a = disc.b = radius + obstacle.rounding;
+    disc.rounding = 0;
+    if (obstacle.trajectory) {
+      disc.trajectory = std::make_shared<OffsetTrajectory>(obstacle.trajectory, at);
+    } else {
+      const Point place = obstacle.pose_at(0).to_world(at);
+      disc.x = place.x;
+      disc.y = place.y;
+      disc.psi = 0;
+    }
+    result.push_back(std::move(disc));
+  }
+  return result;
 }
 
 }  // namespace slalom::world

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -142,7 +143,9 @@ class Problem {
   /// which take each member's numbers. Thirty-eight obstacles, for example, are one family.
   ConstraintId path_family(const std::string& name, const std::vector<Expr>& symbols,
                            const Expr& value, Bounds bounds, Points points = Points::all);
-  /// Sets the members' names and numbers (one list for each member, one number for each symbol).
+  /// Sets the members' names and numbers (one list for each member, one number for each symbol; or
+  /// one number for each symbol at each point of the mesh, point by point: then the rows are known
+  /// at these points alone, and the mesh must have as many).
   /// How many members there are may change between transcriptions, their numbers between solves.
   void set_members(ConstraintId family, std::vector<std::string> names,
                    std::vector<std::vector<double>> values);
@@ -228,6 +231,10 @@ class Problem {
     double scale = kAutomaticScale;
     Moment moment = {};  ///< of path_at
 
+    /// Whether a member of the family has numbers of its own at each point.
+    bool by_point() const;
+    /// The numbers of a member at a point of the mesh.
+    std::span<const double> numbers_at(std::size_t member, std::size_t point = 0) const;
     /// Whether it is held along the horizon.
     bool over_time() const { return kind == Kind::path || kind == Kind::family; }
     double unit() const { return scale != kAutomaticScale ? scale : 1; }

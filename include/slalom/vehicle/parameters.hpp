@@ -7,19 +7,24 @@
 
 namespace slalom::vehicle {
 
+/// What of a vehicle keeps off obstacles: the front axle's centre, or the body's rectangle.
+enum class FootprintKind { point, rectangle };
+
 /// Parameters of the 3DoF vehicle: body, load transfer, pure-slip Pacejka tyre and limits.
 /// SI units; the defaults are the HMMWV's. A file or option sets them by the same names.
 struct Parameters {
   std::string name = "hmmwv";
 
   // Body.
-  double m = 2688.7;    ///< mass [kg]
-  double Izz = 4110.1;  ///< yaw inertia about the c.g. [kg m^2]
-  double la = 1.5775;   ///< c.g. to front axle [m]
-  double lb = 1.7245;   ///< c.g. to rear axle [m]
-  double width = 2.0;   ///< drawn width [m]; no equation uses it
-  double length = 4.6;  ///< drawn length [m]; no equation uses it
-  double h = 0.98985;   ///< height of the c.g. [m]; of KZX, KZYR and KZYF where they are not stated
+  double m = 2688.7;              ///< mass [kg]
+  double Izz = 4110.1;            ///< yaw inertia about the c.g. [kg m^2]
+  double la = 1.5775;             ///< c.g. to front axle [m]
+  double lb = 1.7245;             ///< c.g. to rear axle [m]
+  double width = 2.0;             ///< of the body [m]
+  double length = 4.6;            ///< of the body [m]
+  double front_overhang = 0.649;  ///< from the front axle to the body's front [m]
+  FootprintKind footprint = FootprintKind::point;
+  double h = 0.98985;  ///< height of the c.g. [m]; of KZX, KZYR and KZYF where they are not stated
   double track = 1.51994;  ///< between the wheels of an axle [m]; of KZYR and KZYF likewise
 
   // Axle loads and load transfer.

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "slalom/vehicle/parameters.hpp"
+#include "slalom/vehicle/state.hpp"
+#include "slalom/world/obstacle.hpp"
+
+namespace slalom::world {
+
+/// A disc fixed to the vehicle: how far its centre lies ahead of the front axle's [m], on the
+/// vehicle's axis, and its radius [m].
+struct Disc {
+  double ahead = 0, radius = 0;
+};
+
+/// What of a vehicle keeps off obstacles and on the road: the front axle's centre alone, or the
+/// rectangle of the vehicle's length and width (Parameters::footprint).
+class Footprint {
+ public:
+  explicit Footprint(const vehicle::Parameters& vehicle);
+
+  bool is_point() const { return corners_.empty(); }
+  /// Corners in the vehicle's frame, whose origin is the front axle's centre; none of a point.
+  const std::vector<Point>& corners() const { return corners_; }
+  /// Corners in the world's frame.
+  std::vector<Point> at(const vehicle::State& state) const;
+  /// How far its farthest point is from the front axle's centre [m].
+  double reach() const { return reach_; }
+
+  /// Discs that cover it and stick out by at most `excess` [m], but for no more than kMostDiscs; a
+  /// point's is of radius 0.
+  std::vector<Disc> covering_discs(double excess) const;
+
+  /// Distance between the footprint of a vehicle in this state and the obstacle at t [s]; negative
+  /// where they overlap.
+  double distance(const Obstacle& obstacle, const vehicle::State& state, double t) const;
+
+ private:
+  std::vector<Point> corners_;
+  double reach_ = 0;
+};
+
+}  // namespace slalom::world
