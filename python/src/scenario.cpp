@@ -1,5 +1,6 @@
 #include "scenario.hpp"
 
+#include <array>
 #include <functional>
 
 #include "slalom/base/error.hpp"
@@ -80,7 +81,30 @@ void bind_parts(nb::module_& module) {
       .def_ro("a", &Obstacle::a, doc::world_Obstacle_a)
       .def_ro("b", &Obstacle::b, doc::world_Obstacle_b)
       .def_ro("vx", &Obstacle::vx, doc::world_Obstacle_vx)
-      .def_ro("vy", &Obstacle::vy, doc::world_Obstacle_vy);
+      .def_ro("vy", &Obstacle::vy, doc::world_Obstacle_vy)
+      .def_prop_ro(
+          "outline",
+          [](const Obstacle& o) -> std::optional<std::vector<std::array<double, 2>>> {
+            if (!o.outline) return std::nullopt;
+            std::vector<std::array<double, 2>> corners;
+            for (const auto& p : o.outline->corners()) corners.push_back({p.x, p.y});
+            return corners;
+          },
+          "Corners (x, y) [m] of a polygon in the body's own frame, counter-clockwise; None: an "
+          "ellipse.")
+      .def(
+          "pose_at",
+          [](const Obstacle& o, double t) {
+            const auto pose = o.pose_at(t);
+            return std::array<double, 6>{pose.x, pose.y, pose.psi, pose.vx, pose.vy, pose.omega};
+          },
+          "t"_a,
+          "Where it is at the absolute time t [s]: x, y [m], psi [rad], vx, vy [m/s], omega "
+          "[rad/s]. "
+          "Where it\nis absent, where it last was or first will be.")
+      .def(
+          "present", [](const Obstacle& o, double t) { return o.present(t, t); }, "t"_a,
+          "Whether it is there at the absolute time t [s].");
 }
 
 void bind_class(nb::module_& module) {

@@ -26,18 +26,11 @@ TURNED_AWAY = 10.0
 """What it costs to start in a lane of another direction [m/rad]."""
 
 
-def commonroad(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", problem: int | None = None,
-               oncoming: str = "needed") -> Scene:
-    """A CommonRoad scenario (XML 2018b or 2020a) as one of Slalom, for one of its planning problems.
-
-    `problem` is its id, by default the first. `oncoming` says whether lanes of the other way beside the way
-    count as road: "never", "always", or "needed" where something stands that leaves no room beside it.
-    Raises BadFile with what is wrong, ExtraMissing without the package's extra `commonroad`, and InvalidValue
-    for a vehicle that is none.
-    """
+def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, oncoming: str) -> Scene:
+    """See `slalom.importing.commonroad`."""
     car = Vehicle.load(vehicle)
     scenario, problems = open_file(file)
-    chosen = _chosen(file, problems.planning_problem_dict, problem)
+    chosen = chosen_problem(file, problems.planning_problem_dict, problem)
     initial = chosen.initial_state
     clock = Clock(scenario.dt, initial.time_step)
     notes = _left_out(scenario, problems.planning_problem_dict, chosen.planning_problem_id)
@@ -63,7 +56,8 @@ def commonroad(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", probl
         planner={"base": "P_E", "prediction": "known"}, notes=notes)
 
 
-def _chosen(file: str | os.PathLike[str], problems: dict[int, Any], wanted: int | None) -> Any:
+def chosen_problem(file: str | os.PathLike[str], problems: dict[int, Any], wanted: int | None) -> Any:
+    """The planning problem of that id, or the first."""
     if wanted is not None and wanted not in problems:
         raise BadFile(file, f"no planning problem {wanted}", "one of " + ", ".join(map(str, problems)))
     return problems[wanted if wanted is not None else next(iter(problems))]
