@@ -16,7 +16,7 @@ import slalom
 
 from ..importing._files import BadFile
 
-Array = npt.NDArray[np.float64]
+Array = npt.NDArray[Any]
 EXPECTED = "a folder of results of 'slalom simulate'"
 STATES = ("x", "y", "v", "r", "psi", "sa", "ux", "ax")
 

@@ -31,7 +31,7 @@ def outline(obstacle: slalom.Obstacle) -> Array:
 def placed(corners: Array, pose: tuple[float, ...] | list[float]) -> Array:
     """Corners of a body's own frame in the world's."""
     c, s = np.cos(pose[2]), np.sin(pose[2])
-    return corners @ np.array([[c, s], [-s, c]]) + np.asarray(pose[:2])
+    return np.asarray(corners @ np.array([[c, s], [-s, c]]) + np.asarray(pose[:2]))
 
 
 def moves(obstacle: slalom.Obstacle, times: Array) -> bool:

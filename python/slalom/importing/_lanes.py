@@ -136,14 +136,12 @@ def straightest(lanes: Lanes, ids: tuple[int, ...], seen: set[int]) -> Lane | No
 def extended(lanes: Lanes, way: list[Lane], before: float, beyond: float) -> list[Lane]:
     """The way with the straightest lanes before its first and beyond its last, of these lengths [m] at least."""
     way = list(way)
-    for length, ids, put in ((before, lambda: way[0].predecessors, lambda lane: way.insert(0, lane)),
-                             (beyond, lambda: way[-1].successors, way.append)):
-        while length > 0:
-            lane = straightest(lanes, ids(), {each.id for each in way})
-            if lane is None:
-                break
-            put(lane)
-            length -= lane.length
+    while before > 0 and (lane := straightest(lanes, way[0].predecessors, {each.id for each in way})):
+        way.insert(0, lane)
+        before -= lane.length
+    while beyond > 0 and (lane := straightest(lanes, way[-1].successors, {each.id for each in way})):
+        way.append(lane)
+        beyond -= lane.length
     return way
 
 

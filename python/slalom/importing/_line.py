@@ -49,7 +49,7 @@ def smoothed(points: Array, wavelength: float) -> Array:
     third = np.diff(np.eye(count), n=3, axis=0)
     at_ends = np.ones(count)
     at_ends[[0, -1]] = 1e6
-    return np.linalg.solve(np.diag(at_ends) + weight * third.T @ third, at_ends[:, None] * points)
+    return np.asarray(np.linalg.solve(np.diag(at_ends) + weight * third.T @ third, at_ends[:, None] * points))
 
 
 def headings(points: Array) -> Array:
@@ -60,7 +60,7 @@ def headings(points: Array) -> Array:
 
 def curvature(points: Array) -> Array:
     """Curvature at each point [1/m], left positive."""
-    return np.gradient(headings(points), lengths(points))
+    return np.asarray(np.gradient(headings(points), lengths(points)))
 
 
 def project(points: Array, place: Array) -> tuple[float, float, float]:

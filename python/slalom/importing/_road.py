@@ -56,7 +56,7 @@ class Road:
         return shapely.make_valid(shapely.Polygon(np.vstack([right, left[::-1]])))
 
     def points(self) -> list[list[float]]:
-        return np.column_stack([self.line, self.right, self.left]).tolist()
+        return [[float(number) for number in row] for row in np.column_stack([self.line, self.right, self.left])]
 
     def lane_lines(self) -> list[list[list[float]]]:
         """The lines between lanes beside each other, as far as they lie on the road."""
@@ -74,7 +74,7 @@ class Road:
     def _holds(self, place: Array) -> bool:
         s, left, _ = project(self.line, place)
         along = lengths(self.line)
-        return 0 < s < self.length and -np.interp(s, along, self.right) < left < np.interp(s, along, self.left)
+        return bool(0 < s < self.length and -np.interp(s, along, self.right) < left < np.interp(s, along, self.left))
 
 
 def road_along(lanes: Lanes, way: list[Lane], line: Array, oncoming: bool) -> Road:
@@ -148,4 +148,5 @@ def _narrowed(width: Array, s: Array) -> Array:
     """The least within a step of the final points, and no steeper than STEEPEST."""
     gap = np.abs(s[:, None] - s[None, :])
     least = np.min(np.where(gap <= POINT_STEP / 2, width[None, :], np.inf), axis=1)
-    return np.min(least[None, :] + STEEPEST * gap, axis=1)
+    narrowed: Array = np.min(least[None, :] + STEEPEST * gap, axis=1)
+    return narrowed

@@ -101,7 +101,7 @@ class Scene:
                 scenario["road"]["lanes"] = self.lanes
         if self.obstacles:
             scenario["obstacles"] = self.obstacles
-        return rounded(scenario)
+        return dict(rounded(scenario))
 
 
 def rounded(value: Any) -> Any:
