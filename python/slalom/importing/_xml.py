@@ -16,6 +16,11 @@ EXPECTED = f"a CommonRoad scenario, XML of version {' or '.join(VERSIONS)}"
 NUMBERS = frozenset(("x", "y", "exact", "intervalStart", "intervalEnd", "length", "width", "radius", "orientation"))
 SIZES = frozenset(("length", "width", "radius"))
 REFERENCES = frozenset(("successor", "predecessor", "adjacentLeft", "adjacentRight", "lanelet"))
+NEEDED = {"point": ("x", "y"), "center": ("x", "y"), "rectangle": ("length", "width"), "circle": ("radius",),
+          "initialState": ("position", "time"), "state": ("time",), "goalState": ("time",), "occupancy": ("shape", "time"),
+          "staticObstacle": ("type", "shape", "initialState"), "dynamicObstacle": ("type", "shape", "initialState"),
+          "obstacle": ("role", "type", "shape", "initialState"), "trafficSignElement": ("trafficSignID",)}
+"""What elements must hold."""
 MISSING = "CommonRoad's reader is missing: python3 -m pip install 'slalom[commonroad]'"
 
 
@@ -67,6 +72,7 @@ def check(file: str | os.PathLike[str], content: bytes) -> Any:
     step = _number(root.get("timeStepSize"))
     if step is None or step <= 0:
         raise BadFile(file, f"timeStepSize {root.get('timeStepSize')!r}", "seconds above zero", root.sourceline)
+    _check_elements(file, root)
     _check_numbers(file, root)
     _check_lanelets(file, root)
     if root.find("planningProblem") is None:
@@ -75,6 +81,18 @@ def check(file: str | os.PathLike[str], content: bytes) -> Any:
         if problem.find("initialState/position") is None:
             raise BadFile(file, "a planningProblem without initialState and position", "a start", problem.sourceline)
     return root
+
+
+def _check_elements(file: str | os.PathLike[str], root: Any) -> None:
+    for element in root.iter():
+        for name in NEEDED.get(element.tag, ()):
+            if element.find(name) is None:
+                raise BadFile(file, f"<{element.tag}> without <{name}>", f"one with {', '.join(NEEDED[element.tag])}", element.sourceline)
+        if element.tag in ("shape", "position") and not len(element):
+            raise BadFile(file, f"an empty <{element.tag}>", "a place or a shape", element.sourceline)
+        number = element.get("id") if isinstance(element.tag, str) else None
+        if number is not None and not number.lstrip("-").isdigit():
+            raise BadFile(file, f"the id {number!r} of <{element.tag}>", "a whole number", element.sourceline)
 
 
 def _check_numbers(file: str | os.PathLike[str], root: Any) -> None:
