@@ -33,7 +33,7 @@ obstacles:
 def folder(tmp_path_factory):
     base = tmp_path_factory.mktemp("drive")
     (base / "small.yaml").write_text(SCENARIO)
-    subprocess.run([PROGRAM, "simulate", base / "small.yaml", "--out", base / "out", "--quiet"], check=True)
+    slalom.simulate(base / "small.yaml").write(base / "out")
     return base / "out"
 
 
@@ -120,11 +120,8 @@ def test_a_commonroad_solution(tmp_path):
     from commonroad.common.solution import CommonRoadSolutionReader
 
     (tmp_path / "small.xml").write_text(scenes.commonroad())
-    base = slalom.load_scenario("E_B", planner="P_D", set={"loop.timeout": 1})
-    text = SCENARIO.replace("hmmwv", "bmw_320i").replace("ux: 10}", "ux: 10}\nloop: {sm_crash: 0, timeout: 1.03}", 1)
-    (tmp_path / "small.yaml").write_text(text.rsplit("loop: {sm_crash: 0}\n", 1)[0] + "obstacles: []\n")
-    assert base["loop.timeout"] == 1
-    subprocess.run([PROGRAM, "simulate", tmp_path / "small.yaml", "--out", tmp_path / "out", "--quiet"], check=True)
+    (tmp_path / "small.yaml").write_text(SCENARIO.replace("hmmwv", "bmw_320i"))
+    slalom.simulate(tmp_path / "small.yaml", set={"loop.timeout": 1.03}).write(tmp_path / "out")
     file = tmp_path / "solution.xml"
     exporting.commonroad_solution(tmp_path / "out", file, scenario=tmp_path / "small.xml")
     solution = CommonRoadSolutionReader.open(str(file))

@@ -48,7 +48,7 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
     notes += way.notes + [f"road: {each}" for each in blocked]
     t_max = goal.get("time", goal.get("t_max"))
     return Scene(
-        name=pathlib.Path(file).stem, vehicle=car, start=start, goal=goal,
+        name=pathlib.Path(file).stem, file=pathlib.Path(file), vehicle=car, start=start, goal=goal,
         source=[f"Imported from {pathlib.Path(file).name}, CommonRoad {scenario.scenario_id.scenario_version}",
                 f"Benchmark {scenario.scenario_id}, planning problem {chosen.planning_problem_id}, dt {scenario.dt:g} s"],
         timeout=float(np.ceil(t_max + 1)) if t_max else 60.0,

@@ -4,6 +4,7 @@ import contextlib
 import os
 import pathlib
 import tempfile
+from typing import Callable
 
 MOST_BYTES = 64_000_000
 
@@ -35,14 +36,18 @@ def read(file: "str | os.PathLike[str]", expected: str) -> bytes:
     return content
 
 
-def write_whole(file: pathlib.Path, text: str, force: bool) -> None:
-    """Writes a file whole or not at all. Raises FileExistsError where one stands and `force` is not given."""
+def write_whole(file: pathlib.Path, text: str, force: bool, check: Callable[[pathlib.Path], None] = lambda part: None) -> None:
+    """Writes a file whole or not at all: it takes its place once `check` has had it, under another name.
+
+    Raises FileExistsError where one stands and `force` is not given.
+    """
     if file.exists() and not force:
         raise FileExistsError(f"{file}: stands already; --force replaces it")
-    handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.")
+    handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.stem}.", suffix=file.suffix)
     try:
         with os.fdopen(handle, "w", encoding="utf-8") as stream:
             stream.write(text)
+        check(pathlib.Path(name))
         os.chmod(name, 0o666 & ~_umask())
         os.replace(name, file)
     except BaseException:

@@ -11,7 +11,7 @@ from typing import Any, Iterable
 
 import slalom
 
-from ._files import write_whole
+from ._files import BadFile, write_whole
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,7 @@ class Scene:
     """A scenario on its way to its file. Frame and units are those of a scenario file."""
 
     name: str
+    file: pathlib.Path
     source: list[str]
     """What it was made from, a line each."""
     vehicle: Vehicle
@@ -84,35 +85,17 @@ class Scene:
         return "\n".join(lines) + "\n"
 
     def write(self, file: str | os.PathLike[str], force: bool = False) -> None:
-        """Writes the file, whole or not at all, once slalom has read it as a scenario."""
-        text = self.yaml()
-        slalom.load_scenario(self.as_dict())
-        write_whole(pathlib.Path(file), text, force)
+        """Writes the file, whole or not at all. Raises BadFile where Slalom refuses the scenario, and OSError."""
+        path = pathlib.Path(file)
 
-    def as_dict(self) -> dict[str, Any]:
-        """What the file says, as `slalom.load_scenario` takes it."""
-        scenario: dict[str, Any] = {
-            "name": self.name, "vehicle": {"base": self.vehicle.name, "footprint": "rectangle"},
-            "planner": self.planner, "start": self.start, "goal": self.goal,
-            "loop": {"sm_crash": 0, "timeout": self.timeout}}
-        if self.points:
-            scenario["road"] = {"closed": self.closed, "points": self.points}
-            if self.lanes:
-                scenario["road"]["lanes"] = self.lanes
-        if self.obstacles:
-            scenario["obstacles"] = self.obstacles
-        return dict(rounded(scenario))
+        def check(part: pathlib.Path) -> None:
+            try:
+                slalom.load_scenario(part)
+            except slalom.Error as error:
+                raise BadFile(self.file, f"a scenario that is refused ({str(error).replace(str(part), str(path))})",
+                              "one that can be driven") from None
 
-
-def rounded(value: Any) -> Any:
-    """`value` with its numbers as the file has them."""
-    if isinstance(value, dict):
-        return {key: rounded(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [rounded(entry) for entry in value]
-    if isinstance(value, bool) or not isinstance(value, float):
-        return value
-    return float(_number(value))
+        write_whole(path, self.yaml(), force, check)
 
 
 def _number(value: float) -> str:

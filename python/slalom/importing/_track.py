@@ -36,7 +36,7 @@ def track(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", speed: flo
     total = float(lengths(np.vstack([line, line[:1]]))[-1])
     name = pathlib.Path(file).stem
     return Scene(
-        name=name, source=[f"Imported from the race track {pathlib.Path(file).name}: {len(line)} points, {total:.0f} m"],
+        name=name, file=pathlib.Path(file), source=[f"Imported from the race track {pathlib.Path(file).name}: {len(line)} points, {total:.0f} m"],
         vehicle=car, start={"x": float(line[0, 0]), "y": float(line[0, 1]), "psi": psi, "ux": max(speed, car.ux_min)},
         goal={"laps": laps}, timeout=float(np.ceil(laps * total / 5)), points=rows.tolist(), closed=True,
         planner={"base": "P_E", "prediction": "known"}, notes=notes)
