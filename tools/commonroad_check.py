@@ -22,8 +22,10 @@ import warnings
 
 # What gaps between neighbouring lanelets may have [m]: their edges are rounded in the files.
 SEAM = 0.01
-HEAD = ("| scenario | drive ended as | at [s] | collision | off the road | least distance [m] | goal reached | judges |\n"
-        "|---|---|---|---|---|---|---|---|")
+HEAD = (
+    "| scenario | drive ended as | at [s] | collision | off the road | least distance [m] | goal reached | judges |\n"
+    "|---|---|---|---|---|---|---|---|"
+)
 
 
 def shape_of(occupancy):
@@ -78,8 +80,10 @@ def by_checker(scenario, states, length, width):
     for state in states:
         body.append_obstacle(pycrcc.RectOBB(length / 2, width / 2, state.orientation, *map(float, state.position)))
     checker = create_collision_checker(scenario)
-    collision = next((s.time_step for s in states if checker.time_slice(s.time_step).collide(
-        body.obstacle_at_time(s.time_step))), None)
+    collision = next(
+        (s.time_step for s in states if checker.time_slice(s.time_step).collide(body.obstacle_at_time(s.time_step))),
+        None,
+    )
     road = boundary.create_road_polygons(scenario, method="lane_polygons", buffer=SEAM, resample=False)
     off = trajectory_queries.trajectories_enclosure_polygons_static([body], road)[0]
     return collision, (None if off < 0 else off)
@@ -109,8 +113,15 @@ def judged(xml, solution_file):
     if problem.goal.state_list:
         step = next((s.time_step for s in states if problem.goal.is_reached(s)), None)
         reached = "no" if step is None else f"{step * scenario.dt:.2f} s"
-    return {"end": states[-1].time_step * scenario.dt, "collision": collision, "off": off, "least": least,
-            "reached": reached, "judges": judges, "dt": scenario.dt}
+    return {
+        "end": states[-1].time_step * scenario.dt,
+        "collision": collision,
+        "off": off,
+        "least": least,
+        "reached": reached,
+        "judges": judges,
+        "dt": scenario.dt,
+    }
 
 
 def pairs(scenarios, drives):
@@ -125,9 +136,13 @@ def pairs(scenarios, drives):
 
 def row(name, summary, verdict):
     ended = json.loads(summary.read_text())["outcome"] if summary.exists() else ""
-    when = [("no" if verdict[key] is None else f"from {verdict[key] * verdict['dt']:.2f} s") for key in ("collision", "off")]
-    return (f"| {name} | {ended} | {verdict['end']:.2f} | {when[0]} | {when[1]} | {verdict['least']:.2f} | {verdict['reached']} | "
-            f"{verdict['judges']} |")
+    when = [
+        ("no" if verdict[key] is None else f"from {verdict[key] * verdict['dt']:.2f} s") for key in ("collision", "off")
+    ]
+    return (
+        f"| {name} | {ended} | {verdict['end']:.2f} | {when[0]} | {when[1]} | {verdict['least']:.2f} | {verdict['reached']} | "
+        f"{verdict['judges']} |"
+    )
 
 
 def main():

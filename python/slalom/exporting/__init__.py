@@ -1,7 +1,7 @@
 """Drives in other formats: `mcap` for Foxglove, `rerun`, and `commonroad_solution` for CommonRoad's checkers.
 
-    import slalom.exporting
-    slalom.exporting.mcap("drives/E_C", "E_C.mcap")
+import slalom.exporting
+slalom.exporting.mcap("drives/E_C", "E_C.mcap")
 """
 
 from __future__ import annotations
@@ -37,8 +37,9 @@ def rerun(folder: _Path, file: _Path, *, force: bool = False) -> None:
         write_rerun(drive, part)
 
 
-def commonroad_solution(folder: _Path, file: _Path, *, scenario: _Path, problem: int | None = None, cost: str = "JB1",
-                        force: bool = False) -> None:
+def commonroad_solution(
+    folder: _Path, file: _Path, *, scenario: _Path, problem: int | None = None, cost: str = "JB1", force: bool = False
+) -> None:
     """Writes the drive of a results folder as a solution of the CommonRoad scenario that its own was imported from."""
     try:
         from ._solution import solution

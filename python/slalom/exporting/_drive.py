@@ -63,8 +63,14 @@ def read_drive(folder: str | os.PathLike[str]) -> Drive:
     except ValueError as error:
         raise BadFile(path / "summary.json", f"no JSON ({error})", EXPECTED) from None
     starts = np.flatnonzero(np.diff(plans["cycle"], prepend=-1.0))
-    parts = [{name: part for name, part in zip(plans, split)}
-             for split in zip(*(np.split(values, starts[1:]) for values in plans.values()))] if len(plans["t"]) else []
+    parts = (
+        [
+            {name: part for name, part in zip(plans, split)}
+            for split in zip(*(np.split(values, starts[1:]) for values in plans.values()))
+        ]
+        if len(plans["t"])
+        else []
+    )
     return Drive(path, slalom.load_scenario(path / "resolved.yaml"), summary, plant, parts, _rows(path / "cycles.csv"))
 
 
@@ -87,7 +93,9 @@ def _columns(file: pathlib.Path, needed: tuple[str, ...]) -> dict[str, Array]:
         if name not in names:
             raise BadFile(file, f"no column {name}", EXPECTED, 1)
     try:
-        values = np.array([[float(cell or "nan") for cell in row] for row in rows], dtype=float).reshape(len(rows), len(names))
+        values = np.array([[float(cell or "nan") for cell in row] for row in rows], dtype=float).reshape(
+            len(rows), len(names)
+        )
     except ValueError as error:
         raise BadFile(file, str(error), "numbers") from None
     if needed[0] == "t" and len(rows) < 2:

@@ -23,8 +23,10 @@ def time_of(t: float) -> Message:
 
 
 def pose_of(x: float, y: float, psi: float, z: float = 0.0) -> Message:
-    return {"position": {"x": float(x), "y": float(y), "z": float(z)},
-            "orientation": {"x": 0.0, "y": 0.0, "z": float(np.sin(psi / 2)), "w": float(np.cos(psi / 2))}}
+    return {
+        "position": {"x": float(x), "y": float(y), "z": float(z)},
+        "orientation": {"x": 0.0, "y": 0.0, "z": float(np.sin(psi / 2)), "w": float(np.cos(psi / 2))},
+    }
 
 
 def colour(red: float, green: float, blue: float, alpha: float = 1.0) -> Message:
@@ -33,8 +35,16 @@ def colour(red: float, green: float, blue: float, alpha: float = 1.0) -> Message
 
 def line(points: Array, kind: int, thickness: float, tint: Message, z: float = 0.02) -> Message:
     """A line [m] through points (n, 2)."""
-    return {"type": kind, "pose": NO_POSE, "thickness": thickness, "scale_invariant": False, "color": tint, "colors": [],
-            "indices": [], "points": [{"x": float(x), "y": float(y), "z": z} for x, y in points]}
+    return {
+        "type": kind,
+        "pose": NO_POSE,
+        "thickness": thickness,
+        "scale_invariant": False,
+        "color": tint,
+        "colors": [],
+        "indices": [],
+        "points": [{"x": float(x), "y": float(y), "z": z} for x, y in points],
+    }
 
 
 def box(length: float, width: float, height: float, pose: Message, tint: Message) -> Message:
@@ -51,27 +61,61 @@ def prism(corners: Array, height: float, tint: Message) -> Message:
 
 
 def text(words: str, x: float, y: float, z: float, size: float, tint: Message) -> Message:
-    return {"pose": pose_of(x, y, 0.0, z), "billboard": True, "font_size": size, "scale_invariant": False, "color": tint,
-            "text": words}
+    return {
+        "pose": pose_of(x, y, 0.0, z),
+        "billboard": True,
+        "font_size": size,
+        "scale_invariant": False,
+        "color": tint,
+        "text": words,
+    }
 
 
-def entity(name: str, t: float, *, lines: Iterable[Message] = (), cubes: Iterable[Message] = (),
-           triangles: Iterable[Message] = (), texts: Iterable[Message] = (), metadata: Iterable[tuple[str, str]] = ()) -> Message:
+def entity(
+    name: str,
+    t: float,
+    *,
+    lines: Iterable[Message] = (),
+    cubes: Iterable[Message] = (),
+    triangles: Iterable[Message] = (),
+    texts: Iterable[Message] = (),
+    metadata: Iterable[tuple[str, str]] = (),
+) -> Message:
     """A foxglove.SceneEntity that stays until one of its name replaces it."""
-    return {"timestamp": time_of(t), "frame_id": WORLD, "id": name, "lifetime": ZERO, "frame_locked": False,
-            "metadata": [{"key": key, "value": value} for key, value in metadata],
-            "arrows": [], "cubes": list(cubes), "spheres": [], "cylinders": [], "lines": list(lines),
-            "triangles": list(triangles), "texts": list(texts), "models": []}
+    return {
+        "timestamp": time_of(t),
+        "frame_id": WORLD,
+        "id": name,
+        "lifetime": ZERO,
+        "frame_locked": False,
+        "metadata": [{"key": key, "value": value} for key, value in metadata],
+        "arrows": [],
+        "cubes": list(cubes),
+        "spheres": [],
+        "cylinders": [],
+        "lines": list(lines),
+        "triangles": list(triangles),
+        "texts": list(texts),
+        "models": [],
+    }
 
 
 def scene_update(entities: Iterable[Message], deleted: Iterable[tuple[str, float]] = ()) -> Message:
-    return {"deletions": [{"timestamp": time_of(t), "type": 0, "id": name} for name, t in deleted], "entities": list(entities)}
+    return {
+        "deletions": [{"timestamp": time_of(t), "type": 0, "id": name} for name, t in deleted],
+        "entities": list(entities),
+    }
 
 
 def frame_transform(child: str, t: float, x: float, y: float, psi: float) -> Message:
     pose = pose_of(x, y, psi)
-    return {"timestamp": time_of(t), "parent_frame_id": WORLD, "child_frame_id": child, "translation": pose["position"],
-            "rotation": pose["orientation"]}
+    return {
+        "timestamp": time_of(t),
+        "parent_frame_id": WORLD,
+        "child_frame_id": child,
+        "translation": pose["position"],
+        "rotation": pose["orientation"],
+    }
 
 
 def pose_in_frame(t: float, x: float, y: float, psi: float) -> Message:
@@ -89,7 +133,10 @@ def _list(items: Message) -> Message:
 
 NUMBER, TEXT, BOOLEAN = {"type": "number"}, {"type": "string"}, {"type": "boolean"}
 _INTEGER = {"type": "integer"}
-_TIME = {**_object(sec={"type": "integer", "minimum": 0}, nsec={"type": "integer", "minimum": 0, "maximum": 999999999}), "title": "time"}
+_TIME = {
+    **_object(sec={"type": "integer", "minimum": 0}, nsec={"type": "integer", "minimum": 0, "maximum": 999999999}),
+    "title": "time",
+}
 _DURATION = {**_object(sec=_INTEGER, nsec={"type": "integer", "minimum": 0, "maximum": 999999999}), "title": "duration"}
 _VECTOR = _object(x=NUMBER, y=NUMBER, z=NUMBER)
 _QUATERNION = _object(x=NUMBER, y=NUMBER, z=NUMBER, w=NUMBER)
@@ -97,20 +144,46 @@ _POSE = _object(position=_VECTOR, orientation=_QUATERNION)
 _COLOUR = _object(r=NUMBER, g=NUMBER, b=NUMBER, a=NUMBER)
 _MESH = dict(pose=_POSE, points=_list(_VECTOR), color=_COLOUR, colors=_list(_COLOUR), indices=_list(_INTEGER))
 _ENTITY = _object(
-    timestamp=_TIME, frame_id=TEXT, id=TEXT, lifetime=_DURATION, frame_locked=BOOLEAN,
-    metadata=_list(_object(key=TEXT, value=TEXT)), arrows=_list({"type": "object"}),
-    cubes=_list(_object(pose=_POSE, size=_VECTOR, color=_COLOUR)), spheres=_list({"type": "object"}),
+    timestamp=_TIME,
+    frame_id=TEXT,
+    id=TEXT,
+    lifetime=_DURATION,
+    frame_locked=BOOLEAN,
+    metadata=_list(_object(key=TEXT, value=TEXT)),
+    arrows=_list({"type": "object"}),
+    cubes=_list(_object(pose=_POSE, size=_VECTOR, color=_COLOUR)),
+    spheres=_list({"type": "object"}),
     cylinders=_list({"type": "object"}),
-    lines=_list(_object(type={"type": "integer", "oneOf": [{"title": name, "const": k} for k, name in enumerate(
-        ("LINE_STRIP", "LINE_LOOP", "LINE_LIST"))]}, thickness=NUMBER, scale_invariant=BOOLEAN, **_MESH)),
+    lines=_list(
+        _object(
+            type={
+                "type": "integer",
+                "oneOf": [
+                    {"title": name, "const": k} for k, name in enumerate(("LINE_STRIP", "LINE_LOOP", "LINE_LIST"))
+                ],
+            },
+            thickness=NUMBER,
+            scale_invariant=BOOLEAN,
+            **_MESH,
+        )
+    ),
     triangles=_list(_object(**_MESH)),
-    texts=_list(_object(pose=_POSE, billboard=BOOLEAN, font_size=NUMBER, scale_invariant=BOOLEAN, color=_COLOUR, text=TEXT)),
-    models=_list({"type": "object"}))
-_DELETION = _object(timestamp=_TIME, type={"type": "integer", "oneOf": [{"title": "MATCHING_ID", "const": 0}, {"title": "ALL", "const": 1}]}, id=TEXT)
+    texts=_list(
+        _object(pose=_POSE, billboard=BOOLEAN, font_size=NUMBER, scale_invariant=BOOLEAN, color=_COLOUR, text=TEXT)
+    ),
+    models=_list({"type": "object"}),
+)
+_DELETION = _object(
+    timestamp=_TIME,
+    type={"type": "integer", "oneOf": [{"title": "MATCHING_ID", "const": 0}, {"title": "ALL", "const": 1}]},
+    id=TEXT,
+)
 
 SCHEMAS: dict[str, Message] = {
     "foxglove.SceneUpdate": _object(deletions=_list(_DELETION), entities=_list(_ENTITY)),
-    "foxglove.FrameTransform": _object(timestamp=_TIME, parent_frame_id=TEXT, child_frame_id=TEXT, translation=_VECTOR, rotation=_QUATERNION),
+    "foxglove.FrameTransform": _object(
+        timestamp=_TIME, parent_frame_id=TEXT, child_frame_id=TEXT, translation=_VECTOR, rotation=_QUATERNION
+    ),
     "foxglove.PoseInFrame": _object(timestamp=_TIME, frame_id=TEXT, pose=_POSE),
 }
 for _name, _schema in SCHEMAS.items():
@@ -119,4 +192,8 @@ for _name, _schema in SCHEMAS.items():
 
 def numbers_schema(title: str, names: Iterable[str]) -> Message:
     """Of a message of signals: a number, or null where there is none, for each name."""
-    return {"title": title, "type": "object", "properties": {name: {"type": ["number", "string", "null"]} for name in names}}
+    return {
+        "title": title,
+        "type": "object",
+        "properties": {name: {"type": ["number", "string", "null"]} for name in names},
+    }

@@ -16,15 +16,21 @@ from ._shapes import believed, goal_outline, moves, outline, placed, vehicle_box
 
 FRAME_STEP = 0.05
 """Between scenes [s]."""
-BLUE, GREY, RED, GREEN, ORANGE = (fox.colour(*rgb) for rgb in (
-    (0.16, 0.44, 0.85), (0.45, 0.45, 0.45), (0.80, 0.20, 0.15), (0.15, 0.60, 0.30), (0.93, 0.55, 0.10)))
+BLUE, GREY, RED, GREEN, ORANGE = (
+    fox.colour(*rgb)
+    for rgb in ((0.16, 0.44, 0.85), (0.45, 0.45, 0.45), (0.80, 0.20, 0.15), (0.15, 0.60, 0.30), (0.93, 0.55, 0.10))
+)
 GHOSTS = 5
 """How many of a plan's times show where it expects the obstacles."""
 
 Entry = tuple[str, str, float, fox.Message]
 """Topic, schema, time [s] and message."""
-SIGNALS = {"/state": STATES, "/control": ("sr", "jx"), "/wheel_loads": ("Fz_rl", "Fz_rr", "Fz_fl", "Fz_fr"),
-           "/clearance": ("clearance",)}
+SIGNALS = {
+    "/state": STATES,
+    "/control": ("sr", "jx"),
+    "/wheel_loads": ("Fz_rl", "Fz_rr", "Fz_fl", "Fz_fr"),
+    "/clearance": ("clearance",),
+}
 
 
 def write_mcap(drive: Drive, stream: BinaryIO) -> None:
@@ -35,15 +41,16 @@ def write_mcap(drive: Drive, stream: BinaryIO) -> None:
         raise ExtraMissing("the package mcap is missing: python3 -m pip install 'slalom[mcap]'") from None
     writer = Writer(stream)
     writer.start(profile="", library=f"slalom {__version__}")
-    writer.add_metadata("slalom", {key: str(drive.summary.get(key)) for key in ("scenario", "planner", "vehicle", "outcome", "message")})
+    writer.add_metadata(
+        "slalom", {key: str(drive.summary.get(key)) for key in ("scenario", "planner", "vehicle", "outcome", "message")}
+    )
     channels: dict[str, int] = {}
     schemas = dict(fox.SCHEMAS)
     for number, (topic, schema, t, message) in enumerate(sorted(_entries(drive), key=lambda entry: entry[2])):
         if topic not in channels:
             body = schemas.get(schema) or fox.numbers_schema(schema, message)
             data = json.dumps(body).encode()
-            channels[topic] = writer.register_channel(
-                topic, "json", writer.register_schema(schema, "jsonschema", data))
+            channels[topic] = writer.register_channel(topic, "json", writer.register_schema(schema, "jsonschema", data))
         stamp = round(t * 1e9)
         writer.add_message(channels[topic], stamp, json.dumps(message, allow_nan=False).encode(), stamp, number)
     writer.finish()
@@ -68,7 +75,9 @@ def _signals(drive: Drive) -> Iterator[Entry]:
     for topic, names in SIGNALS.items():
         there = [name for name in names if name in drive.plant]
         for k, t in enumerate(drive.t):
-            yield topic, "slalom" + topic.replace("/", "."), float(t), {name: _plain(drive.plant[name][k]) for name in there}
+            yield topic, "slalom" + topic.replace("/", "."), float(t), {
+                name: _plain(drive.plant[name][k]) for name in there
+            }
 
 
 def _cycles(drive: Drive) -> Iterator[Entry]:
@@ -96,8 +105,12 @@ def _map(drive: Drive) -> fox.Message:
 
 def _body(obstacle: Any, t: float, pose: Any, tint: fox.Message) -> fox.Message:
     corners = placed(outline(obstacle), pose)
-    return fox.entity(f"obstacle {obstacle.name}", t, triangles=[fox.prism(corners, 1.5, tint)],
-                      texts=[fox.text(obstacle.name, pose[0], pose[1], 2.0, 0.6, GREY)])
+    return fox.entity(
+        f"obstacle {obstacle.name}",
+        t,
+        triangles=[fox.prism(corners, 1.5, tint)],
+        texts=[fox.text(obstacle.name, pose[0], pose[1], 2.0, 0.6, GREY)],
+    )
 
 
 def _scenes(drive: Drive) -> Iterator[Entry]:
@@ -116,7 +129,9 @@ def _scenes(drive: Drive) -> Iterator[Entry]:
         there = [o for o in moving if o.present(t)]
         entities += [_body(o, t, o.pose_at(t), RED) for o in there]
         absent = {f"obstacle {o.name}" for o in moving} - {f"obstacle {o.name}" for o in there}
-        yield "/scene", "foxglove.SceneUpdate", t, fox.scene_update(entities, ((name, t) for name in sorted(absent - gone)))
+        yield "/scene", "foxglove.SceneUpdate", t, fox.scene_update(
+            entities, ((name, t) for name in sorted(absent - gone))
+        )
         gone = absent
 
 
@@ -125,10 +140,20 @@ def _plans(drive: Drive) -> Iterator[Entry]:
     moving = [o for o in drive.scenario.obstacles if moves(o, drive.t)]
     for plan in drive.plans:
         row = drive.cycle(int(plan["cycle"][0]))
-        t = float(row["t_swap"] if isinstance(row.get("t_swap"), float) and math.isfinite(row["t_swap"]) else plan["t_start"][0])
+        t = float(
+            row["t_swap"]
+            if isinstance(row.get("t_swap"), float) and math.isfinite(row["t_swap"])
+            else plan["t_start"][0]
+        )
         nodes = np.column_stack([plan["x"], plan["y"]])
-        entities = [fox.entity("plan", t, lines=[fox.line(nodes, fox.STRIP, 0.25, BLUE, 0.05)],
-                               metadata=[("cycle", f"{row['cycle']:g}"), ("status", str(row["status"]))])]
+        entities = [
+            fox.entity(
+                "plan",
+                t,
+                lines=[fox.line(nodes, fox.STRIP, 0.25, BLUE, 0.05)],
+                metadata=[("cycle", f"{row['cycle']:g}"), ("status", str(row["status"]))],
+            )
+        ]
         times = np.linspace(plan["t"][0], plan["t"][-1], GHOSTS)
         for obstacle in moving:
             poses = believed(drive, obstacle, float(row["t0"]), times)

@@ -21,7 +21,9 @@ def write_rerun(drive: Drive, file: pathlib.Path) -> None:
         import rerun
     except ImportError:
         raise ExtraMissing("the package rerun-sdk is missing: python3 -m pip install 'slalom[rerun]'") from None
-    recording = rerun.RecordingStream("slalom", recording_id=f"{drive.summary.get('scenario')} {drive.summary.get('planner')}")
+    recording = rerun.RecordingStream(
+        "slalom", recording_id=f"{drive.summary.get('scenario')} {drive.summary.get('planner')}"
+    )
     recording.save(file)
     _still(rerun, recording, drive)
     _signals(rerun, recording, drive)
@@ -41,13 +43,25 @@ def _still(rerun: Any, recording: Any, drive: Drive) -> None:
         recording.log("map/goal", rerun.LineStrips2D([_closed(goal)], colors=[38, 153, 77]), static=True)
     road = getattr(drive.scenario, "road", None)
     if road is not None:
-        recording.log("map/road", rerun.LineStrips2D([np.asarray(road.right), np.asarray(road.left)], colors=[115, 115, 115]), static=True)
+        recording.log(
+            "map/road",
+            rerun.LineStrips2D([np.asarray(road.right), np.asarray(road.left)], colors=[115, 115, 115]),
+            static=True,
+        )
         if len(road.lanes):
-            recording.log("map/lanes", rerun.LineStrips2D([np.asarray(lane) for lane in road.lanes], colors=[180, 180, 180]), static=True)
+            recording.log(
+                "map/lanes",
+                rerun.LineStrips2D([np.asarray(lane) for lane in road.lanes], colors=[180, 180, 180]),
+                static=True,
+            )
     standing = [o for o in drive.scenario.obstacles if not moves(o, drive.t)]
     if standing:
         rings = [_closed(placed(outline(o), o.pose_at(0.0))) for o in standing]
-        recording.log("map/obstacles", rerun.LineStrips2D(rings, colors=[204, 51, 38], labels=[o.name for o in standing]), static=True)
+        recording.log(
+            "map/obstacles",
+            rerun.LineStrips2D(rings, colors=[204, 51, 38], labels=[o.name for o in standing]),
+            static=True,
+        )
 
 
 def _signals(rerun: Any, recording: Any, drive: Drive) -> None:
@@ -55,12 +69,17 @@ def _signals(rerun: Any, recording: Any, drive: Drive) -> None:
     for topic, names in SIGNALS.items():
         for name in names:
             if name in drive.plant:
-                recording.send_columns(f"signals{topic}/{name}", columns, rerun.Scalars.columns(scalars=drive.plant[name]))
+                recording.send_columns(
+                    f"signals{topic}/{name}", columns, rerun.Scalars.columns(scalars=drive.plant[name])
+                )
     numbers = [name for name, value in (drive.cycles[0] if drive.cycles else {}).items() if isinstance(value, float)]
     for name in numbers:
         rows = [row for row in drive.cycles if isinstance(row[name], float)]
-        recording.send_columns(f"cycle/{name}", [rerun.TimeColumn(TIME, duration=[row["t0"] for row in rows])],
-                               rerun.Scalars.columns(scalars=[row[name] for row in rows]))
+        recording.send_columns(
+            f"cycle/{name}",
+            [rerun.TimeColumn(TIME, duration=[row["t0"] for row in rows])],
+            rerun.Scalars.columns(scalars=[row[name] for row in rows]),
+        )
 
 
 def _moving(rerun: Any, recording: Any, drive: Drive) -> None:
@@ -75,7 +94,9 @@ def _moving(rerun: Any, recording: Any, drive: Drive) -> None:
         recording.log("scene/vehicle", rerun.LineStrips2D([_closed(placed(body, pose))], colors=[41, 112, 217]))
         there = [o for o in moving if o.present(t)]
         rings = [_closed(placed(outline(o), o.pose_at(t))) for o in there]
-        recording.log("scene/obstacles", rerun.LineStrips2D(rings, colors=[204, 51, 38], labels=[o.name for o in there]))
+        recording.log(
+            "scene/obstacles", rerun.LineStrips2D(rings, colors=[204, 51, 38], labels=[o.name for o in there])
+        )
 
 
 def _plans(rerun: Any, recording: Any, drive: Drive) -> None:
@@ -83,7 +104,14 @@ def _plans(rerun: Any, recording: Any, drive: Drive) -> None:
     for plan in drive.plans:
         row = drive.cycle(int(plan["cycle"][0]))
         recording.set_time(TIME, duration=min(float(plan["t_start"][0]), float(drive.t[-1])))
-        recording.log("scene/plan", rerun.LineStrips2D([np.column_stack([plan["x"], plan["y"]])], colors=[41, 112, 217]))
+        recording.log(
+            "scene/plan", rerun.LineStrips2D([np.column_stack([plan["x"], plan["y"]])], colors=[41, 112, 217])
+        )
         times = np.linspace(plan["t"][0], plan["t"][-1], GHOSTS)
-        rings = [_closed(placed(outline(o), pose)) for o in moving for pose in believed(drive, o, float(row["t0"]), times) if pose]
+        rings = [
+            _closed(placed(outline(o), pose))
+            for o in moving
+            for pose in believed(drive, o, float(row["t0"]), times)
+            if pose
+        ]
         recording.log("scene/expected", rerun.LineStrips2D(rings, colors=[237, 140, 26]))

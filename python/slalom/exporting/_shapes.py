@@ -41,7 +41,9 @@ def moves(obstacle: slalom.Obstacle, times: Array) -> bool:
     return any(obstacle.pose_at(t)[:3] != first or not obstacle.present(t) for t in looked_at)
 
 
-def believed(drive: Drive, obstacle: slalom.Obstacle, t0: float, times: Array) -> list[tuple[float, float, float] | None]:
+def believed(
+    drive: Drive, obstacle: slalom.Obstacle, t0: float, times: Array
+) -> list[tuple[float, float, float] | None]:
     """Where a plan made at `t0` expects an obstacle at `times`; None where it is not expected."""
     scenario = drive.scenario
     rule = scenario["planner.prediction"] if "planner.prediction" in scenario.keys() else "known"
@@ -50,8 +52,10 @@ def believed(drive: Drive, obstacle: slalom.Obstacle, t0: float, times: Array) -
     if rule == "known":
         if obstacle.outline is None and not scenario["planner.moving_avoidance"]:
             times = np.full(len(times), t0)
-        return [(p[0], p[1], p[2]) if obstacle.present(float(t)) else None
-                for t, p in ((t, obstacle.pose_at(float(t))) for t in times)]
+        return [
+            (p[0], p[1], p[2]) if obstacle.present(float(t)) else None
+            for t, p in ((t, obstacle.pose_at(float(t))) for t in times)
+        ]
     x, y, psi, vx, vy, omega = obstacle.pose_at(t0)
     omega = omega if rule == "constant_turn" else 0.0
     return [_turned((x, y, psi, vx, vy, omega), float(t) - t0) for t in times]
@@ -72,7 +76,10 @@ def goal_outline(scenario: slalom.Scenario) -> Array | None:
         return None
     if np.isfinite(values.get("goal.length", np.inf)):
         half = np.array([values["goal.length"], values["goal.width"]]) / 2
-        return placed(half * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]),
-                      (values["goal.x"], values["goal.y"], values["goal.psi"]))
-    return placed(values["goal.sigma"] * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]),
-                  (values["goal.x"], values["goal.y"], 0.0))
+        return placed(
+            half * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]),
+            (values["goal.x"], values["goal.y"], values["goal.psi"]),
+        )
+    return placed(
+        values["goal.sigma"] * np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]]), (values["goal.x"], values["goal.y"], 0.0)
+    )

@@ -25,24 +25,41 @@ def solution(drive: Drive, scenario: str | os.PathLike[str], problem: int | None
     Raises BadFile, and ExtraMissing without the package's extra `commonroad`.
     """
     try:
-        from commonroad.common.solution import (CommonRoadSolutionWriter, CostFunction, PlanningProblemSolution,
-                                                Solution, VehicleModel, VehicleType)
+        from commonroad.common.solution import (
+            CommonRoadSolutionWriter,
+            CostFunction,
+            PlanningProblemSolution,
+            Solution,
+            VehicleModel,
+            VehicleType,
+        )
         from commonroad.scenario.state import STState
         from commonroad.scenario.trajectory import Trajectory
     except ImportError:
         raise ExtraMissing(MISSING) from None
     name = str(drive.scenario["vehicle.name"])
     if name not in VEHICLES:
-        raise BadFile(drive.folder / "resolved.yaml", f"the vehicle {name}", "one of CommonRoad's: " + ", ".join(VEHICLES))
+        raise BadFile(
+            drive.folder / "resolved.yaml", f"the vehicle {name}", "one of CommonRoad's: " + ", ".join(VEHICLES)
+        )
     if cost not in CostFunction.__members__:
         raise BadFile("--cost", cost, "one of " + ", ".join(CostFunction.__members__))
     source, problems = open_file(scenario)
     chosen = chosen_problem(scenario, problems.planning_problem_dict, problem)
     first = int(chosen.initial_state.time_step)
     states = [STState(time_step=first + k, **values) for k, values in enumerate(_states(drive, float(source.dt)))]
-    done = Solution(source.scenario_id, [PlanningProblemSolution(
-        chosen.planning_problem_id, VehicleModel.ST, VehicleType[VEHICLES[name]], CostFunction[cost],
-        Trajectory(initial_time_step=first, state_list=states))])
+    done = Solution(
+        source.scenario_id,
+        [
+            PlanningProblemSolution(
+                chosen.planning_problem_id,
+                VehicleModel.ST,
+                VehicleType[VEHICLES[name]],
+                CostFunction[cost],
+                Trajectory(initial_time_step=first, state_list=states),
+            )
+        ],
+    )
     return str(CommonRoadSolutionWriter(done).dump())
 
 
@@ -53,9 +70,17 @@ def _states(drive: Drive, step: float) -> list[dict[str, Any]]:
     at = _led_on(drive, np.arange(count + 1) * step)
     _, _, ahead = vehicle_box(drive.scenario)
     x, y = at["x"] + ahead * np.cos(at["psi"]), at["y"] + ahead * np.sin(at["psi"])
-    return [{"position": np.array([x[k], y[k]]), "steering_angle": float(at["sa"][k]),
-             "velocity": float(np.hypot(at["ux"][k], at["v"][k])), "orientation": float(np.angle(np.exp(1j * at["psi"][k]))),
-             "yaw_rate": float(at["r"][k]), "slip_angle": float(np.arctan2(at["v"][k], at["ux"][k]))} for k in range(count + 1)]
+    return [
+        {
+            "position": np.array([x[k], y[k]]),
+            "steering_angle": float(at["sa"][k]),
+            "velocity": float(np.hypot(at["ux"][k], at["v"][k])),
+            "orientation": float(np.angle(np.exp(1j * at["psi"][k]))),
+            "yaw_rate": float(at["r"][k]),
+            "slip_angle": float(np.arctan2(at["v"][k], at["ux"][k])),
+        }
+        for k in range(count + 1)
+    ]
 
 
 def _led_on(drive: Drive, times: Array) -> dict[str, Array]:

@@ -1,7 +1,7 @@
 """Scenarios of other formats as scenario files: `commonroad` and `track` make a scene, its `write` the file.
 
-    import slalom.importing
-    slalom.importing.track("Monza.csv").write("Monza.yaml")
+import slalom.importing
+slalom.importing.track("Monza.csv").write("Monza.yaml")
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from ._xml import MISSING, ExtraMissing
 __all__ = ["BadFile", "ExtraMissing", "Scene", "commonroad", "track"]
 
 
-def commonroad(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", problem: int | None = None,
-               oncoming: str = "needed") -> Scene:
+def commonroad(
+    file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", problem: int | None = None, oncoming: str = "needed"
+) -> Scene:
     """A CommonRoad scenario (XML 2018b or 2020a) as one of Slalom, for one of its planning problems.
 
     `problem` is its id, by default the first. `oncoming` says whether lanes of the other way beside the way

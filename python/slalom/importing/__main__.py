@@ -17,17 +17,28 @@ OK, BAD_INPUT, NOT_WRITTEN = 0, 2, 3
 def parser(program: str) -> argparse.ArgumentParser:
     """Of the command's arguments."""
     made = argparse.ArgumentParser(prog=program, description="Make a scenario file from a file of another format.")
-    made.add_argument("format", choices=("commonroad", "track"),
-                      help="commonroad: XML of version 2018b or 2020a; track: CSV x_m,y_m,w_tr_right_m,w_tr_left_m")
+    made.add_argument(
+        "format",
+        choices=("commonroad", "track"),
+        help="commonroad: XML of version 2018b or 2020a; track: CSV x_m,y_m,w_tr_right_m,w_tr_left_m",
+    )
     made.add_argument("file", type=pathlib.Path)
-    made.add_argument("--out", type=pathlib.Path, metavar="FILE", help="the scenario file; by default named as FILE, here")
+    made.add_argument(
+        "--out", type=pathlib.Path, metavar="FILE", help="the scenario file; by default named as FILE, here"
+    )
     made.add_argument("--force", action="store_true", help="replace a file that stands there already")
     made.add_argument("--quiet", action="store_true", help="print nothing but errors")
     made.add_argument("--vehicle", default="bmw_320i", metavar="NAME", help="built-in vehicle or a file")
-    made.add_argument("--problem", type=int, metavar="ID", help="of commonroad: the planning problem, by default the first")
-    made.add_argument("--oncoming", choices=("never", "needed", "always"), default="needed",
-                      help="of commonroad: whether lanes of the other way beside the way are road; needed: where something "
-                           "stands in the way")
+    made.add_argument(
+        "--problem", type=int, metavar="ID", help="of commonroad: the planning problem, by default the first"
+    )
+    made.add_argument(
+        "--oncoming",
+        choices=("never", "needed", "always"),
+        default="needed",
+        help="of commonroad: whether lanes of the other way beside the way are road; needed: where something "
+        "stands in the way",
+    )
     made.add_argument("--speed", type=float, default=15.0, metavar="U", help="of track: speed at the start [m/s]")
     made.add_argument("--laps", type=int, default=1, metavar="N", help="of track: how many")
     return made

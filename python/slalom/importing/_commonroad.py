@@ -48,12 +48,22 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
     notes += way.notes + [f"road: {each}" for each in blocked]
     t_max = goal.get("time", goal.get("t_max"))
     return Scene(
-        name=pathlib.Path(file).stem, file=pathlib.Path(file), vehicle=car, start=start, goal=goal,
-        source=[f"Imported from {pathlib.Path(file).name}, CommonRoad {scenario.scenario_id.scenario_version}",
-                f"Benchmark {scenario.scenario_id}, planning problem {chosen.planning_problem_id}, dt {scenario.dt:g} s"],
+        name=pathlib.Path(file).stem,
+        file=pathlib.Path(file),
+        vehicle=car,
+        start=start,
+        goal=goal,
+        source=[
+            f"Imported from {pathlib.Path(file).name}, CommonRoad {scenario.scenario_id.scenario_version}",
+            f"Benchmark {scenario.scenario_id}, planning problem {chosen.planning_problem_id}, dt {scenario.dt:g} s",
+        ],
         timeout=float(np.ceil(t_max + 1)) if t_max else 60.0,
-        points=road.points() if road else [], lanes=road.lane_lines() if road else [], obstacles=obstacles,
-        planner={"base": "P_E", "prediction": "known"}, notes=notes)
+        points=road.points() if road else [],
+        lanes=road.lane_lines() if road else [],
+        obstacles=obstacles,
+        planner={"base": "P_E", "prediction": "known"},
+        notes=notes,
+    )
 
 
 def chosen_problem(file: str | os.PathLike[str], problems: dict[int, Any], wanted: int | None) -> Any:
@@ -68,8 +78,10 @@ def _left_out(scenario: Any, problems: dict[int, Any], chosen: int) -> list[str]
     network = scenario.lanelet_network
     notes = [f"planning problem {other}: left out" for other in problems if other != chosen]
     for sign in network.traffic_signs:
-        elements = [f"{e.traffic_sign_element_id.name} {' '.join(map(str, e.additional_values))}".strip()
-                    for e in sign.traffic_sign_elements]
+        elements = [
+            f"{e.traffic_sign_element_id.name} {' '.join(map(str, e.additional_values))}".strip()
+            for e in sign.traffic_sign_elements
+        ]
         notes.append(f"traffic sign {sign.traffic_sign_id} ({', '.join(elements)}): left out")
     notes += [f"traffic light {light.traffic_light_id}: left out" for light in network.traffic_lights]
     notes += [f"intersection {each.intersection_id}: its right of way is left out" for each in network.intersections]
@@ -94,7 +106,9 @@ def _start(file: str | os.PathLike[str], state: Any, car: Vehicle, notes: list[s
         notes.append("start: its place is not certain; the middle is taken")
     x, y = _place(state).tolist()
     psi = _exact("its heading", getattr(state, "orientation", 0.0), notes)
-    speed, slip = (_exact(f"its {n}", getattr(state, k, 0.0), notes) for k, n in (("velocity", "speed"), ("slip_angle", "slip")))
+    speed, slip = (
+        _exact(f"its {n}", getattr(state, k, 0.0), notes) for k, n in (("velocity", "speed"), ("slip_angle", "slip"))
+    )
     r = _exact("its yaw rate", getattr(state, "yaw_rate", 0.0), notes)
     ux = speed * float(np.cos(slip))
     if ux < 0:
@@ -102,10 +116,16 @@ def _start(file: str | os.PathLike[str], state: Any, car: Vehicle, notes: list[s
     if ux < car.ux_min:
         notes.append(f"start: {ux:g} m/s; begins at the {car.ux_min:g} m/s that are the least of the vehicle")
         ux = car.ux_min
-    start = {"x": x + car.centre * float(np.cos(psi)), "y": y + car.centre * float(np.sin(psi)),
-             "v": speed * float(np.sin(slip)) + r * (car.centre - car.la), "r": r, "psi": psi,
-             "sa": _exact("its steering", getattr(state, "steering_angle", 0.0), notes), "ux": ux,
-             "ax": _exact("its acceleration", getattr(state, "acceleration", 0.0), notes)}
+    start = {
+        "x": x + car.centre * float(np.cos(psi)),
+        "y": y + car.centre * float(np.sin(psi)),
+        "v": speed * float(np.sin(slip)) + r * (car.centre - car.la),
+        "r": r,
+        "psi": psi,
+        "sa": _exact("its steering", getattr(state, "steering_angle", 0.0), notes),
+        "ux": ux,
+        "ax": _exact("its acceleration", getattr(state, "acceleration", 0.0), notes),
+    }
     return {key: float(value) for key, value in start.items() if value or key in ("x", "y", "psi", "ux")}
 
 
@@ -125,8 +145,9 @@ class _Way:
         self.place = _place(state)
         self.psi = _exact("its heading", getattr(state, "orientation", 0.0), [])
         self.speed = _exact("its speed", getattr(state, "velocity", 0.0), [])
-        self.starts = {lane: TURNED_AWAY * off for lane, off in at_place(lanes, self.place, self.psi).items()
-                       if off < np.pi / 2}
+        self.starts = {
+            lane: TURNED_AWAY * off for lane, off in at_place(lanes, self.place, self.psi).items() if off < np.pi / 2
+        }
 
     def goals(self, wanted: _goal.Wanted) -> dict[int, float]:
         """Lanes on which a goal lies, with how far they are from its middle [m]."""
@@ -168,14 +189,20 @@ class _Way:
         between = [k for k in narrow if s <= along[k] <= end]
         if between:
             k = between[0]
-            raise BadFile(self.file, f"a road {road.left[k] + road.right[k]:.2f} m wide at ({road.line[k, 0]:.1f}, "
-                          f"{road.line[k, 1]:.1f})", f"more than the {self.car.width:g} m of the vehicle")
+            raise BadFile(
+                self.file,
+                f"a road {road.left[k] + road.right[k]:.2f} m wide at ({road.line[k, 0]:.1f}, "
+                f"{road.line[k, 1]:.1f})",
+                f"more than the {self.car.width:g} m of the vehicle",
+            )
         first = max((along[k + 1] for k in narrow if along[k] < s), default=0.0)
         last = min((along[k - 1] for k in narrow if along[k] > end), default=road.length)
         return road.between(first, last)
 
 
-def _goal_and_road(way: _Way, problem: Any, clock: Clock, obstacles: list[dict[str, Any]]) -> tuple[dict[str, float], Road | None]:
+def _goal_and_road(
+    way: _Way, problem: Any, clock: Clock, obstacles: list[dict[str, Any]]
+) -> tuple[dict[str, float], Road | None]:
     goals = _goal.wanted(problem)
     placed = [goal for goal in goals if goal.area is not None]
     if not placed:
@@ -188,8 +215,11 @@ def _goal_and_road(way: _Way, problem: Any, clock: Clock, obstacles: list[dict[s
     found = [(answer, k) for k, lanes in enumerate(reached) if (answer := shortest(way.lanes, way.starts, lanes))]
     if not found:
         to = sorted({lane for lanes in reached for lane in lanes})
-        raise BadFile(way.file, f"no way from lanelet {_some(way.starts)} to the goal on {'lanelet ' + _some(to) if to else 'no lanelet'}",
-                      "one over successors and lanes beside each other")
+        raise BadFile(
+            way.file,
+            f"no way from lanelet {_some(way.starts)} to the goal on {'lanelet ' + _some(to) if to else 'no lanelet'}",
+            "one over successors and lanes beside each other",
+        )
     (_, lanes), k = min(found, key=lambda each: each[0][0])
     middle = placed[k].area.intersection(lanes[-1].polygon).representative_point()
     road = way.road(lanes, _reach(placed[k].area) + BEYOND, np.array([middle.x, middle.y]))
@@ -203,9 +233,13 @@ def _reach(area: Any) -> float:
     return float(np.hypot(box[2] - box[0], box[3] - box[1]))
 
 
-def _goal_keys(goals: list[_goal.Wanted], k: int, road: Road | None, psi: float, way: _Way, clock: Clock) -> dict[str, float]:
+def _goal_keys(
+    goals: list[_goal.Wanted], k: int, road: Road | None, psi: float, way: _Way, clock: Clock
+) -> dict[str, float]:
     """Of the goal that is taken, for the front axle's centre."""
-    way.notes += [f"goal {n} of {len(goals)}: left out, a nearer one is taken" for n in range(1, len(goals) + 1) if n != k + 1]
+    way.notes += [
+        f"goal {n} of {len(goals)}: left out, a nearer one is taken" for n in range(1, len(goals) + 1) if n != k + 1
+    ]
     goal = goals[k]
     box, less = _goal.rectangle(goal, road, psi)
     if min(box["length"], box["width"]) < 0.2:
@@ -216,7 +250,9 @@ def _goal_keys(goals: list[_goal.Wanted], k: int, road: Road | None, psi: float,
     return {**keys, **_goal.conditions(goal, clock)}
 
 
-def _as_far_as_possible(way: _Way, goals: list[_goal.Wanted], clock: Clock, obstacles: list[dict[str, Any]]) -> tuple[dict[str, float], Road | None]:
+def _as_far_as_possible(
+    way: _Way, goals: list[_goal.Wanted], clock: Clock, obstacles: list[dict[str, Any]]
+) -> tuple[dict[str, float], Road | None]:
     """A goal without a place is one of time; without a time, until the traffic's last row."""
     time = _goal.conditions(goals[0], clock).get("t_max") if goals else None
     if goals and (getattr(goals[0].state, "velocity", None) or getattr(goals[0].state, "orientation", None)):
@@ -241,8 +277,12 @@ def _must_start_on_a_lane(way: _Way) -> None:
     if here:
         raise BadFile(way.file, f"a start at ({x:g}, {y:g}) that faces against lanelet {_some(here)}", "one along it")
     near = min(way.lanes.values(), key=lambda lane: lane.polygon.distance(shapely.Point(x, y)))
-    raise BadFile(way.file, f"a start at ({x:g}, {y:g}), off the road: {near.polygon.distance(shapely.Point(x, y)):.1f} m from "
-                  f"lanelet {near.id}", "one on a lanelet")
+    raise BadFile(
+        way.file,
+        f"a start at ({x:g}, {y:g}), off the road: {near.polygon.distance(shapely.Point(x, y)):.1f} m from "
+        f"lanelet {near.id}",
+        "one on a lanelet",
+    )
 
 
 def _some(ids: Any) -> str:

@@ -36,7 +36,9 @@ def read(file: "str | os.PathLike[str]", expected: str) -> bytes:
     return content
 
 
-def write_whole(file: pathlib.Path, text: str, force: bool, check: Callable[[pathlib.Path], None] = lambda part: None) -> None:
+def write_whole(
+    file: pathlib.Path, text: str, force: bool, check: Callable[[pathlib.Path], None] = lambda part: None
+) -> None:
     """Writes a file whole or not at all: it takes its place once `check` has had it, under another name.
 
     Raises FileExistsError where one stands and `force` is not given.

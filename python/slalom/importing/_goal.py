@@ -14,6 +14,8 @@ from ._road import Road
 
 PLACES_ALONG = 16
 """Of how many places along the road a rectangle may begin or end."""
+FARTHEST_ACROSS = 10.0
+"""How far to a side a rectangle may reach [m]."""
 
 
 @dataclass(frozen=True)
@@ -79,15 +81,20 @@ def heading(goal: Wanted, box: dict[str, float], notes: list[str]) -> dict[str, 
         notes.append(f"goal: its heading, {middle:.3f} rad within {half:.3f} rad, is not that of its place")
         return {}
     if abs(off) > 1e-3:
-        notes.append(f"goal: its heading is within {half - abs(off):.3f} rad of {box['psi']:.3f} rad: "
-                     f"part of the {half:.3f} rad about {middle:.3f} rad")
+        notes.append(
+            f"goal: its heading is within {half - abs(off):.3f} rad of {box['psi']:.3f} rad: "
+            f"part of the {half:.3f} rad about {middle:.3f} rad"
+        )
     return {"psi_tolerance": half - abs(off)}
 
 
 def ahead(box: dict[str, float], distance: float) -> dict[str, float]:
     """The rectangle for what lies `distance` ahead of the vehicle's centre."""
-    return {**box, "x": box["x"] + distance * float(np.cos(box["psi"])),
-            "y": box["y"] + distance * float(np.sin(box["psi"]))}
+    return {
+        **box,
+        "x": box["x"] + distance * float(np.cos(box["psi"])),
+        "y": box["y"] + distance * float(np.sin(box["psi"])),
+    }
 
 
 def _direction(goal: Wanted, psi: float) -> float:
@@ -100,14 +107,21 @@ def _named(position: Any, psi: float) -> dict[str, float]:
     quarters = int(np.round(float(np.angle(np.exp(1j * (psi - position.orientation)))) / (np.pi / 2)))
     turned = position.orientation + quarters * np.pi / 2
     length, width = (position.length, position.width) if quarters % 2 == 0 else (position.width, position.length)
-    return {"x": position.rect_center.x, "y": position.rect_center.y, "psi": float(np.angle(np.exp(1j * turned))),
-            "length": length, "width": width}
+    return {
+        "x": position.rect_center.x,
+        "y": position.rect_center.y,
+        "psi": float(np.angle(np.exp(1j * turned))),
+        "length": length,
+        "width": width,
+    }
 
 
 def _corners(x: float, y: float, psi: float, length: float, width: float) -> Any:
     along, across = np.array([np.cos(psi), np.sin(psi)]) * length / 2, np.array([-np.sin(psi), np.cos(psi)]) * width / 2
     centre = np.array([x, y])
-    return shapely.Polygon([centre - along - across, centre + along - across, centre + along + across, centre - along + across])
+    return shapely.Polygon(
+        [centre - along - across, centre + along - across, centre + along + across, centre - along + across]
+    )
 
 
 def _box(area: Any, psi: float) -> dict[str, float]:
@@ -139,9 +153,6 @@ def _inscribed(area: Any, road: Road) -> dict[str, float]:
     return best
 
 
-FARTHEST_ACROSS = 10.0
-
-
 def _chords(area: Any, road: Road) -> list[tuple[Array, Array]]:
     """Pairs of places along the road, both as far beside its line, between which the area lies."""
     psi = np.unwrap(np.arctan2(*np.gradient(road.line, axis=0).T[::-1]))
@@ -154,7 +165,7 @@ def _chords(area: Any, road: Road) -> list[tuple[Array, Array]]:
         if len(held) < 2:
             continue
         grid = np.unique(held[np.linspace(0, len(held) - 1, PLACES_ALONG).round().astype(int)])
-        chords += [(beside[i], beside[j]) for k, i in enumerate(grid) for j in grid[k + 1:] if s[j] - s[i] > 0.5]
+        chords += [(beside[i], beside[j]) for k, i in enumerate(grid) for j in grid[k + 1 :] if s[j] - s[i] > 0.5]
     return chords
 
 

@@ -67,9 +67,14 @@ def lanes_of(network: Any) -> dict[int, Lane]:
             if other is not None:
                 beside[side] = (other, bool(getattr(lanelet, f"adj_{side}_same_direction")))
         lanes[lanelet.lanelet_id] = Lane(
-            lanelet.lanelet_id, np.asarray(lanelet.left_vertices), np.asarray(lanelet.right_vertices),
+            lanelet.lanelet_id,
+            np.asarray(lanelet.left_vertices),
+            np.asarray(lanelet.right_vertices),
             frozenset(str(kind.value) for kind in lanelet.lanelet_type or ()),
-            tuple(lanelet.successor), tuple(lanelet.predecessor), beside)
+            tuple(lanelet.successor),
+            tuple(lanelet.predecessor),
+            beside,
+        )
     return lanes
 
 

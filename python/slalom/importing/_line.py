@@ -82,8 +82,10 @@ def crossings(first: Array, second: Array) -> Array:
     p, q = first[:-1], second[:-1]
     u, v = np.diff(first, axis=0), np.diff(second, axis=0)
     gap = q[None, :, :] - p[:, None, :]
+
     def cross(a: Array, b: Array) -> Array:
         return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
     with np.errstate(divide="ignore", invalid="ignore"):
         det = cross(u[:, None, :], v[None, :, :])
         t, w = cross(gap, v[None, :, :]) / det, cross(gap, u[:, None, :]) / det

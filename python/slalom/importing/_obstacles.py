@@ -55,7 +55,9 @@ def _standing(obstacle: Any, notes: list[str]) -> list[dict[str, Any]]:
     made = []
     for part, (outline, centre) in _named(name, parts):
         x, y = np.asarray(state.position) + _turned(centre, psi)
-        made.append({"name": part, "x": float(x), "y": float(y), **outline, **({"psi": psi} if "r" not in outline else {})})
+        made.append(
+            {"name": part, "x": float(x), "y": float(y), **outline, **({"psi": psi} if "r" not in outline else {})}
+        )
     return made
 
 
@@ -68,7 +70,9 @@ def _moving(obstacle: Any, clock: Clock, notes: list[str]) -> list[dict[str, Any
     states = [obstacle.initial_state]
     if prediction is None:
         notes.append(f"{name}: says nothing of where it goes; it goes on as it begins")
-        return _with_table(name, _outlines(obstacle.obstacle_shape, name, notes) or [], _going_on(states[0], clock), "goes_on")
+        return _with_table(
+            name, _outlines(obstacle.obstacle_shape, name, notes) or [], _going_on(states[0], clock), "goes_on"
+        )
     parts = None
     if isinstance(prediction, TrajectoryPrediction):
         states += [s for s in prediction.trajectory.state_list if s.time_step > states[0].time_step]
@@ -135,8 +139,11 @@ def _outlines(shape: Any, name: str, notes: list[str]) -> list[tuple[dict[str, A
 
 def _swept(name: str, occupancies: dict[Any, Any], clock: Clock, notes: list[str]) -> Iterator[dict[str, Any]]:
     """Of where an obstacle may be at each step, hulls that are there one after the other."""
-    steps = sorted((_ends(time_step), _hull(occupancy)) for time_step, occupancy in occupancies.items()
-                   if _ends(time_step)[1] >= clock.first)
+    steps = sorted(
+        (_ends(time_step), _hull(occupancy))
+        for time_step, occupancy in occupancies.items()
+        if _ends(time_step)[1] >= clock.first
+    )
     groups: list[tuple[list[float], Any, float]] = []
     for (first, last), hull in steps:
         if groups:

@@ -43,7 +43,9 @@ class Road:
         along = lengths(self.line)
         first, last = max(first, 0.0), min(last, self.length)
         s = np.linspace(first, last, max(int(round((last - first) / POINT_STEP)), 4) + 1)
-        return Road(at(self.line, s), np.interp(s, along, self.right), np.interp(s, along, self.left), self.area, self.rows)
+        return Road(
+            at(self.line, s), np.interp(s, along, self.right), np.interp(s, along, self.left), self.area, self.rows
+        )
 
     def edges(self) -> tuple[Array, Array]:
         """The right and the left edge."""
@@ -63,12 +65,13 @@ class Road:
         lines = []
         for row in self.rows:
             for left, lane in zip(row, row[1:]):
-                nearest = min((lane.left, lane.right), key=lambda bound: left.polygon.distance(shapely.MultiPoint(bound)))
+                nearest = min(
+                    (lane.left, lane.right), key=lambda bound: left.polygon.distance(shapely.MultiPoint(bound))
+                )
                 bound = shapely.LineString(without_doubles(nearest)).simplify(0.03)
                 on_road = [p for p in np.asarray(bound.segmentize(10.0).coords) if self._holds(p)]
                 if len(on_road) >= 2:
-                    lines.append([[float(x), float(y)] for x, y in
-                                  shapely.LineString(on_road).simplify(0.03).coords])
+                    lines.append([[float(x), float(y)] for x, y in shapely.LineString(on_road).simplify(0.03).coords])
         return lines
 
     def _holds(self, place: Array) -> bool:
@@ -131,7 +134,7 @@ def _widths(line: Array, area: Any) -> tuple[Array, Array]:
         width = np.where(inside, np.minimum(ray_lengths(line, normals, edges), FARTHEST), 0.0)
         # Across the very end of a lane the edge is its end; what is led on beyond it is as wide as it.
         if len(inner):
-            width[:inner[0]], width[inner[-1] + 1:] = width[inner[0]], width[inner[-1]]
+            width[: inner[0]], width[inner[-1] + 1 :] = width[inner[0]], width[inner[-1]]
         with np.errstate(divide="ignore"):
             width = np.where(inwards > 1e-6, np.minimum(width, CURVE_SHARE / inwards), width)
         widths.append(_narrowed(width, lengths(line)))
@@ -140,8 +143,12 @@ def _widths(line: Array, area: Any) -> tuple[Array, Array]:
 
 def _rings(area: Any) -> list[Array]:
     polygons = area.geoms if hasattr(area, "geoms") else [area]
-    return [np.asarray(ring.coords) for polygon in polygons if polygon.geom_type == "Polygon"
-            for ring in (polygon.exterior, *polygon.interiors)]
+    return [
+        np.asarray(ring.coords)
+        for polygon in polygons
+        if polygon.geom_type == "Polygon"
+        for ring in (polygon.exterior, *polygon.interiors)
+    ]
 
 
 def _narrowed(width: Array, s: Array) -> Array:

@@ -67,15 +67,21 @@ class Scene:
         lines = [f"# {line}" for line in self.source]
         if self.notes:
             lines += ["# Not as in the source:", *(f"# - {note}" for note in self.notes)]
-        lines += [f"name: {_text(self.name)}",
-                  f"vehicle: {{base: {_text(self.vehicle.name)}, footprint: rectangle}}",
-                  f"planner: {_flow(self.planner)}",
-                  f"start: {_flow(self.start)}", f"goal: {_flow(self.goal)}",
-                  f"loop: {{sm_crash: 0, timeout: {_number(self.timeout)}}}"]
+        lines += [
+            f"name: {_text(self.name)}",
+            f"vehicle: {{base: {_text(self.vehicle.name)}, footprint: rectangle}}",
+            f"planner: {_flow(self.planner)}",
+            f"start: {_flow(self.start)}",
+            f"goal: {_flow(self.goal)}",
+            f"loop: {{sm_crash: 0, timeout: {_number(self.timeout)}}}",
+        ]
         if self.points:
-            lines += ["road:", f"  closed: {'true' if self.closed else 'false'}",
-                      "  points:  # x, y, width to the right, width to the left",
-                      *(f"    - {_flow(point)}" for point in self.points)]
+            lines += [
+                "road:",
+                f"  closed: {'true' if self.closed else 'false'}",
+                "  points:  # x, y, width to the right, width to the left",
+                *(f"    - {_flow(point)}" for point in self.points),
+            ]
             if self.lanes:
                 lines += ["  lanes:", *(f"    - {_flow(lane)}" for lane in self.lanes)]
         if self.obstacles:
@@ -92,8 +98,11 @@ class Scene:
             try:
                 slalom.load_scenario(part)
             except slalom.Error as error:
-                raise BadFile(self.file, f"a scenario that is refused ({str(error).replace(str(part), str(path))})",
-                              "one that can be driven") from None
+                raise BadFile(
+                    self.file,
+                    f"a scenario that is refused ({str(error).replace(str(part), str(path))})",
+                    "one that can be driven",
+                ) from None
 
         write_whole(path, self.yaml(), force, check)
 
@@ -128,5 +137,8 @@ def _obstacle(obstacle: dict[str, Any]) -> Iterable[str]:
     if "table" not in obstacle:
         return [f"  - {_flow(obstacle)}"]
     plain = [(key, value) for key, value in obstacle.items() if key != "table"]
-    return [*(f"  {'-' if k == 0 else ' '} {key}: {_flow(value)}" for k, (key, value) in enumerate(plain)),
-            "    table:  # t, x, y, psi", *(f"      - {_flow(row)}" for row in obstacle["table"])]
+    return [
+        *(f"  {'-' if k == 0 else ' '} {key}: {_flow(value)}" for k, (key, value) in enumerate(plain)),
+        "    table:  # t, x, y, psi",
+        *(f"      - {_flow(row)}" for row in obstacle["table"]),
+    ]

@@ -18,8 +18,7 @@ MOST_OF_RADIUS, FAR_TOO_MUCH = 0.9, 1.5
 """How much of a bend's radius the road may be wide inside it, and beyond which share the file is refused."""
 
 
-def track(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", speed: float = 15.0,
-          laps: int = 1) -> Scene:
+def track(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", speed: float = 15.0, laps: int = 1) -> Scene:
     """A race track as a scenario: `laps` of a closed road, from its first point on along it at `speed` [m/s].
 
     Raises BadFile with file and line, and InvalidValue for a vehicle that is none.
@@ -36,10 +35,18 @@ def track(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", speed: flo
     total = float(lengths(np.vstack([line, line[:1]]))[-1])
     name = pathlib.Path(file).stem
     return Scene(
-        name=name, file=pathlib.Path(file), source=[f"Imported from the race track {pathlib.Path(file).name}: {len(line)} points, {total:.0f} m"],
-        vehicle=car, start={"x": float(line[0, 0]), "y": float(line[0, 1]), "psi": psi, "ux": max(speed, car.ux_min)},
-        goal={"laps": laps}, timeout=float(np.ceil(laps * total / 5)), points=rows.tolist(), closed=True,
-        planner={"base": "P_E", "prediction": "known"}, notes=notes)
+        name=name,
+        file=pathlib.Path(file),
+        source=[f"Imported from the race track {pathlib.Path(file).name}: {len(line)} points, {total:.0f} m"],
+        vehicle=car,
+        start={"x": float(line[0, 0]), "y": float(line[0, 1]), "psi": psi, "ux": max(speed, car.ux_min)},
+        goal={"laps": laps},
+        timeout=float(np.ceil(laps * total / 5)),
+        points=rows.tolist(),
+        closed=True,
+        planner={"base": "P_E", "prediction": "known"},
+        notes=notes,
+    )
 
 
 def _rows(file: str | os.PathLike[str]) -> tuple[Array, list[int]]:
@@ -91,15 +98,23 @@ def _check_line(file: str | os.PathLike[str], line: Array, numbers: list[int]) -
     if len(still):
         raise BadFile(file, "the same point twice", "points that go on", numbers[(still[0] + 1) % len(numbers)])
     if steps[-1] > 5 * np.median(steps):
-        raise BadFile(file, f"a gap of {steps[-1]:.1f} m from the last point to the first",
-                      f"a closed line, its points {np.median(steps):.1f} m apart", numbers[-1])
+        raise BadFile(
+            file,
+            f"a gap of {steps[-1]:.1f} m from the last point to the first",
+            f"a closed line, its points {np.median(steps):.1f} m apart",
+            numbers[-1],
+        )
 
 
 def _check_widths(file: str | os.PathLike[str], rows: Array, numbers: list[int], car: Vehicle) -> None:
     widths = rows[:, 2] + rows[:, 3]
     for k in np.flatnonzero((rows[:, 2:] < 0).any(axis=1) | (widths < car.width)):
-        raise BadFile(file, f"a width of {rows[k, 2]:g} m to the right and {rows[k, 3]:g} m to the left",
-                      f"none below zero, together at least the {car.width:g} m of the vehicle", numbers[k])
+        raise BadFile(
+            file,
+            f"a width of {rows[k, 2]:g} m to the right and {rows[k, 3]:g} m to the left",
+            f"none below zero, together at least the {car.width:g} m of the vehicle",
+            numbers[k],
+        )
 
 
 def _narrow_in_bends(file: str | os.PathLike[str], rows: Array, numbers: list[int]) -> list[str]:
@@ -111,10 +126,16 @@ def _narrow_in_bends(file: str | os.PathLike[str], rows: Array, numbers: list[in
         share = inwards * rows[:, column]
         for k in np.flatnonzero(share > MOST_OF_RADIUS):
             if share[k] > FAR_TOO_MUCH:
-                raise BadFile(file, f"{rows[k, column]:g} m to the {side} in a bend of radius {1 / inwards[k]:.1f} m",
-                              "a road that does not cross itself within its own width", numbers[k])
+                raise BadFile(
+                    file,
+                    f"{rows[k, column]:g} m to the {side} in a bend of radius {1 / inwards[k]:.1f} m",
+                    "a road that does not cross itself within its own width",
+                    numbers[k],
+                )
             narrowed = MOST_OF_RADIUS / inwards[k]
-            notes.append(f"line {numbers[k]}: {narrowed:.2f} m to the {side} in place of {rows[k, column]:g} m, for the bend's radius")
+            notes.append(
+                f"line {numbers[k]}: {narrowed:.2f} m to the {side} in place of {rows[k, column]:g} m, for the bend's radius"
+            )
             rows[k, column] = narrowed
     return notes
 
@@ -128,8 +149,16 @@ def _check_edges(file: str | os.PathLike[str], rows: Array, numbers: list[int]) 
     edges = {"line": middle, "right edge": middle - ring[:, 2:3] * left, "left edge": middle + ring[:, 3:4] * left}
     for name, edge in edges.items():
         for k, m in crossings(edge, middle) if name != "line" else crossings(middle, middle):
-            raise BadFile(file, f"the {name} of line {numbers[k]} crosses the line of line {numbers[m % len(numbers)]}",
-                          "a road that does not cross itself within its own width", numbers[k])
+            raise BadFile(
+                file,
+                f"the {name} of line {numbers[k]} crosses the line of line {numbers[m % len(numbers)]}",
+                "a road that does not cross itself within its own width",
+                numbers[k],
+            )
     for k, m in crossings(edges["right edge"], edges["left edge"]):
-        raise BadFile(file, f"the right edge of line {numbers[k]} crosses the left edge of line {numbers[m]}",
-                      "a road that does not cross itself within its own width", numbers[k])
+        raise BadFile(
+            file,
+            f"the right edge of line {numbers[k]} crosses the left edge of line {numbers[m]}",
+            "a road that does not cross itself within its own width",
+            numbers[k],
+        )

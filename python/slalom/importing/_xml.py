@@ -16,10 +16,20 @@ EXPECTED = f"a CommonRoad scenario, XML of version {' or '.join(VERSIONS)}"
 NUMBERS = frozenset(("x", "y", "exact", "intervalStart", "intervalEnd", "length", "width", "radius", "orientation"))
 SIZES = frozenset(("length", "width", "radius"))
 REFERENCES = frozenset(("successor", "predecessor", "adjacentLeft", "adjacentRight", "lanelet"))
-NEEDED = {"point": ("x", "y"), "center": ("x", "y"), "rectangle": ("length", "width"), "circle": ("radius",),
-          "initialState": ("position", "time"), "state": ("time",), "goalState": ("time",), "occupancy": ("shape", "time"),
-          "staticObstacle": ("type", "shape", "initialState"), "dynamicObstacle": ("type", "shape", "initialState"),
-          "obstacle": ("role", "type", "shape", "initialState"), "trafficSignElement": ("trafficSignID",)}
+NEEDED = {
+    "point": ("x", "y"),
+    "center": ("x", "y"),
+    "rectangle": ("length", "width"),
+    "circle": ("radius",),
+    "initialState": ("position", "time"),
+    "state": ("time",),
+    "goalState": ("time",),
+    "occupancy": ("shape", "time"),
+    "staticObstacle": ("type", "shape", "initialState"),
+    "dynamicObstacle": ("type", "shape", "initialState"),
+    "obstacle": ("role", "type", "shape", "initialState"),
+    "trafficSignElement": ("trafficSignID",),
+}
 """What elements must hold."""
 MISSING = "CommonRoad's reader is missing: python3 -m pip install 'slalom[commonroad]'"
 
@@ -48,7 +58,12 @@ def _complete(root: Any, problems: dict[int, Any]) -> None:
     """commonroad-io reads an initial state's values up to the first that the file leaves out, and takes the others for 0."""
     for element in root.iterchildren("planningProblem"):
         state = problems[int(element.get("id"))].initial_state
-        for tag, name in (("velocity", "velocity"), ("acceleration", "acceleration"), ("yawRate", "yaw_rate"), ("slipAngle", "slip_angle")):
+        for tag, name in (
+            ("velocity", "velocity"),
+            ("acceleration", "acceleration"),
+            ("yawRate", "yaw_rate"),
+            ("slipAngle", "slip_angle"),
+        ):
             exact = element.findtext(f"initialState/{tag}/exact")
             if exact is not None:
                 setattr(state, name, float(exact))
@@ -87,7 +102,12 @@ def _check_elements(file: str | os.PathLike[str], root: Any) -> None:
     for element in root.iter():
         for name in NEEDED.get(element.tag, ()):
             if element.find(name) is None:
-                raise BadFile(file, f"<{element.tag}> without <{name}>", f"one with {', '.join(NEEDED[element.tag])}", element.sourceline)
+                raise BadFile(
+                    file,
+                    f"<{element.tag}> without <{name}>",
+                    f"one with {', '.join(NEEDED[element.tag])}",
+                    element.sourceline,
+                )
         if element.tag in ("shape", "position") and not len(element):
             raise BadFile(file, f"an empty <{element.tag}>", "a place or a shape", element.sourceline)
         number = element.get("id") if isinstance(element.tag, str) else None
@@ -112,12 +132,20 @@ def _check_lanelets(file: str | os.PathLike[str], root: Any) -> None:
     for lanelet in lanelets:
         counts = [len(lanelet.findall(f"{bound}/point")) for bound in ("leftBound", "rightBound")]
         if counts[0] != counts[1] or counts[0] < 2:
-            raise BadFile(file, f"lanelet {lanelet.get('id')} with {counts[0]} points to its left and {counts[1]} to its right",
-                          "as many on both sides, at least 2", lanelet.sourceline)
+            raise BadFile(
+                file,
+                f"lanelet {lanelet.get('id')} with {counts[0]} points to its left and {counts[1]} to its right",
+                "as many on both sides, at least 2",
+                lanelet.sourceline,
+            )
         for element in lanelet.iterchildren():
             if element.tag in REFERENCES and element.get("ref") not in known:
-                raise BadFile(file, f"{element.tag} {element.get('ref')!r} of lanelet {lanelet.get('id')}",
-                              "the id of a lanelet of this file", element.sourceline)
+                raise BadFile(
+                    file,
+                    f"{element.tag} {element.get('ref')!r} of lanelet {lanelet.get('id')}",
+                    "the id of a lanelet of this file",
+                    element.sourceline,
+                )
     if len(set(known)) < len(known):
         double = next(i for i in known if known.count(i) > 1)
         raise BadFile(file, f"two lanelets {double}", "ids that differ")
