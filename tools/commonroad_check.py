@@ -3,7 +3,8 @@
 
 For each scenario NAME.xml of one folder and drive NAME/solution.xml of another, a row of a Markdown table says
 whether the vehicle's rectangle touches an obstacle or leaves the lanelets at any time step, how near it comes to
-an obstacle, and when the goal is reached. Collision and road are judged by shapely, and again by
+an obstacle, and when the goal is reached. Obstacles that begin where the vehicle does are recorded drives of it:
+they are left out, and named under "without". Collision and road are judged by shapely, and again by
 commonroad-drivability-checker where it is installed; a row says so where the two differ. The checker needs the
 commonroad-io before 2026:
 
@@ -16,6 +17,7 @@ Exits with 1 if there is a drive that collides or leaves the road, with 2 for fi
 import argparse
 import json
 import logging
+import math
 import pathlib
 import sys
 import warnings
@@ -23,8 +25,8 @@ import warnings
 # What gaps between neighbouring lanelets may have [m]: their edges are rounded in the files.
 SEAM = 0.01
 HEAD = (
-    "| scenario | drive ended as | at [s] | collision | off the road | least distance [m] | goal reached | judges |\n"
-    "|---|---|---|---|---|---|---|---|"
+    "| scenario | drive ended as | at [s] | collision | off the road | least distance [m] | goal reached | without | judges |\n"
+    "|---|---|---|---|---|---|---|---|---|"
 )
 
 
@@ -89,6 +91,19 @@ def by_checker(scenario, states, length, width):
     return collision, (None if off < 0 else off)
 
 
+def without_the_vehicle(scenario, initial):
+    """Leaves out obstacles that begin where the vehicle does: recorded drives of it. Returns their ids."""
+    same = []
+    for obstacle in list(scenario.dynamic_obstacles):
+        state = obstacle.initial_state
+        if state.time_step == initial.time_step and not getattr(state, "is_uncertain_position", False):
+            gap = ((state.position - initial.position) ** 2).sum() ** 0.5
+            if gap < 0.5 and abs(math.remainder(state.orientation - initial.orientation, 2 * math.pi)) < 0.2:
+                scenario.remove_obstacle(obstacle)
+                same.append(obstacle.obstacle_id)
+    return same
+
+
 def judged(xml, solution_file):
     """What a row says of one drive."""
     from commonroad.common.file_reader import CommonRoadFileReader
@@ -99,6 +114,7 @@ def judged(xml, solution_file):
     problem = problems.planning_problem_dict[part.planning_problem_id]
     car = vehicle_parameters[part.vehicle_type]
     states = part.trajectory.state_list
+    without = without_the_vehicle(scenario, problem.initial_state)
     collision, off, least = by_shapely(scenario, states, car.l, car.w)
     again = by_checker(scenario, states, car.l, car.w)
     if again is None:
@@ -109,6 +125,9 @@ def judged(xml, solution_file):
         judges = f"differ: the checker has collision {again[0]}, off the road {again[1]}"
         collision = again[0] if collision is None else collision
         off = again[1] if off is None else off
+    starts_off = by_shapely(scenario, states[:1], 0.01, 0.01)[1] is not None
+    if starts_off:
+        off = None
     reached = "none asked" if not problem.goal.state_list else "no"
     if problem.goal.state_list:
         step = next((s.time_step for s in states if problem.goal.is_reached(s)), None)
@@ -119,6 +138,8 @@ def judged(xml, solution_file):
         "off": off,
         "least": least,
         "reached": reached,
+        "without": ", ".join(map(str, without)),
+        "starts_off": starts_off,
         "judges": judges,
         "dt": scenario.dt,
     }
@@ -136,13 +157,10 @@ def pairs(scenarios, drives):
 
 def row(name, summary, verdict):
     ended = json.loads(summary.read_text())["outcome"] if summary.exists() else ""
-    when = [
-        ("no" if verdict[key] is None else f"from {verdict[key] * verdict['dt']:.2f} s") for key in ("collision", "off")
-    ]
-    return (
-        f"| {name} | {ended} | {verdict['end']:.2f} | {when[0]} | {when[1]} | {verdict['least']:.2f} | {verdict['reached']} | "
-        f"{verdict['judges']} |"
-    )
+    when = [("no" if verdict[key] is None else f"from {verdict[key] * verdict['dt']:.2f} s") for key in ("collision", "off")]
+    when[1] = "starts off it" if verdict["starts_off"] else when[1]
+    cells = [name, ended, f"{verdict['end']:.2f}", *when, f"{verdict['least']:.2f}", verdict["reached"], verdict["without"]]
+    return f"| {' | '.join(cells)} | {verdict['judges']} |"
 
 
 def main():

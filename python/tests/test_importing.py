@@ -111,6 +111,17 @@ def test_lanes_of_the_other_way_where_they_are_needed(tmp_path, version):
         assert any("parkedVehicle11 leaves" in note for note in scene.notes) == (oncoming != "always")
 
 
+def test_a_recorded_drive_of_the_vehicle_is_no_obstacle(tmp_path, version):
+    itself = scenes.obstacle(version, 15, "dynamic", "car", scenes.box(4.5, 1.6),
+                             scenes.state("initialState", 0, 20.1, 0.1, 0.1, scenes.exact("velocity", 12)),
+                             scenes.state("state", 1, 21.3, 0.1, 0.1))
+    scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=itself)))
+    assert not any(o["name"] == "car15" for o in scene.obstacles) and any("car15: left out" in n for n in scene.notes)
+    later = itself.replace("<exact>0</exact></time>", "<exact>5</exact></time>").replace("<exact>1</exact></time>", "<exact>6</exact></time>")
+    scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=later)))
+    assert [row[0] for o in scene.obstacles if o["name"] == "car15" for row in o["table"]] == pytest.approx([0.5, 0.6])
+
+
 def test_goals_of_other_kinds(tmp_path, version):
     def goal_of(text, **others):
         return importing.commonroad(written(tmp_path, scenes.commonroad(version, goal=text, **others)))

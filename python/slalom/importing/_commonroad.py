@@ -22,6 +22,10 @@ ACCELERATION = 4.0
 """By which the road's length for a goal of time alone is reckoned [m/s^2]."""
 BEHIND, BEYOND = 15.0, 60.0
 """How much road is kept behind the vehicle and beyond the goal [m]."""
+CLOSE = {"verified_clearance": 0.2, "kept_clearance": 0.1, "arrival_margin": 0.1}
+"""How near to bodies a plan may come [m]: between lanes there is no room for the paper's 2 m."""
+TEX = 0.1
+"""Execution horizon [s]: a scene may leave a second to act, and tells the traffic in such steps."""
 TURNED_AWAY = 10.0
 """What it costs to start in a lane of another direction [m/rad]."""
 
@@ -35,7 +39,8 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
     clock = Clock(scenario.dt, initial.time_step)
     notes = _left_out(scenario, problems.planning_problem_dict, chosen.planning_problem_id)
     start = _start(file, initial, car, notes)
-    obstacles = obstacles_of(scenario, clock, notes)
+    place, psi = _place(initial), _exact("its heading", getattr(initial, "orientation", 0.0), [])
+    obstacles = obstacles_of(scenario, clock, place, psi, notes)
     lanes = lanes_of(scenario.lanelet_network)
     way = _Way(file, lanes, car, initial, oncoming == "always")
     goal, road = _goal_and_road(way, chosen, clock, obstacles)
@@ -61,7 +66,8 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
         points=road.points() if road else [],
         lanes=road.lane_lines() if road else [],
         obstacles=obstacles,
-        planner={"base": "P_E", "prediction": "known"},
+        planner={"base": "P_E", "prediction": "known", **CLOSE},
+        loop={"tex": TEX},
         notes=notes,
     )
 

@@ -15,6 +15,10 @@ FULLER = 1.25
 the area of the largest of them."""
 
 
+SAME_PLACE, SAME_HEADING = 0.5, 0.2
+"""Within which [m, rad] an obstacle begins as the vehicle does."""
+
+
 @dataclass(frozen=True)
 class Clock:
     """Time steps of a file [s]: `first` is the one at which the drive begins."""
@@ -26,13 +30,19 @@ class Clock:
         return (time_step - self.first) * self.step
 
 
-def obstacles_of(scenario: Any, clock: Clock, notes: list[str]) -> list[dict[str, Any]]:
-    """All obstacles of a scenario of commonroad-io; what is not carried over is added to `notes`."""
+def obstacles_of(
+    scenario: Any, clock: Clock, place: Array, psi: float, notes: list[str]
+) -> list[dict[str, Any]]:
+    """All obstacles of a scenario of commonroad-io but the vehicle itself, which starts at `place` in the
+    direction `psi`; what is not carried over is added to `notes`."""
     made = []
     for obstacle in scenario.static_obstacles:
         made += _standing(obstacle, notes)
     for obstacle in scenario.dynamic_obstacles:
-        made += _moving(obstacle, clock, notes)
+        if _is_the_vehicle(obstacle.initial_state, clock, place, psi):
+            notes.append(f"{_name(obstacle)}: left out, it begins as the vehicle does, and is a drive of it")
+        else:
+            made += _moving(obstacle, clock, notes)
     for obstacle in scenario.phantom_obstacle:
         made += list(_swept(f"phantom{obstacle.obstacle_id}", dict(obstacle.prediction.occupancies), clock, notes))
     for obstacle in scenario.environment_obstacle:
@@ -42,6 +52,14 @@ def obstacles_of(scenario: Any, clock: Clock, notes: list[str]) -> list[dict[str
 
 def _name(obstacle: Any) -> str:
     return f"{obstacle.obstacle_type.value}{obstacle.obstacle_id}"
+
+
+def _is_the_vehicle(state: Any, clock: Clock, place: Array, psi: float) -> bool:
+    """Whether an obstacle begins where and when the vehicle does: scenarios keep a recorded drive of it so."""
+    if _uncertain(state) or state.time_step != clock.first:
+        return False
+    turned = abs(float(np.angle(np.exp(1j * ((getattr(state, "orientation", None) or 0.0) - psi)))))
+    return bool(np.hypot(*(np.asarray(state.position) - place)) < SAME_PLACE and turned < SAME_HEADING)
 
 
 def _standing(obstacle: Any, notes: list[str]) -> list[dict[str, Any]]:

@@ -59,6 +59,7 @@ class Scene:
     lanes: list[list[list[float]]] = field(default_factory=list)
     obstacles: list[dict[str, Any]] = field(default_factory=list)
     planner: dict[str, Any] = field(default_factory=dict)
+    loop: dict[str, Any] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     """What could not be carried over, by name, and what was decided, a sentence each."""
 
@@ -73,7 +74,7 @@ class Scene:
             f"planner: {_flow(self.planner)}",
             f"start: {_flow(self.start)}",
             f"goal: {_flow(self.goal)}",
-            f"loop: {{sm_crash: 0, timeout: {_number(self.timeout)}}}",
+            f"loop: {_flow({'sm_crash': 0, 'timeout': self.timeout, **self.loop})}",
         ]
         if self.points:
             lines += [
