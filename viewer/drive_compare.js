@@ -47,7 +47,7 @@
     const of = (data) => new Map(data.obstacles.map((o) => [o.name, o]));
     const [inA, inB] = [of(a), of(b)];
     const obstacles = [...new Set([...inA.keys(), ...inB.keys()])].filter((name) => !same(inA.get(name), inB.get(name)));
-    const places = ['goal', 'region'].filter((name) => !same(a[name], b[name]));
+    const places = ['goal', 'region', 'road'].filter((name) => !same(a[name], b[name]));
     return [
       ...places,
       ...(obstacles.length ? [`obstacle${obstacles.length > 1 ? 's' : ''} ${obstacles.slice(0, 6).join(', ')}${obstacles.length > 6 ? ', …' : ''}`] : []),

@@ -3,7 +3,7 @@
 (function (slalom) {
   'use strict';
 
-  const { drives, moves, number, obstacleAt, offset, offsetText } = slalom;
+  const { drives, moves, number, obstacleAt, expectedAt, offset, offsetText } = slalom;
   /** At most so many of an obstacle are drawn along a plan. */
   const MOST_GHOSTS = 40;
 
@@ -37,7 +37,8 @@
       y1: r.y_min === null ? height : view.y(r.y_min),
     }));
     ctx.fillStyle = colour.road;
-    for (const { x0, x1, y0, y1 } of sides) ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
+    if (!scene.roads.length) for (const { x0, x1, y0, y1 } of sides) ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
+    roads(view);
     grid(view);
     ctx.lineWidth = 1.5;
     for (const { r, x0, x1, y0, y1 } of sides) {
@@ -100,28 +101,61 @@
     }
   }
 
+  /** Paths through places, from the first to the last. */
+  function through(view, places) {
+    view.ctx.beginPath();
+    for (const [x, y] of places) view.ctx.lineTo(view.x(x), view.y(y));
+  }
+
+  function roads(view) {
+    const { ctx, colour, scene } = view;
+    for (const { left, right, middle, lanes, ink } of scene.roads) {
+      through(view, [...left, ...right.slice().reverse()]);
+      ctx.fillStyle = colour.road;
+      ctx.fill();
+      const line = (places, width, alpha, dash) => {
+        through(view, places);
+        ctx.strokeStyle = colour[ink];
+        ctx.lineWidth = width;
+        ctx.globalAlpha = alpha;
+        ctx.setLineDash(dash);
+        ctx.stroke();
+      };
+      for (const lane of lanes) line(lane, 1.25, 0.6, [9, 9]);
+      line(middle, 1, 0.25, []);
+      for (const edge of [left, right]) line(edge, 1.75, 0.9, []);
+      ctx.globalAlpha = 1;
+    }
+  }
+
   function goals(view) {
-    const { ctx, colour, camera, scene } = view;
-    for (const goal of scene.goals) {
-      const s = goal.sigma * camera.scale;
-      const ink = colour[goal.ink];
+    const { ctx, colour, scene } = view;
+    for (const { x, y, ink } of scene.goals) {
+      if (!x.length) continue;
+      const shape = x.map((at, i) => [at, y[i]]);
+      const top = shape.reduce((a, b) => (b[1] > a[1] ? b : a));
+      const middle = [0, 1].map((k) => shape.reduce((sum, p) => sum + p[k], 0) / shape.length);
       ctx.save();
-      ctx.translate(view.x(goal.x), view.y(goal.y));
-      ctx.fillStyle = ink;
+      through(view, shape);
+      ctx.closePath();
+      ctx.fillStyle = ctx.strokeStyle = colour[ink];
       ctx.globalAlpha = 0.13;
-      ctx.fillRect(-s, -s, 2 * s, 2 * s);
+      ctx.fill();
       ctx.globalAlpha = 0.9;
-      ctx.strokeStyle = ink;
-      ctx.lineWidth = 1.5;
-      ctx.strokeRect(-s, -s, 2 * s, 2 * s);
-      ctx.beginPath();
-      ctx.moveTo(-5, 0); ctx.lineTo(5, 0);
-      ctx.moveTo(0, -5); ctx.lineTo(0, 5);
+      ctx.lineWidth = shape.length > 2 ? 1.5 : 3;
       ctx.stroke();
+      ctx.translate(view.x(middle[0]), view.y(middle[1]));
+      if (shape.length > 2) {
+        ctx.lineWidth = 1.5;
+        ctx.beginPath();
+        ctx.moveTo(-5, 0); ctx.lineTo(5, 0);
+        ctx.moveTo(0, -5); ctx.lineTo(0, 5);
+        ctx.stroke();
+      }
       ctx.font = font('600', 12);
       ctx.textAlign = 'center';
       ctx.textBaseline = 'bottom';
-      ctx.fillText('goal', 0, -s - 4);
+      ctx.fillText('goal', 0, view.y(top[1]) - view.y(middle[1]) - 4);
       ctx.restore();
     }
   }
@@ -132,24 +166,55 @@
     ctx.ellipse(view.x(x), view.y(y), Math.max(a * camera.scale, 0.1), Math.max(b * camera.scale, 0.1), 0, 0, 2 * Math.PI);
   }
 
+  /** Paths an obstacle at p, larger by `margin` [m], but no smaller than a circle of `least` [pixels]. */
+  function outline({ ctx, x, y, scale }, o, p, margin, least) {
+    ctx.beginPath();
+    const [a, b] = [(o.a + margin) * scale, (o.b + margin) * scale];
+    if (!o.polygon || a < least) {
+      ctx.ellipse(x(p.x), y(p.y), Math.max(a, least, 0.1), Math.max(b, least, 0.1), -p.psi, 0, 2 * Math.PI);
+      return;
+    }
+    for (const [cx, cy] of slalom.corners(o.polygon, p, margin)) ctx.lineTo(x(cx), y(cy));
+    ctx.closePath();
+  }
+
+  const on = (view) => ({ ctx: view.ctx, x: view.x, y: view.y, scale: view.camera.scale });
+
   function obstacles(view, t) {
-    const { ctx, colour, camera, layers, scene } = view;
+    const { ctx, colour, layers, scene } = view;
     for (const o of scene.obstacles) {
+      if (o.track) way(view, o, t);
       const p = obstacleAt(o, t);
+      if (!p) continue;
       if (layers.grown) {
-        ellipse(view, p.x, p.y, o.grown.a, o.grown.b);
+        outline(on(view), o, p, o.grown.a - o.a, 0);
         ctx.strokeStyle = colour[o.ink];
         ctx.globalAlpha = 0.6;
         ctx.lineWidth = 1;
         ctx.stroke();
         ctx.globalAlpha = 1;
       }
-      ellipse(view, p.x, p.y, Math.max(o.a, 1.2 / camera.scale), Math.max(o.b, 1.2 / camera.scale));
+      outline(on(view), o, p, 0, 1.2);
       ctx.fillStyle = colour[o.ink];
       ctx.fill();
       if (moves(o)) arrow(view, p, o);
     }
     if (layers.margins) for (const drive of drives) margins(view, drive, t);
+  }
+
+  /** Where an obstacle that moves by a table or along a path will go. */
+  function way(view, o, t) {
+    const { ctx, colour } = view;
+    const { track } = o;
+    const p = obstacleAt(o, t);
+    ctx.strokeStyle = colour[o.ink];
+    ctx.globalAlpha = 0.3;
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    if (p) ctx.moveTo(view.x(p.x), view.y(p.y));
+    for (let i = slalom.lastAtOrBefore(track.t, t) + 1; i < track.t.length; ++i) ctx.lineTo(view.x(track.x[i]), view.y(track.y[i]));
+    ctx.stroke();
+    ctx.globalAlpha = 1;
   }
 
   /** Around each obstacle, the margins that a drive's planner keeps. */
@@ -160,13 +225,17 @@
     ctx.setLineDash([3, 3]);
     for (const o of drive.data.obstacles) {
       const p = obstacleAt(o, t);
+      if (!p) continue;
       for (const margin of drive.data.planner.margins) {
-        ellipse(view, p.x, p.y, o.a + margin, o.b + margin);
+        outline(on(view), o, p, margin + grownBy(o, 0), 0);
         ctx.stroke();
       }
     }
     ctx.setLineDash([]);
   }
+
+  /** By how much predictions take an obstacle for larger, `ahead` seconds from when they are made. */
+  const grownBy = (o, ahead) => (o.margin ? o.margin[0] + o.margin[1] * Math.max(ahead, 0) : 0);
 
   function names(view, t) {
     const { ctx, colour, camera, scene } = view;
@@ -175,20 +244,36 @@
     ctx.textAlign = 'center';
     ctx.textBaseline = 'middle';
     for (const o of scene.obstacles) {
-      if (Math.min(o.a, o.b) * camera.scale < 12) continue;
+      if (slalom.halfBreadth(o) * camera.scale < 12) continue;
       const p = obstacleAt(o, t);
-      ctx.fillText(o.name, view.x(p.x), view.y(p.y));
+      if (p) ctx.fillText(o.name, view.x(p.x), view.y(p.y));
     }
+  }
+
+  /** What the obstacle at a place of the canvas is called and how fast it is; nothing for none. */
+  function wordsAt(view, t, px, py) {
+    const x = view.camera.x + (px - view.width / 2) / view.camera.scale;
+    const y = view.camera.y - (py - view.height / 2) / view.camera.scale;
+    for (const o of view.scene.obstacles) {
+      const p = obstacleAt(o, t);
+      if (!p || !slalom.covers(o, p, 4 / view.camera.scale, x, y)) continue;
+      return moves(o) ? `${o.name}, ${number(Math.hypot(p.vx, p.vy), 1)} m/s` : o.name;
+    }
+    return '';
   }
 
   /** Where the obstacle will be in one second. */
   function arrow(view, p, o) {
     const { ctx, colour, camera } = view;
-    const dx = o.vx * camera.scale;
-    const dy = -o.vy * camera.scale;
+    const dx = p.vx * camera.scale;
+    const dy = -p.vy * camera.scale;
     const length = Math.hypot(dx, dy);
     if (length < 6) return;
-    const edge = Math.hypot(o.a * o.vx, o.b * o.vy) / Math.hypot(o.vx, o.vy) * camera.scale;
+    const speed = Math.hypot(p.vx, p.vy);
+    const ahead = Math.atan2(p.vy, p.vx) - p.psi;
+    const [c, s] = [Math.cos(ahead), Math.sin(ahead)];
+    const edge = (o.polygon ? Math.max(...o.polygon.map(([x, y]) => c * x + s * y))
+      : p.psi === 0 ? Math.hypot(o.a * p.vx, o.b * p.vy) / speed : Math.hypot(o.a * c, o.b * s)) * camera.scale;
     ctx.save();
     ctx.translate(view.x(p.x), view.y(p.y));
     ctx.rotate(Math.atan2(dy, dx));
@@ -205,25 +290,28 @@
   }
 
   /** The moving obstacles where the plan being driven takes them to be. */
-  function ghosts(view, drive, plan) {
-    const { ctx, colour, camera } = view;
+  function ghosts(view, drive, { plan, t0 }) {
+    const { ctx, colour } = view;
+    const { prediction } = drive.data.settings.planner;
     ctx.strokeStyle = colour[drive.ink('purple')];
     ctx.fillStyle = ctx.strokeStyle;
     for (const o of drive.data.obstacles) {
       if (!moves(o)) continue;
       const n = plan.t.length - 1;
       const held = plan.held !== null;
+      const ghost = (t, least) => {
+        const p = expectedAt(o, t, t0, prediction);
+        if (p) outline(on(view), o, p, grownBy(o, t - t0), least); else ctx.beginPath();
+      };
       ctx.lineWidth = 1;
       ctx.setLineDash([]);
       const step = Math.ceil(n / MOST_GHOSTS);
       for (let k = step; !held && k < n; k += step) {
-        const p = obstacleAt(o, plan.t_start + plan.t[k]);
         ctx.globalAlpha = 0.22;
-        ellipse(view, p.x, p.y, o.a, o.b);
+        ghost(plan.t_start + plan.t[k], 0);
         ctx.stroke();
       }
-      const p = obstacleAt(o, held ? plan.held : plan.t_start + plan.t[n]);
-      ellipse(view, p.x, p.y, Math.max(o.a, 4 / camera.scale), Math.max(o.b, 4 / camera.scale));
+      ghost(held ? plan.held : plan.t_start + plan.t[n], 4);
       ctx.globalAlpha = 0.12;
       ctx.fill();
       ctx.globalAlpha = 1;
@@ -240,9 +328,10 @@
     return {
       obstacles: shared('vermilion', (data) => data.obstacles),
       goals: shared('green', (data) => [data.goal]),
+      roads: shared('muted', (data) => (data.road ? [data.road] : [])),
       regions: shared('muted', (data) => [data.region]),
     };
   }
 
-  slalom.course = { scene, ground, goals, obstacles, names, ghosts, ellipse };
+  slalom.course = { scene, ground, goals, obstacles, names, wordsAt, ghosts, ellipse, outline };
 })(window.slalom = window.slalom || {});

@@ -39,13 +39,80 @@
     return sample;
   }
 
-  /** Centre of an obstacle at absolute time t. */
+  /** Where an obstacle is at absolute time t, its heading and velocity; null while it is not there. */
   function obstacleAt(o, t) {
-    return { x: o.x + o.vx * t, y: o.y + o.vy * t };
+    if (!o.track) return { x: o.x + o.vx * t, y: o.y + o.vy * t, psi: o.psi || 0, vx: o.vx, vy: o.vy, omega: 0 };
+    const { track, there: [from, to] } = o;
+    if (!track.t.length || (from !== null && t < from) || (to !== null && t > to)) return null;
+    const i = Math.min(Math.max(lastAtOrBefore(track.t, t), 0), Math.max(track.t.length - 2, 0));
+    const h = track.t[i + 1] - track.t[i];
+    const rate = (column) => (h > 0 && t < track.t[track.t.length - 1] ? (column[i + 1] - column[i]) / h : 0);
+    const { x, y, psi } = sampleAt(track, t);
+    return { x, y, psi, vx: rate(track.x), vy: rate(track.y), omega: rate(track.psi) };
   }
 
   function moves(o) {
-    return o.vx !== 0 || o.vy !== 0;
+    return Boolean(o.track) || o.vx !== 0 || o.vy !== 0;
+  }
+
+  /** Where a plan made at `t0` takes an obstacle to be at t: where it will be, or as it goes then. */
+  function expectedAt(o, t, t0, prediction) {
+    if (!o.track || !prediction || prediction === 'known') return obstacleAt(o, t);
+    const p = obstacleAt(o, t0);
+    if (!p) return null;
+    const turned = prediction === 'constant_turn' ? p.omega * (t - t0) : 0;
+    // The velocity turns evenly; its integral is the chord.
+    const way = (t - t0) * (turned ? Math.sin(turned / 2) / (turned / 2) : 1);
+    const c = Math.cos(turned / 2);
+    const s = Math.sin(turned / 2);
+    return { ...p, x: p.x + way * (c * p.vx - s * p.vy), y: p.y + way * (s * p.vx + c * p.vy), psi: p.psi + turned };
+  }
+
+  /** A place of the world in the frame of a body at p. */
+  function toBody(p, x, y) {
+    const c = Math.cos(p.psi);
+    const s = Math.sin(p.psi);
+    return [c * (x - p.x) + s * (y - p.y), c * (y - p.y) - s * (x - p.x)];
+  }
+
+  /** The corners of a polygon, larger by `margin` all around and then rounded, that is at p. */
+  function corners(polygon, p, margin) {
+    const out = [];
+    const n = polygon.length;
+    const add = (x, y) => out.push([p.x + Math.cos(p.psi) * x - Math.sin(p.psi) * y, p.y + Math.sin(p.psi) * x + Math.cos(p.psi) * y]);
+    polygon.forEach(([x, y], k) => {
+      if (!margin) return add(x, y);
+      const [bx, by] = polygon[(k + n - 1) % n];
+      const [ax, ay] = polygon[(k + 1) % n];
+      const from = Math.atan2(y - by, x - bx);
+      const turn = ((Math.atan2(ay - y, ax - x) - from) % (2 * Math.PI) + 2 * Math.PI) % (2 * Math.PI);
+      for (let i = 0; i <= 6; ++i) {
+        const angle = from - Math.PI / 2 + turn * i / 6;
+        add(x + margin * Math.cos(angle), y + margin * Math.sin(angle));
+      }
+    });
+    return out;
+  }
+
+  /** Half of how broad an obstacle is where it is narrowest. */
+  function halfBreadth(o) {
+    if (!o.polygon) return Math.min(o.a, o.b);
+    const n = o.polygon.length;
+    return Math.min(...o.polygon.map(([x, y], k) => {
+      const [ax, ay] = o.polygon[(k + 1) % n];
+      return Math.max(...o.polygon.map(([px, py]) => (ax - x) * (py - y) - (ay - y) * (px - x))) / Math.hypot(ax - x, ay - y);
+    })) / 2;
+  }
+
+  /** Whether the place (x, y) lies within an obstacle at p that is larger by `margin` all around. */
+  function covers(o, p, margin, x, y) {
+    const [bx, by] = toBody(p, x, y);
+    if (!o.polygon) return Math.hypot(bx / (o.a + margin), by / (o.b + margin)) <= 1;
+    const n = o.polygon.length;
+    return o.polygon.every(([cx, cy], k) => {
+      const [ax, ay] = o.polygon[(k + 1) % n];
+      return ((ax - cx) * (by - cy) - (ay - cy) * (bx - cx)) / Math.hypot(ax - cx, ay - cy) >= -margin;
+    });
   }
 
   /** Velocity of the front axle's centre; section 1 of the formulation. */
@@ -148,9 +215,13 @@
     };
     for (const { data: { start, goal, plant, obstacles, region: r } } of drives) {
       add(start.x, start.y, 5, 5);
-      add(goal.x, goal.y, goal.sigma, goal.sigma);
+      goal.x.forEach((x, i) => add(x, goal.y[i], 0, 0));
       for (let i = 0; i < plant.t.length; ++i) add(plant.x[i], plant.y[i], 4, 4);
-      for (const o of obstacles) add(o.x, o.y, o.grown.a, o.grown.b);
+      for (const o of obstacles) {
+        const { x, y } = o.track || { x: [o.x], y: [o.y] };
+        const [a, b] = o.psi || o.track ? [Math.max(o.grown.a, o.grown.b), Math.max(o.grown.a, o.grown.b)] : [o.grown.a, o.grown.b];
+        for (let i = 0; i < x.length; ++i) add(x[i], y[i], a, b);
+      }
       if (r.x_min !== null) box.x0 = Math.min(box.x0, r.x_min - 2);
       if (r.x_max !== null) box.x1 = Math.max(box.x1, r.x_max + 2);
     }
@@ -213,6 +284,6 @@
   [JSON.parse(element.textContent)].flat().forEach(add);
 
   Object.assign(slalom, {
-    drives, span, add, lastAtOrBefore, sampleAt, obstacleAt, moves, courseBox, number, escape, ticks, offset, offsetText,
+    drives, span, add, lastAtOrBefore, sampleAt, obstacleAt, expectedAt, moves, corners, halfBreadth, covers, courseBox, number, escape, ticks, offset, offsetText,
   });
 })(window.slalom = window.slalom || {});

@@ -2,7 +2,7 @@
 (function (slalom) {
   'use strict';
 
-  const { ellipse } = slalom.course;
+  const { ellipse, outline } = slalom.course;
 
   /** Of path and plan [pixels]: finer where the course is seen from far. */
   const lineWidth = (view) => Math.min(Math.max(view.camera.scale * 0.7, 1.2), 2.5);
@@ -88,6 +88,15 @@
     ctx.closePath();
   }
 
+  /** The rectangle that keeps off obstacles, to scale, in the vehicle's frame. */
+  function footprint(view, drive) {
+    const { ctx, colour, camera } = view;
+    const { length, width, front_overhang: front } = drive.data.vehicle;
+    ctx.strokeStyle = colour[drive.ink('blue')];
+    ctx.lineWidth = 1;
+    ctx.strokeRect((front - length) * camera.scale, -width / 2 * camera.scale, length * camera.scale, width * camera.scale);
+  }
+
   /** The vehicle, its reference point the front axle's centre; never smaller than 16 pixels. */
   function drawVehicle(view, drive, sample) {
     const { ctx, colour } = view;
@@ -96,10 +105,11 @@
     const wheelbase = (vehicle.la + vehicle.lb) * s;
     const l = vehicle.length * s;
     const w = vehicle.width * s;
-    const front = Math.max((l - wheelbase) / 2, 0);
+    const front = vehicle.front_overhang * s;
     ctx.save();
     ctx.translate(view.x(sample.x), view.y(sample.y));
     ctx.rotate(-sample.psi);
+    if (vehicle.footprint === 'rectangle') footprint(view, drive);
     ctx.fillStyle = colour.tyre;
     for (const [x, angle] of [[0, sample.sa], [-wheelbase, 0]]) {
       for (const side of [-1, 1]) {
@@ -156,17 +166,25 @@
     ctx.lineWidth = 1;
     ctx.stroke();
     ctx.clip();
+    for (const road of scene.roads) {
+      ctx.strokeStyle = colour[road.ink];
+      for (const edge of [road.left, road.right]) trace(ctx, edge.map(([x, y]) => [mx(x), my(y)]));
+    }
     ctx.globalAlpha = 0.3;
     for (const goal of scene.goals) {
-      ctx.fillStyle = colour[goal.ink];
-      ctx.fillRect(mx(goal.x - goal.sigma), my(goal.y + goal.sigma), 2 * goal.sigma * k, 2 * goal.sigma * k);
+      ctx.fillStyle = ctx.strokeStyle = colour[goal.ink];
+      ctx.lineWidth = 2;
+      ctx.beginPath();
+      goal.x.forEach((x, i) => ctx.lineTo(mx(x), my(goal.y[i])));
+      ctx.fill();
+      if (goal.x.length === 2) ctx.stroke();
     }
     ctx.globalAlpha = 1;
     for (const o of scene.obstacles) {
       const p = slalom.obstacleAt(o, t);
+      if (!p) continue;
       ctx.fillStyle = colour[o.ink];
-      ctx.beginPath();
-      ctx.ellipse(mx(p.x), my(p.y), Math.max(o.a * k, 1), Math.max(o.b * k, 1), 0, 0, 2 * Math.PI);
+      outline({ ctx, x: mx, y: my, scale: k }, o, p, 0, 1);
       ctx.fill();
     }
     for (const { drive, sample } of at) {

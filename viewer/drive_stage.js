@@ -78,7 +78,7 @@
     course.goals(view);
     for (const { drive, cycle } of at) under(drive, cycle, t);
     course.obstacles(view, t);
-    if (layers.ghosts) for (const { drive, cycle } of at) if (cycle) course.ghosts(view, drive, cycle.plan);
+    if (layers.ghosts) for (const { drive, cycle } of at) if (cycle) course.ghosts(view, drive, cycle);
     course.names(view, t);
     for (const { drive, cycle, sample } of at) over(drive, cycle, sample, t);
     if (camera.mode !== 'course') slalom.drawMap(view, at, t);
@@ -135,7 +135,10 @@
       canvas.setPointerCapture(event.pointerId);
     });
     canvas.addEventListener('pointermove', (event) => {
-      if (!drag) return;
+      if (!drag) {
+        canvas.title = course.wordsAt(view, now, event.offsetX, event.offsetY);
+        return;
+      }
       const dx = event.clientX - drag.x;
       const dy = event.clientY - drag.y;
       if (camera.mode !== 'free' && Math.hypot(dx, dy) < 4) return;
@@ -161,5 +164,5 @@
   survey();
   listen();
   resize();
-  slalom.stage = { draw, survey, setMode, zoom: (factor) => zoom(factor, view.width / 2, view.height / 2) };
+  slalom.stage = { draw, survey, setMode, pixelOf: (x, y) => [view.x(x), view.y(y)], zoom: (factor) => zoom(factor, view.width / 2, view.height / 2) };
 })(window.slalom = window.slalom || {});

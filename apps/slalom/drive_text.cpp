@@ -47,6 +47,9 @@ std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
         without_sign(drive.least_clearance), scenario.loop.sm_crash, drive.least_clearance_obstacle,
         drive.least_clearance_t);
   text += fmt::format("  least wheel load   {:.0f} N\n", drive.least_wheel_load);
+  if (std::isfinite(drive.least_edge_distance))
+    text += fmt::format("  off the road's edge {:.3f} m at the least, {:.1f} m along the road\n",
+                        drive.least_edge_distance, drive.progress);
 
   text += verification_text(drive);
   for (const auto& mark : sim::marks(scenario, drive))

@@ -56,15 +56,21 @@ def plot_phases(phases: list[Solution], pyplot: Any, options: dict[str, Any]) ->
 def plot_drive(drive: Drive, pyplot: Any, options: dict[str, Any]) -> Any:
     """The path among the obstacles where these were when the drive ended, and over time what
     OVER_TIME names."""
-    from matplotlib.patches import Ellipse
+    from matplotlib.patches import Ellipse, Polygon
 
     figure = pyplot.figure(**{"layout": "constrained", **options})
     grid = figure.add_gridspec(len(OVER_TIME), 2)
     path = figure.add_subplot(grid[:, 0])
     path.plot(drive.states[:, 0], drive.states[:, 1])
     for o in drive.scenario.obstacles:
-        centre = (o.x + o.vx * drive.time, o.y + o.vy * drive.time)
-        path.add_patch(Ellipse(centre, 2 * o.a, 2 * o.b, color="C1"))
+        if not o.present(drive.time):
+            continue
+        x, y, psi = o.pose_at(drive.time)[:3]
+        corners = o.corners_at(drive.time)
+        if len(corners):
+            path.add_patch(Polygon(corners, color="C1"))
+        else:
+            path.add_patch(Ellipse((x, y), 2 * o.a, 2 * o.b, angle=np.degrees(psi), color="C1"))
     path.plot(drive.scenario.goal.x, drive.scenario.goal.y, "C2*")
     path.set_aspect("equal", "datalim")
     path.set_xlabel("x [m]")

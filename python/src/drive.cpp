@@ -79,7 +79,7 @@ void bind_outcome(nb::class_<Driven>& type) {
   type.def_ro("scenario", &Driven::scenario, "What was driven.")
       .def_prop_ro(
           "outcome", [](const Driven& d) { return sim::to_string(d.drive.outcome); },
-          "goal, crash, wheel_lift, not_optimal, solve_time, timeout or interrupted.")
+          "goal, crash, wheel_lift, off_road, not_optimal, solve_time, timeout or interrupted.")
       .def_prop_ro(
           "time", [](const Driven& d) { return d.drive.time; }, doc::sim_Drive_time)
       .def_prop_ro(

@@ -35,7 +35,8 @@ struct ScenarioPlanner {
   explicit ScenarioPlanner(const Scenario& s) : planner(s), tex(s.loop.tex) {}
 };
 
-/// Obstacles as measured at t0, as a request has them: where they would have been at t = 0.
+/// Obstacles as measured at t0, as a request has them: where they would have been at t = 0. Times
+/// of tables and paths are the drive's.
 std::vector<world::Obstacle> measured_at(double t0, std::vector<world::Obstacle> obstacles) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     auto& o = obstacles[i];
@@ -227,8 +228,9 @@ void bind_planner(nb::module_& module) {
            "scenario's if\nleft out. A plan whose solve ended otherwise is returned too. "
            "`time_limit` is of thread time "
            "[s]. `obstacles`, if given, take the place of the\nscenario's in this call, as many as "
-           "there are: their x and y are those at t0, and those of one name are\none from call to "
-           "call.")
+           "there are: their x and y are those at t0, times of tables and paths the drive's, "
+           "and\nthose "
+           "of one name are one from call to call.")
       .def(
           "reset", [](ScenarioPlanner& self) { self.planner.reset(); }, doc::planner_Planner_reset);
 }

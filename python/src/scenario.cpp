@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
@@ -50,7 +51,6 @@ nb::any value(const Scenario& scenario, const std::string& wanted) {
 
 void bind_parts(nb::module_& module) {
   using world::Goal;
-  using world::Obstacle;
   using world::Region;
   nb::class_<Goal>(module, "Goal", doc::world_Goal)
       .def_ro("x", &Goal::x)
@@ -62,19 +62,62 @@ void bind_parts(nb::module_& module) {
       .def_ro("x_max", &Region::x_max)
       .def_ro("y_min", &Region::y_min)
       .def_ro("y_max", &Region::y_max);
+}
+
+/// Sets a key of `map` unless it is not given.
+template <class T>
+void put(nb::dict& map, const char* key, const std::optional<T>& value) {
+  if (value) map[key] = nb::cast(*value);
+}
+
+void bind_obstacle(nb::module_& module) {
+  using world::Obstacle;
+  using Number = std::optional<double>;
+  using Text = std::optional<std::string>;
+  using List = std::optional<nb::any>;
   nb::class_<Obstacle>(module, "Obstacle", doc::world_Obstacle)
       .def(
           "__init__",
-          [](Obstacle* self, double x, double y, std::optional<double> r, std::optional<double> a,
-             std::optional<double> b, double vx, double vy, const std::string& name) {
-            if (r ? a || b : !(a && b))
-              throw InvalidValue("Obstacle", r ? "r beside a or b" : "no size", "r, or a and b");
-            new (self) Obstacle{name, x, y, r ? *r : *a, r ? *r : *b, vx, vy};
+          [](Obstacle* self, Number x, Number y, Number r, Number a, Number b, Number length,
+             Number width, const List& polygon, double psi, double vx, double vy, const List& table,
+             const Text& before, const Text& after, const List& path, Number speed,
+             Number acceleration, double margin_start, double margin_rate,
+             const std::string& name) {
+            nb::dict map;
+            for (const auto& [key, value] : {std::pair<const char*, Number>{"x", x},
+                                             {"y", y},
+                                             {"r", r},
+                                             {"a", a},
+                                             {"b", b},
+                                             {"length", length},
+                                             {"width", width},
+                                             {"speed", speed},
+                                             {"acceleration", acceleration}})
+              put(map, key, value);
+            for (const auto& [key, value] : {std::pair{"psi", psi}, {"vx", vx}, {"vy", vy}})
+              if (value != 0) map[key] = value;
+            put(map, "polygon", polygon);
+            put(map, "table", table);
+            put(map, "before", before);
+            put(map, "after", after);
+            put(map, "path", path);
+            map["margin_start"] = margin_start;
+            map["margin_rate"] = margin_rate;
+            auto obstacle = io::parse_obstacle(text_of(map), "Obstacle");
+            obstacle.name = name;
+            new (self) Obstacle(std::move(obstacle));
           },
-          nb::kw_only(), "x"_a, "y"_a, "r"_a = nb::none(), "a"_a = nb::none(), "b"_a = nb::none(),
-          "vx"_a = 0.0, "vy"_a = 0.0, "name"_a = "",
-          "One to plan with: centre x, y [m], radius r or semi-axes a and b [m], velocity vx, vy "
-          "[m/s].")
+          nb::kw_only(), "x"_a = nb::none(), "y"_a = nb::none(), "r"_a = nb::none(),
+          "a"_a = nb::none(), "b"_a = nb::none(), "length"_a = nb::none(), "width"_a = nb::none(),
+          "polygon"_a = nb::none(), "psi"_a = 0.0, "vx"_a = 0.0, "vy"_a = 0.0,
+          "table"_a = nb::none(), "before"_a = nb::none(), "after"_a = nb::none(),
+          "path"_a = nb::none(), "speed"_a = nb::none(), "acceleration"_a = nb::none(),
+          "margin_start"_a = 0.0, "margin_rate"_a = 0.0, "name"_a = "",
+          "One to plan with, by the keys of a scenario file. Its place: x and y [m] with the "
+          "velocity vx, vy [m/s]; or a\ntable of [t, x, y, psi] in s, m and rad; or a path of "
+          "[x, y] that it goes along at a speed [m/s]. Its size: a\nradius r; semi-axes a and b; "
+          "length and width; or the corners [x, y] of a convex polygon about its place [m].\npsi "
+          "turns it [rad]. Lists may be arrays, or names of CSV files. Raises InvalidValue.")
       .def_ro("name", &Obstacle::name)
       .def_ro("x", &Obstacle::x, doc::world_Obstacle_x)
       .def_ro("y", &Obstacle::y, doc::world_Obstacle_y)
@@ -82,6 +125,9 @@ void bind_parts(nb::module_& module) {
       .def_ro("b", &Obstacle::b, doc::world_Obstacle_b)
       .def_ro("vx", &Obstacle::vx, doc::world_Obstacle_vx)
       .def_ro("vy", &Obstacle::vy, doc::world_Obstacle_vy)
+      .def_ro("psi", &Obstacle::psi, doc::world_Obstacle_psi)
+      .def_ro("margin_start", &Obstacle::margin_start, doc::world_Obstacle_margin_start)
+      .def_ro("margin_rate", &Obstacle::margin_rate, doc::world_Obstacle_margin_rate)
       .def_prop_ro(
           "outline",
           [](const Obstacle& o) -> std::optional<std::vector<std::array<double, 2>>> {
@@ -92,6 +138,16 @@ void bind_parts(nb::module_& module) {
           },
           "Corners (x, y) [m] of a polygon in the body's own frame, counter-clockwise; None: an "
           "ellipse.")
+      .def(
+          "corners_at",
+          [](const Obstacle& o, double t) {
+            return table(o.corners_at(t), 2, [](const world::Point& p) {
+              return std::array<double, 2>{p.x, p.y};
+            });
+          },
+          "t"_a, nb::rv_policy::move,
+          "Corners of a polygon in the world's frame at the absolute time t [s], [corner, x or y] "
+          "[m]; none\nof an ellipse.")
       .def(
           "pose_at",
           [](const Obstacle& o, double t) {
@@ -104,7 +160,13 @@ void bind_parts(nb::module_& module) {
           "Where it\nis absent, where it last was or first will be.")
       .def(
           "present", [](const Obstacle& o, double t) { return o.present(t, t); }, "t"_a,
-          "Whether it is there at the absolute time t [s].");
+          "Whether it is there at the absolute time t [s].")
+      .def(
+          "distance",
+          [](const Obstacle& o, double x, double y, double t) {
+            return world::distance(o, x, y, t);
+          },
+          "x"_a, "y"_a, "t"_a = 0.0, doc::world_distance);
 }
 
 void bind_class(nb::module_& module) {
@@ -121,6 +183,10 @@ void bind_class(nb::module_& module) {
       .def_ro("region", &Scenario::region)
       .def_prop_ro(
           "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
+      .def_prop_ro(
+          "road", [](const Scenario& s) { return s.road.get(); },
+          nb::rv_policy::reference_internal, nb::sig("def road(self) -> Road | None"),
+          "To stay on; None without one.")
       .def("keys", &keys, "Keys of all values, as `set=` takes them.")
       .def("__getitem__", &value, "key"_a,
            "A value by its key, such as \"planner.w_t\", \"start.ux\" or \"obstacles.lorry.b\".")
@@ -163,6 +229,8 @@ Scenario scenario_of(const ScenarioChoice& choice, const Changes& changes) {
 
 void bind_scenario(nb::module_& module) {
   bind_parts(module);
+  bind_road(module);
+  bind_obstacle(module);
   bind_class(module);
   module.def(
       "load_scenario",

@@ -136,6 +136,46 @@ def test_verified_plans():
     assert (other.rung, other.certificate, other.candidates) == ("", None, [])
 
 
+def test_obstacles_of_every_shape_and_motion():
+    box = slalom.Obstacle(x=5, y=2, length=4, width=2, psi=np.pi / 2, vx=3, name="car")
+    assert box.distance(5 + 3 + 1.5, 2, t=1) == pytest.approx(0.5)
+    np.testing.assert_allclose(sorted(box.corners_at(0)[:, 1]), [0, 0, 4, 4], atol=1e-12)
+    rock = slalom.Obstacle(x=5, y=2, polygon=np.array([[-1, -1], [2, 0], [0, 1]]))
+    assert rock.corners_at(0).shape == (3, 2) and rock.distance(5, 2) < 0
+    rows = [[1, 0, 0, 0], [2, 4, 0, 0.2], [4, 9, 3, 0.6]]
+    car = slalom.Obstacle(r=1, table=rows, before="absent", after="stands", margin_rate=0.1)
+    np.testing.assert_allclose(car.pose_at(2)[:3], rows[1][1:], atol=1e-12)
+    assert (car.present(0.5), car.present(9)) == (False, True) and car.margin_rate == 0.1
+    assert slalom.Obstacle(x=1, y=2, a=3, b=1, psi=0.5).corners_at(0).shape == (0, 2)
+    walker = slalom.Obstacle(r=0.4, path=[[0, 0], [5, 0], [5, 9]], speed=1.4)
+    np.testing.assert_allclose(np.array(walker.pose_at(2))[[0, 1, 3]], [2.8, 0, 1.4], atol=1e-12)
+    scenario = slalom.load_scenario({**MINE, "obstacles": [
+        {"name": "car", "x": 5, "y": 60, "length": 4, "width": 2, "psi": 0.5, "vx": 0.5},
+        {"name": "walker", "r": 0.4, "path": [[0, 90], [5, 90]], "speed": 0.1}]},
+        set={"obstacles.car.psi_deg": 90, "obstacles.car.x": 6})
+    assert (scenario["obstacles.car.x"], scenario["obstacles.car.psi"]) == (6, np.pi / 2)
+    again = scenario.replace(tex=0.25).obstacles
+    np.testing.assert_array_equal(again[0].corners_at(3), scenario.obstacles[0].corners_at(3))
+    np.testing.assert_array_equal(again[1].pose_at(3), scenario.obstacles[1].pose_at(3))
+
+
+@pytest.mark.parametrize("wrong, message", [
+    ({"x": 1, "y": 2}, "without size"),
+    ({"x": 1, "y": 2, "r": 1, "length": 3, "width": 1}, "more than one size"),
+    ({"r": 1}, "without place"),
+    ({"r": 1, "table": [[0, 0, 0]]}, "1 row"),
+    ({"r": 1, "table": [[0, 0, 0], [0, 1, 0]]}, "times that rise"),
+    ({"r": 1, "table": [[0, 0, float("nan")], [1, 1, 0]]}, "finite number"),
+    ({"r": 1, "table": "no such.csv"}, "no such file"),
+    ({"r": 1, "path": [[0, 0], [1, 1]]}, "speed"),
+    ({"x": 1, "y": 2, "polygon": [[0, 0], [1, 1], [2, 2]]}, "no area"),
+    ({"x": 1, "y": 2, "length": 0, "width": 1}, "length = 0"),
+])
+def test_bad_obstacles(wrong, message):
+    with pytest.raises(slalom.InvalidValue, match=message):
+        slalom.Obstacle(**wrong)
+
+
 def test_the_plant_may_differ_from_the_vehicle():
     scenario = slalom.load_scenario("E_B")
     heavy = scenario.replace(set={"plant.mass_factor": 1.4, "sensing.delay": 0.1})
@@ -204,8 +244,8 @@ def test_obstacles_of_each_cycle_take_the_place_of_the_scenarios():
     np.testing.assert_allclose(second.states, first.states, atol=1e-6)
     with pytest.raises(slalom.InvalidValue, match="r, or a and b"):
         slalom.Obstacle(x=0, y=0)
-    with pytest.raises(slalom.InvalidValue, match="obstacle O1: found a = -1"):
-        planner.plan(scenario.start, obstacles=[slalom.Obstacle(x=0, y=0, r=-1)])
+    with pytest.raises(slalom.InvalidValue, match="Obstacle: found r = -1"):
+        slalom.Obstacle(x=0, y=0, r=-1)
 
 
 def test_values_are_read_by_the_keys_that_set_them():

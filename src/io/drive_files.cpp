@@ -106,6 +106,10 @@ std::string summary_json(const sim::Scenario& scenario, const sim::Drive& drive)
       std::isfinite(drive.least_clearance) ? number(drive.least_clearance_t) : Json(nullptr);
   summary["least_clearance_obstacle"] = text_or_null(drive.least_clearance_obstacle);
   summary["least_wheel_load_N"] = number(drive.least_wheel_load);
+  if (std::isfinite(drive.least_edge_distance)) {
+    summary["least_edge_distance_m"] = number(drive.least_edge_distance);
+    summary["progress_m"] = number(drive.progress);
+  }
   summary["tex_s"] = number(scenario.loop.tex);
   summary["floor"] = number(scenario.planner.floor);
   add_solve_times(summary, drive);

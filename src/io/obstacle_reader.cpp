@@ -98,20 +98,10 @@ void need(const Value& map, const char* key, const char* beside) {
                        fmt::format("{} beside it", beside));
 }
 
-std::string list_of(const std::vector<std::vector<double>>& rows) {
-  std::vector<std::string> lists;
-  for (const auto& row : rows) {
-    std::vector<std::string> numbers;
-    for (const double number : row) numbers.push_back(yaml_number(number));
-    lists.push_back(fmt::format("[{}]", fmt::join(numbers, ", ")));
-  }
-  return fmt::format("[{}]", fmt::join(lists, ", "));
-}
-
 std::string list_of(const std::vector<Point>& points) {
   std::vector<std::vector<double>> rows;
   for (const Point& p : points) rows.push_back({p.x, p.y});
-  return list_of(rows);
+  return yaml_rows(rows);
 }
 
 }  // namespace
@@ -162,7 +152,7 @@ std::string obstacle_extras(const Obstacle& obstacle) {
     std::vector<std::vector<double>> rows;
     for (const auto& row : table->rows()) rows.push_back({row.t, row.x, row.y, row.psi});
     const auto& names = world::beyond_end_names();
-    text += fmt::format(", table: {}, before: {}, after: {}", list_of(rows),
+    text += fmt::format(", table: {}, before: {}, after: {}", yaml_rows(rows),
                         names[static_cast<std::size_t>(table->before())],
                         names[static_cast<std::size_t>(table->after())]);
   }

@@ -9,6 +9,7 @@
 #include "document.hpp"
 #include "obstacle_reader.hpp"
 #include "overrides.hpp"
+#include "road_reader.hpp"
 #include "scenario_sections.hpp"
 #include "semantic_check.hpp"
 #include "slalom/sim/advice.hpp"
@@ -37,6 +38,11 @@ class Loader {
     read_names();
     for (const auto& section : scenario_sections()) read_section(section);
     apply_command_line();
+    // The default margin makes up for the body that a point has not.
+    if (scenario_.vehicle.footprint != vehicle::FootprintKind::point &&
+        places_.count("loop.sm_crash") == 0)
+      scenario_.loop.sm_crash = 0;
+    scenario_.goal = world::placed(scenario_.goal, scenario_.road.get());
     check_scenario(scenario_, {file_.string(), 1, 1}, places_);
     return std::move(scenario_);
   }
@@ -89,12 +95,32 @@ class Loader {
       read_over_file(section, value, section.name == "planner" ? request_.planner : std::nullopt);
     } else if (value != nullptr && section.form == ScenarioSection::Form::list) {
       read_obstacles(*value);
+    } else if (value != nullptr && section.form == ScenarioSection::Form::road) {
+      if (value->kind == Value::Kind::null) return;
+      scenario_.road = read_road(*value);
+      places_[section.name] = value->place;
     } else if (value != nullptr) {
       require_map(*value, fmt::format("the map of {}", section.name));
-      for (const auto& key : section.required) require_key(*value, section.name, key);
+      require_keys(section, *value);
       section.bind(scenario_).read(*value, places_);
       places_[section.name] = value->place;
     }
+  }
+
+  static void require_keys(const ScenarioSection& section, const Value& map) {
+    std::vector<std::string> said;
+    for (const auto& key : section.instead)
+      if (map.find(key) != nullptr) said.push_back(key);
+    const std::size_t instead = said.size();
+    for (const auto& key : section.required) {
+      if (instead == 0) require_key(map, section.name, key);
+      if (map.find(key) != nullptr) said.push_back(key);
+    }
+    if (instead > 0 && said.size() > 1)
+      throw InvalidValue(map.place.to_string(),
+                         fmt::format("a {} with {}", section.name, fmt::join(said, " and ")),
+                         fmt::format("{}, or one of {}", fmt::join(section.required, " and "),
+                                     fmt::join(section.instead, ", ")));
   }
 
   /// Reads a section's file over the defaults, or over the file that it names as its base.
@@ -235,6 +261,13 @@ sim::Scenario parse_scenario(const std::string& text, const std::string& source)
 sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& request) {
   const auto& source = request.name_or_file;
   return Loader(request, source, parse_text(text, source, "a scenario")).load();
+}
+
+world::Obstacle parse_obstacle(const std::string& text, const std::string& source) {
+  auto obstacles = read_obstacles(parse_argument(text, source), 1);
+  if (obstacles.size() != 1)
+    throw InvalidValue(source, fmt::format("repeat = {}", obstacles.size()), "one obstacle");
+  return std::move(obstacles[0]);
 }
 
 }  // namespace slalom::io

@@ -68,21 +68,36 @@ std::string table(const OptionTable<S>& options) {
 std::string section_rows(const ScenarioSection& section) {
   sim::Scenario defaults;
   const auto& needed = section.required;
+  std::string required = "required";
+  if (!section.instead.empty())
+    required += fmt::format(", or `{}`", fmt::join(section.instead, "`, `"));
   return rows(section.bind(defaults), [&](const Field& field) {
     return std::find(needed.begin(), needed.end(), field.info.name) != needed.end()
-               ? "required"
+               ? required
                : default_text(field.load());
   });
 }
 
 std::string obstacle_rows() {
   ObstacleEntry entry;
-  return rows(entry_section(entry), [](const Field& field) -> std::string {
-    const auto& name = field.info.name;
-    if (name == "x" || name == "y") return "required";
-    if (name == "r" || name == "a" || name == "b") return "r, or a and b";
-    return default_text(field.load());
-  });
+  const auto is_one_of = [](const std::string& name, std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return rows(entry_section(entry),
+              [&](const Field& field) -> std::string {
+                const auto& name = field.info.name;
+                if (is_one_of(name, {"x", "y"})) return "x and y, a table, or a path";
+                if (is_one_of(name, {"r", "a", "b", "length", "width"})) return "one size";
+                return default_text(field.load());
+              }) +
+         "| `polygon` | one size | m | a list of [x, y], or a CSV file | Corners of a convex "
+         "polygon in either sense, in the body's own frame about the centre. |\n"
+         "| `table` | x and y, a table, or a path | s, m, m, rad | a list of [t, x, y, psi], or a "
+         "CSV file with these columns | Where it is at what time of the drive; between, a smooth "
+         "curve that does not overshoot where it comes to rest. Without `psi` it is headed along "
+         "its way. |\n"
+         "| `path` | x and y, a table, or a path | m | a list of [x, y], or a CSV file | The line "
+         "that it goes along at `speed`, headed along it; at the end it stands. |\n";
 }
 
 std::string degrees_note(const Section& section) {
@@ -135,7 +150,9 @@ std::string scenario_reference() {
   sim::Scenario defaults;
   std::string text = kIntroduction;
   for (const auto& section : scenario_sections()) {
-    text += fmt::format("\n## `{}`\n\n{}\n\n{}", section.name, section.about, kHead);
+    text += fmt::format("\n## `{}`\n\n{}\n", section.name, section.about);
+    if (section.form == ScenarioSection::Form::road) continue;
+    text += fmt::format("\n{}", kHead);
     text += section.bind == nullptr ? obstacle_rows()
                                     : section_rows(section) + degrees_note(section.bind(defaults));
   }

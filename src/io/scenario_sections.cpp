@@ -58,18 +58,35 @@ const std::vector<ScenarioSection>& scenario_sections() {
       {.name = "goal",
        .form = Form::flow,
        .required = {"x", "y"},
-       .about = "Where the drive is to end.",
+       .instead = {"s", "time", "laps"},
+       .about =
+           "Where the drive is to end: a square, a rectangle, or what the road has: a line across "
+           "it, as far as possible in a time. What else is asked on arrival may be left out.",
        .bind =
            [](Scenario& s) {
-             return section("goal", world::goal_options(), s.goal).add_degrees("psi");
+             return section("goal", world::goal_options(), s.goal)
+                 .add_degrees("psi")
+                 .add_degrees("psi_tolerance");
            }},
       {.name = "region",
        .form = Form::flow,
        .about = "A box in which every node of a plan lies.",
        .bind = [](Scenario& s) { return section("region", world::region_options(), s.region); }},
+      {.name = "road",
+       .form = Form::road,
+       .about =
+           "A corridor to stay in, about a reference line: `points`, a list of [x, y, width to "
+           "the right, width to the left] in m, or `file`, a CSV file beside the scenario with "
+           "the columns x_m, y_m, w_tr_right_m and w_tr_left_m; `closed`, whether the last point "
+           "joins the first (`false`); and `lanes`, lines that are drawn, each a list of "
+           "[x, y]."},
       {.name = "obstacles",
        .form = Form::list,
-       .about = "A list; each obstacle is a circle or an ellipse along the axes."},
+       .about =
+           "A list. Each obstacle has one place: `x` and `y`, a `table`, or a `path`; and one "
+           "size: "
+           "`r`, `a` and `b`, `length` and `width`, or a `polygon`. [obstacles.md](obstacles.md) "
+           "shows each."},
       {.name = "loop",
        .about = "The closed loop.",
        .bind = [](Scenario& s) { return section("loop", sim::loop_options(), s.loop); }},

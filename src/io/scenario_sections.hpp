@@ -10,15 +10,16 @@ namespace slalom::io {
 
 /// A section of a scenario file.
 struct ScenarioSection {
-  /// How resolved files have it: in one line, a line a key, or a list of lines.
-  enum class Form { flow, block, list };
+  /// How resolved files have it: in one line, a line a key, a list of lines, or as a road.
+  enum class Form { flow, block, list, road };
 
   std::string name;
   Form form = Form::block;
   bool in_files = false;  ///< it may name a file of its own, over which its keys are read
   std::vector<std::string> required = {};  ///< keys that must be there, and the section with them
+  std::vector<std::string> instead = {};   ///< of which one may stand for those required
   std::string about;                       ///< in the reference
-  /// Its keys, bound to their part of a scenario. A list has none of its own.
+  /// Its keys, bound to their part of a scenario. A list and a road have none of their own.
   Section (*bind)(sim::Scenario&) = nullptr;
 };
 
@@ -33,6 +34,9 @@ std::vector<std::string> scenario_keys();
 
 /// The shortest decimal that reads back to the same bits, as YAML has it.
 std::string yaml_number(double number);
+/// A list of lists of such.
+std::string yaml_rows(const std::vector<std::vector<double>>& rows,
+                      const std::string& between = ", ");
 
 /// The options of one obstacle, and its radius r.
 Section obstacle_section(world::Obstacle& obstacle, const std::string& path);

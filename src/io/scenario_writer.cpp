@@ -6,6 +6,7 @@
 #include <set>
 
 #include "obstacle_reader.hpp"
+#include "road_reader.hpp"
 #include "scenario_sections.hpp"
 #include "slalom/io/scenario_file.hpp"
 
@@ -62,6 +63,14 @@ std::set<std::string> left_out(const world::Obstacle& o) {
   return names;
 }
 
+/// Where a goal of the road lies follows from the road.
+std::set<std::string> left_out(const ScenarioSection& section, const sim::Scenario& scenario) {
+  if (section.name != "goal") return {};
+  if (!scenario.goal.is_place()) return {"x", "y", "psi", "sigma"};
+  return scenario.goal.kind() == world::GoalKind::rectangle ? std::set<std::string>{"sigma"}
+                                                            : std::set<std::string>{};
+}
+
 std::string list(std::vector<world::Obstacle>& obstacles) {
   std::string text = obstacles.empty() ? " []\n" : "\n";
   for (auto& obstacle : obstacles) {
@@ -76,11 +85,13 @@ std::string list(std::vector<world::Obstacle>& obstacles) {
 std::string content(const ScenarioSection& section, sim::Scenario& scenario) {
   switch (section.form) {
     case ScenarioSection::Form::flow:
-      return " " + flow(section.bind(scenario)) + "\n";
+      return " " + flow(section.bind(scenario), left_out(section, scenario)) + "\n";
     case ScenarioSection::Form::block:
       return "\n" + block(section.bind(scenario));
     case ScenarioSection::Form::list:
       return list(scenario.obstacles);
+    case ScenarioSection::Form::road:
+      return road_text(*scenario.road);
   }
   return "\n";
 }
@@ -96,12 +107,24 @@ std::string yaml_number(double number) {
   return text;
 }
 
+std::string yaml_rows(const std::vector<std::vector<double>>& rows, const std::string& between) {
+  std::vector<std::string> lists;
+  for (const auto& row : rows) {
+    std::vector<std::string> numbers;
+    for (const double number : row) numbers.push_back(yaml_number(number));
+    lists.push_back(fmt::format("[{}]", fmt::join(numbers, ", ")));
+  }
+  return fmt::format("[{}]", fmt::join(lists, between));
+}
+
 std::string to_yaml(const sim::Scenario& scenario) {
   std::string text = "# Everything resolved: this file alone gives the drive. SI units, radians.\n";
   text += fmt::format("name: {}\ntitle: {}\n", yaml_text(scenario.name), yaml_text(scenario.title));
   auto copy = scenario;  // sections are bound to what they could also set
-  for (const auto& section : scenario_sections())
+  for (const auto& section : scenario_sections()) {
+    if (section.form == ScenarioSection::Form::road && !scenario.road) continue;
     text += fmt::format("{}:{}", section.name, content(section, copy));
+  }
   return text;
 }
 

@@ -30,11 +30,25 @@ constexpr double kShortest = 0.4;
 constexpr double kAstray = 5;
 /// Without guidance the OCP starts straight on, at this speed at least [m/s].
 constexpr double kStraightSpeed = 5;
+/// Beyond a line across the road a motion is deep enough [m].
+constexpr double kDeep = 1;
 /// What other steps count beside a place that a search looks at, by their times on one machine.
 constexpr double kIteration = 300, kMotion = 1000, kMaking = 4000;
 
 bool cancelled(void* turns) {
   return static_cast<Turns*>(turns)->spend(kIteration);
+}
+
+/// How far within the goal a motion is deep enough.
+double depth_of(const world::Goal& goal) {
+  switch (goal.kind()) {
+    case world::GoalKind::square:
+      return goal.sigma / 2;
+    case world::GoalKind::rectangle:
+      return std::min(goal.length, goal.width) / 4;
+    default:
+      return kDeep;
+  }
 }
 
 /// Least distance to an obstacle's edge, knots of the motion being seconds apart [m].
@@ -159,10 +173,11 @@ ArrivalProblem* Proposals::problem_for(const ArrivalProblem::Obstacles& obstacle
 
 /// A motion, but for what lies deep within the goal's square at its end.
 Motion Proposals::to_the_goal(Motion motion) const {
-  const auto deep = [&](const State& x) {
-    return task_.goal.outside(x[X], x[Y]) < -task_.goal.sigma / 2;
+  const double depth = depth_of(task_.goal);
+  const auto deep = [&](std::size_t k) {
+    return task_.goal.outside(motion.states[k], motion.t[k], task_.road.get()) < -depth;
   };
-  while (motion.size() > 2 && deep(motion.states[motion.size() - 2])) motion.drop_last();
+  while (motion.size() > 2 && deep(motion.size() - 2)) motion.drop_last();
   return motion;
 }
 

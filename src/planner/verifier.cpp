@@ -157,17 +157,22 @@ void Verifier::stand_for_good(const Motion& motion) {
 }
 
 void Verifier::find_end(const Motion& motion, double tex) {
-  const auto& goal = task_.goal;
+  const auto outside = [&](const State& x, double t) {
+    return task_.goal.outside(x, t, task_.road.get());
+  };
+  const bool by_time = task_.goal.kind() == world::GoalKind::time;
+  const double inside = by_time ? 0 : kInside;
   for (double t = motion.begin(); t <= motion.end() + 1e-9; t += tex) {
-    const State x = motion.state_at(t);
-    if (goal.outside(x[X], x[Y]) > -kInside) continue;
+    // The loop looks when the time is up, too.
+    if (by_time && t > task_.goal.time && t - tex < task_.goal.time) t = task_.goal.time;
+    if (outside(motion.state_at(t), t) > -inside) continue;
     verdict_.end = MotionEnd::arrives;
     verdict_.arrival = t;
     // The square's edge is passed a little earlier, which tells motions apart that are looked at
     // at the same moment.
     for (std::size_t k = motion.size(); k-- > 0;)
       if (motion.t[k] <= t) {
-        if (goal.outside(motion.states[k][X], motion.states[k][Y]) > 0) break;
+        if (outside(motion.states[k], motion.t[k]) > 0) break;
         verdict_.arrival = motion.t[k];
       }
     return;

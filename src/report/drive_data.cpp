@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "shapes.hpp"
 #include "slalom/sim/marks.hpp"
 #include "slalom/sim/verification.hpp"
 #include "words.hpp"
@@ -35,7 +36,9 @@ constexpr int kTimeDigits = 6;
 
 // What a page carries at the most, so that one of an hour's drive opens at once: samples of the
 // plant, nodes of all plans together, and cycles with the terms of their cost.
-constexpr std::size_t kMostSamples = 11'000, kMostNodes = 24'000, kMostTerms = 2'000;
+// Of all obstacles together, rows of the motions that are given.
+constexpr std::size_t kMostSamples = 11'000, kMostNodes = 24'000, kMostTerms = 2'000,
+                      kMostTrackRows = 40'000;
 
 /// Which of `count` entries are kept of at most `most`: evenly, the first and last among them.
 std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
@@ -46,34 +49,113 @@ std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
   return indices;
 }
 
-Json scenario_data(const sim::Scenario& scenario) {
+/// A motion by a table or along a path, in columns.
+Json track_data(const Track& track) {
+  Json json = {{"t", Json::array()}, {"x", Json::array()}, {"y", Json::array()}};
+  json["psi"] = Json::array();
+  for (const auto& row : track.rows) {
+    json["t"].push_back(rounded(row.t, 3));
+    json["x"].push_back(rounded(row.x, 3));
+    json["y"].push_back(rounded(row.y, 3));
+    json["psi"].push_back(rounded(row.psi, 4));
+  }
+  return json;
+}
+
+Json obstacle_data(const world::Obstacle& o, double sm_crash, double until, std::size_t rows) {
+  const auto grown = o.grown(sm_crash);
+  Json json = {{"name", o.name},    {"x", exact(o.x)},
+               {"y", exact(o.y)},   {"a", exact(o.a)},
+               {"b", exact(o.b)},   {"vx", exact(o.vx)},
+               {"vy", exact(o.vy)}, {"grown", {{"a", exact(grown.a)}, {"b", exact(grown.b)}}}};
+  if (o.psi != 0) json["psi"] = exact(o.psi);
+  if (o.outline) {
+    auto& corners = json["polygon"] = Json::array();
+    for (const auto& p : o.outline->corners()) corners.push_back({exact(p.x), exact(p.y)});
+  }
+  if (o.trajectory) {
+    const Track track = track_of(*o.trajectory, 0, until, rows);
+    json["track"] = track_data(track);
+    // From when to when it is there; null: from before, and for good.
+    json["there"] = {track.appears ? rounded(track.rows.front().t, 3) : Json(nullptr),
+                     track.vanishes ? rounded(track.rows.back().t, 3) : Json(nullptr)};
+  }
+  if (o.margin_start != 0 || o.margin_rate != 0)
+    json["margin"] = {exact(o.margin_start), exact(o.margin_rate)};
+  return json;
+}
+
+/// `until`: the last time that is looked at [s].
+Json obstacles_data(const sim::Scenario& scenario, double until) {
+  const auto& all = scenario.obstacles;
+  const auto tracks = static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const auto& o) { return o.trajectory != nullptr; }));
+  Json json = Json::array();
+  for (const auto& o : all)
+    json.push_back(obstacle_data(o, scenario.loop.sm_crash, until,
+                                 kMostTrackRows / std::max<std::size_t>(tracks, 1)));
+  return json;
+}
+
+/// When the drive and the last of its plans end [s].
+double end_of(const sim::Drive& drive) {
+  double end = drive.time;
+  for (const auto& cycle : drive.cycles) end = std::max(end, cycle.plan.t_start + cycle.plan.tf);
+  return std::isfinite(end) ? end : drive.time;
+}
+
+Json places(const std::vector<world::Point>& points) {
+  Json json = Json::array();
+  for (const auto& p : points) json.push_back({rounded(p.x, 2), rounded(p.y, 2)});
+  return json;
+}
+
+/// The places of what is drawn of it, in columns.
+Json goal_data(const sim::Scenario& scenario) {
+  Json json = {{"x", Json::array()}, {"y", Json::array()}};
+  for (const auto& p : goal_shape(scenario)) {
+    json["x"].push_back(exact(p.x));
+    json["y"].push_back(exact(p.y));
+  }
+  return json;
+}
+
+Json road_data(const world::Road& road) {
+  const RoadLines lines = lines_of(road);
+  Json json = {{"left", places(lines.left)},
+               {"right", places(lines.right)},
+               {"middle", places(lines.middle)},
+               {"lanes", Json::array()}};
+  for (const auto& lane : road.lanes()) json["lanes"].push_back(places(lane));
+  return json;
+}
+
+Json scenario_data(const sim::Scenario& scenario, double until) {
   const auto& v = scenario.vehicle;
-  const auto& goal = scenario.goal;
   const auto& region = scenario.region;
   Json json;
   json["start"] = {{"x", exact(scenario.start[vehicle::X])},
                    {"y", exact(scenario.start[vehicle::Y])}};
-  json["goal"] = {{"x", exact(goal.x)}, {"y", exact(goal.y)}, {"sigma", exact(goal.sigma)}};
+  json["goal"] = goal_data(scenario);
+  if (scenario.road) json["road"] = road_data(*scenario.road);
   json["region"] = {{"x_min", exact(region.x_min)},
                     {"x_max", exact(region.x_max)},
                     {"y_min", exact(region.y_min)},
                     {"y_max", exact(region.y_max)}};
-  json["obstacles"] = Json::array();
-  for (const auto& o : scenario.obstacles) {
-    const auto grown = o.grown(scenario.loop.sm_crash);
-    json["obstacles"].push_back({{"name", o.name},
-                                 {"x", exact(o.x)},
-                                 {"y", exact(o.y)},
-                                 {"a", exact(o.a)},
-                                 {"b", exact(o.b)},
-                                 {"vx", exact(o.vx)},
-                                 {"vy", exact(o.vy)},
-                                 {"grown", {{"a", exact(grown.a)}, {"b", exact(grown.b)}}}});
-  }
-  json["vehicle"] = {{"la", v.la},         {"lb", v.lb},           {"width", v.width},
-                     {"length", v.length}, {"ax_max", v.ax_max},   {"ax_min", v.ax_min},
-                     {"ux_max", v.ux_max}, {"sa_max", v.sa_max()}, {"sr_max", v.sr_max()},
-                     {"Fz_min", v.Fz_min}};
+  json["obstacles"] = obstacles_data(scenario, until);
+  json["vehicle"] = {
+      {"la", v.la},
+      {"lb", v.lb},
+      {"width", v.width},
+      {"front_overhang", v.front_overhang},
+      {"footprint", v.footprint == vehicle::FootprintKind::point ? "point" : "rectangle"},
+      {"length", v.length},
+      {"ax_max", v.ax_max},
+      {"ax_min", v.ax_min},
+      {"ux_max", v.ux_max},
+      {"sa_max", v.sa_max()},
+      {"sr_max", v.sr_max()},
+      {"Fz_min", v.Fz_min}};
   json["loop"] = {{"tex", scenario.loop.tex},
                   {"sm_crash", scenario.loop.sm_crash},
                   {"Fz_failure", scenario.loop.Fz_failure}};
@@ -230,7 +312,7 @@ nlohmann::ordered_json drive_data(const sim::Scenario& scenario, const sim::Driv
   Json json;
   json["format"] = kDriveFormat;
   json["scenario"] = scenario.name;
-  json.update(scenario_data(scenario));
+  json.update(scenario_data(scenario, end_of(drive)));
   json["settings"] = settings_data(scenario);
   json["outcome"] = sim::to_string(drive.outcome);
   json["outcome_words"] = outcome_words(drive);

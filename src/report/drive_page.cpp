@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "drive_data.hpp"
 #include "html.hpp"
@@ -81,6 +82,39 @@ std::string named_row(const std::string& name, const std::string& value, const s
                      escape(value), escape(doc));
 }
 
+/// Where to, and what counts as there.
+std::pair<std::string, std::string> goal_in_words(const world::Goal& goal) {
+  const auto place = fmt::format("({:g}, {:g}) m", goal.x, goal.y);
+  switch (goal.kind()) {
+    case world::GoalKind::square:
+      return {place, fmt::format("within {:g} m along x and y", goal.sigma)};
+    case world::GoalKind::rectangle:
+      return {place, fmt::format("within {:g} by {:g} m about it, turned to {:.4g}°", goal.length,
+                                 goal.width, goal.psi * 180 / M_PI)};
+    case world::GoalKind::line:
+      return {fmt::format("{:g} m", goal.s), "along the road"};
+    case world::GoalKind::time:
+      return {fmt::format("{:g} s", goal.time), "as far along the road as possible until then"};
+    case world::GoalKind::laps:
+      break;
+  }
+  return {fmt::format("{:g}", goal.laps), "laps"};
+}
+
+/// What they are: shapes and motions.
+std::string obstacles_in_words(const std::vector<world::Obstacle>& obstacles) {
+  const auto count = [&](const auto& is) {
+    return std::count_if(obstacles.begin(), obstacles.end(), is);
+  };
+  const auto polygons = count([](const auto& o) { return o.outline != nullptr; });
+  const auto moving = count([](const auto& o) { return o.trajectory != nullptr; });
+  if (polygons + moving == 0) return "ellipses at constant velocity";
+  return fmt::format(
+      "{} of them polygons, the others ellipses; {} by a table or along a path, the "
+      "others at constant velocity",
+      polygons, moving);
+}
+
 std::string scenario_rows(const sim::Scenario& scenario) {
   const auto& start = scenario.start;
   const auto& goal = scenario.goal;
@@ -88,10 +122,13 @@ std::string scenario_rows(const sim::Scenario& scenario) {
   rows += named_row("start", fmt::format("({:g}, {:g}) m", start[vehicle::X], start[vehicle::Y]),
                     fmt::format("heading {:.4g}°, {:g} m/s", start[vehicle::PSI] * 180 / M_PI,
                                 start[vehicle::UX]));
-  rows += named_row("goal", fmt::format("({:g}, {:g}) m", goal.x, goal.y),
-                    fmt::format("within {:g} m along x and y", goal.sigma));
+  const auto [place, meaning] = goal_in_words(goal);
+  rows += named_row("goal", place, meaning);
+  if (scenario.road)
+    rows += named_row("road", fmt::format("{:.4g} m", scenario.road->length()),
+                      scenario.road->closed() ? "closed" : "along its reference line");
   rows += named_row("obstacles", fmt::format("{}", scenario.obstacles.size()),
-                    "ellipses at constant velocity");
+                    obstacles_in_words(scenario.obstacles));
   return rows;
 }
 

@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "html.hpp"
+#include "map_obstacles.hpp"
+#include "map_road.hpp"
 #include "map_view.hpp"
+#include "shapes.hpp"
 #include "slalom/report/plot.hpp"
 #include "words.hpp"
 
@@ -15,20 +18,14 @@ namespace {
 
 constexpr double kLeft = 28, kRight = 6, kBelow = 20;
 constexpr double kLabelRow = 8;
-constexpr double kSmall = 6;      ///< letters inside obstacles
 constexpr double kTallest = 330;  ///< of an upright map's frame [1/72 inch]
 
 Box course(const Map& map) {
   const auto& scenario = *map.scenario;
-  const double sm = scenario.loop.sm_crash;
   Box box;
   box.add(scenario.start[vehicle::X], scenario.start[vehicle::Y], 6, 6);
-  box.add(scenario.goal.x, scenario.goal.y, scenario.goal.sigma, scenario.goal.sigma);
-  for (const auto& o : scenario.obstacles)
-    for (const double t : map.obstacle_instants) {
-      const auto grown = o.grown(sm);
-      box.add(o.x_at(t), o.y_at(t), grown.a, grown.b);
-    }
+  for (const auto& p : goal_shape(scenario)) box.add(p.x, p.y, 0, 0);
+  add_obstacles(box, map);
   for (const auto& v : map.vehicles)
     for (const auto& s : v.drive->plant) box.add(s.state[vehicle::X], s.state[vehicle::Y], 4, 4);
   for (const double x : {scenario.region.x_min, scenario.region.x_max})
@@ -49,63 +46,8 @@ void draw_ground(Svg& svg, const Map& map, const View& view) {
   band(std::max(box.x0, region.x_max), box.x1, box.y0, box.y1);
   band(box.x0, box.x1, box.y0, std::min(box.y1, region.y_min));
   band(box.x0, box.x1, std::max(box.y0, region.y_max), box.y1);
-  const auto& goal = map.scenario->goal;
-  const auto a = view.at(goal.x - goal.sigma, goal.y - goal.sigma);
-  const auto b = view.at(goal.x + goal.sigma, goal.y + goal.sigma);
-  svg.rect({std::min(a.x, b.x), std::min(a.y, b.y)}, std::abs(b.x - a.x), std::abs(b.y - a.y),
-           {colours::green, 0.16}, {colours::green, 0.7, "", 1});
-}
-
-/// How dark an obstacle is: from pale at the first instant to full at the last.
-double shade(std::size_t i, std::size_t count) {
-  return count < 2 ? 0.7 : 0.15 + 0.55 * static_cast<double>(i) / static_cast<double>(count - 1);
-}
-
-/// An obstacle's half-widths across and up the picture [1/72 inch].
-Point half_widths(const world::Obstacle& o, const View& view) {
-  return {view.scale * (view.lying ? o.b : o.a), view.scale * (view.lying ? o.a : o.b)};
-}
-
-void draw_obstacles(Svg& svg, const Map& map, const View& view) {
-  const double sm = map.scenario->loop.sm_crash;
-  const auto count = map.obstacle_instants.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (const auto& o : map.scenario->obstacles) {
-      if (!o.moves() && i + 1 < count) continue;
-      const double t = map.obstacle_instants[i];
-      const auto at = view.at(o.x_at(t), o.y_at(t));
-      const auto half = half_widths(o, view), grown = half_widths(o.grown(sm), view);
-      svg.ellipse(at, grown.x, grown.y, {}, {colours::muted, 0.4, "1.5 1.5", 1});
-      svg.ellipse(at, std::max(half.x, 0.6), std::max(half.y, 0.6), {colours::ink, shade(i, count)},
-                  {colours::ink, 0.4, "", 1});
-    }
-  }
-}
-
-/// Names of the larger obstacles, inside where there is room; with the instant for those that move.
-void name_obstacles(Svg& svg, Labels& labels, const Map& map, const View& view) {
-  const auto count = map.obstacle_instants.size();
-  for (const auto& o : map.scenario->obstacles) {
-    if (view.scale * std::max(o.a, o.b) < 2) continue;
-    for (std::size_t i = count; i-- > (o.moves() ? 0 : count - 1);) {
-      const double t = map.obstacle_instants[i];
-      if (!view.shows(o.x_at(t), o.y_at(t))) continue;
-      const auto name = o.moves() ? fmt::format("{}, {} s", o.name, number(t, 1)) : o.name;
-      const auto at = view.at(o.x_at(t), o.y_at(t));
-      if (count == 1 && view.scale * std::min(o.a, o.b) > 0.4 * kSmall * double(name.size())) {
-        svg.text({at.x, at.y + 2}, name, {kSmall, "middle", "#ffffff", true});
-        continue;
-      }
-      const auto grown = half_widths(o.grown(map.scenario->loop.sm_crash), view);
-      const Place left{{at.x - grown.x - 2, at.y + 2}, "end"},
-          right{{at.x + grown.x + 2, at.y + 2}, "start"},
-          above{{at.x, at.y - grown.y - 2}, "middle"}, below{{at.x, at.y + grown.y + 6}, "middle"};
-      if (view.lying)
-        labels.place(name, colours::ink, {below, above, right, left});
-      else
-        labels.place(name, colours::ink, {left, above, below, right});
-    }
-  }
+  draw_road(svg, map, view);
+  draw_goal(svg, map, view);
 }
 
 void draw_path(Svg& svg, const MapVehicle& v, const View& view) {
@@ -115,10 +57,12 @@ void draw_path(Svg& svg, const MapVehicle& v, const View& view) {
   svg.polyline(points, v.stroke);
 }
 
-/// The vehicle to scale, but at least 7 points long; its front axle's centre is the reference.
+/// The vehicle to scale; its front axle's centre is the reference. At least 7 points long where
+/// that centre alone keeps off obstacles.
 void draw_vehicle(Svg& svg, const vehicle::Parameters& p, const vehicle::State& state,
                   const std::string& colour, const View& view) {
-  const double size = std::max(1.0, 7 / (p.length * view.scale));
+  const bool is_point = p.footprint == vehicle::FootprintKind::point;
+  const double size = is_point ? std::max(1.0, 7 / (p.length * view.scale)) : 1;
   const double front = p.front_overhang * size;
   const double back = front - p.length * size;
   const double half = p.width / 2 * size;
@@ -139,14 +83,7 @@ void draw_plan(Svg& svg, const Map& map, const MapVehicle& v, const View& view) 
     points.push_back(view.at(state[vehicle::X], state[vehicle::Y]));
   svg.polyline(points, {v.stroke.colour, 0.7, "1 1.2", 1});
   for (const auto& p : points) svg.ellipse(p, 1.3, 1.3, {v.stroke.colour, 1});
-  if (v.plan->obstacle_time_held < 0) return;
-  const double t = v.plan->obstacle_time_held, sm = map.scenario->loop.sm_crash;
-  for (const auto& o : map.scenario->obstacles) {
-    if (!o.moves()) continue;
-    const auto half = half_widths(o.grown(sm), view);
-    svg.ellipse(view.at(o.x_at(t), o.y_at(t)), half.x, half.y, {},
-                {v.stroke.colour, 0.7, "2 1.5", 1});
-  }
+  draw_held_obstacles(svg, map, v, view);
 }
 
 void draw_printed_positions(Svg& svg, const Map& map, const View& view) {
@@ -219,10 +156,7 @@ void name_vehicles(Svg& svg, Labels& labels, const Map& map, const View& view,
 
 /// Words keep off the paths and the obstacles.
 void keep_clear(Labels& labels, const Map& map, const View& view) {
-  for (const auto& o : map.scenario->obstacles)
-    for (const double t : map.obstacle_instants)
-      labels.keep_clear(view.at(o.x_at(t), o.y_at(t)), 0.8 * view.scale * (view.lying ? o.b : o.a),
-                        0.8 * view.scale * (view.lying ? o.a : o.b));
+  keep_clear_of_obstacles(labels, map, view);
   for (const auto& v : map.vehicles)
     for (std::size_t i = 0; i < v.drive->plant.size(); i += 5) {
       const auto& state = v.drive->plant[i].state;

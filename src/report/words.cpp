@@ -19,6 +19,8 @@ std::string outcome_words(const sim::Drive& drive) {
       return drive.hit.empty() ? "Crashed" : fmt::format("Crashed into {}", drive.hit);
     case sim::Outcome::wheel_lift:
       return drive.hit.empty() ? "A wheel lifted" : fmt::format("Wheel {} lifted", drive.hit);
+    case sim::Outcome::off_road:
+      return "Left the road";
     case sim::Outcome::not_optimal:
       return "The planner found no plan";
     case sim::Outcome::solve_time:

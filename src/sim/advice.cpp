@@ -21,6 +21,20 @@ bool verifies(const Scenario& s) {
   return s.planner.method == planner::Method::verified;
 }
 
+/// What the vehicle itself takes of a gap [m].
+double body_width(const Scenario& s) {
+  return s.vehicle.footprint == FootprintKind::point ? 0 : s.vehicle.width;
+}
+
+/// Between two obstacles that stand [m].
+double gap_between(const world::Obstacle& p, const world::Obstacle& q) {
+  if (p.outline) return world::distance(q, p.corners_at(0), 0) - p.rounding;
+  if (q.outline) return gap_between(q, p);
+  // From each centre to the other's edge along the line between them: exact for circles.
+  return world::distance(p, q.x, q.y, 0) + world::distance(q, p.x, p.y, 0) -
+         std::hypot(p.x - q.x, p.y - q.y);
+}
+
 /// Rows of obstacles hold at nodes: an obstacle that moves farther between two than it is long,
 /// grown, may pass between them.
 void passes_between(const Scenario& s, std::vector<std::string>& found) {
@@ -32,9 +46,10 @@ void passes_between(const Scenario& s, std::vector<std::string>& found) {
   double step = 0, covers = 0, closing = 0;
   int count = 0;
   for (const auto& o : s.obstacles) {
-    const double speed_of = speed + (s.planner.moving_avoidance ? std::hypot(o.vx, o.vy) : 0);
+    const double speed_of = speed + (s.planner.moving_avoidance ? o.fastest(0, s.loop.timeout) : 0);
     const double step_of = speed_of * horizon / s.planner.N;
-    const double covers_of = 2 * (std::min(o.a, o.b) + margin);
+    const double across = o.outline ? o.outline->width() : 2 * std::min(o.a, o.b);
+    const double covers_of = across + 2 * margin + body_width(s);
     if (step_of <= covers_of) continue;
     ++count;
     if (gravest != nullptr && step_of - covers_of <= step - covers) continue;
@@ -55,7 +70,7 @@ void passes_between(const Scenario& s, std::vector<std::string>& found) {
 }
 
 void goal_behind(const Scenario& s, std::vector<std::string>& found) {
-  if (verifies(s) || s.goal.contains(s.start[X], s.start[Y])) return;
+  if (verifies(s) || s.arrived(s.start, 0)) return;
   const double bearing = std::atan2(s.goal.y - s.start[Y], s.goal.x - s.start[X]) - s.start[PSI];
   const double off = std::fabs(std::remainder(bearing, 2 * std::numbers::pi));
   if (off <= std::numbers::pi / 2) return;
@@ -76,10 +91,8 @@ void narrow_gaps(const Scenario& s, std::vector<std::string>& found) {
     for (std::size_t j = i + 1; j < s.obstacles.size(); ++j) {
       const auto &p = s.obstacles[i], &q = s.obstacles[j];
       if (p.moves() || q.moves()) continue;
-      // From each centre to the other's edge along the line between them: exact for circles.
-      const double gap = world::distance(p, q.x, q.y, 0) + world::distance(q, p.x, p.y, 0) -
-                         std::hypot(p.x - q.x, p.y - q.y);
-      if (gap <= 0 || gap >= 2 * margin) continue;
+      const double gap = gap_between(p, q);
+      if (gap <= 0 || gap >= 2 * margin + body_width(s)) continue;
       ++count;
       if (gap < narrowest) {
         narrowest = gap;
@@ -88,15 +101,18 @@ void narrow_gaps(const Scenario& s, std::vector<std::string>& found) {
     }
   if (count > 0)
     found.push_back(fmt::format(
-        "{} narrower than twice the margin of {:g} m (the narrowest: {}): no plan leads through",
+        "{} narrower than twice the margin of {:g} m{} (the narrowest: {}): no plan leads through",
         count == 1 ? "a gap between standing obstacles is"
                    : fmt::format("{} gaps between standing obstacles are", count),
-        margin, between));
+        margin, body_width(s) > 0 ? fmt::format(" and the vehicle's {:g} m", body_width(s)) : "",
+        between));
 }
 
 void no_way(const Scenario& s, std::vector<std::string>& found) {
+  if (s.road || s.goal.kind() != world::GoalKind::square) return;  // not what it searches
   world::PathSearch search;
-  search.clearance = verifies(s) ? s.planner.verified_clearance : s.planner.sm_start;
+  search.clearance =
+      (verifies(s) ? s.planner.verified_clearance : s.planner.sm_start) + body_width(s) / 2;
   search.v_max = std::min(search.v_max, s.vehicle.ux_max);
   search.t_max = s.loop.timeout;
   if (world::path_exists(s, s.start, search)) return;

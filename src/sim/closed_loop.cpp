@@ -37,7 +37,8 @@ class ClosedLoop {
         plant_(plant_vehicle(scenario.vehicle, scenario.plant, scenario.name),
                loop_.plant_tolerance, loop_.sample_step),
         actuator_(scenario.plant.actuator_delay),
-        watch_({scenario.obstacles, loop_.sm_crash, scenario.goal, loop_.Fz_failure},
+        watch_({scenario.obstacles, loop_.sm_crash, scenario.goal, loop_.Fz_failure,
+                world::Footprint(scenario.vehicle), scenario.road},
                plant_.dynamics()),
         state_(scenario.start) {}
 
@@ -68,7 +69,7 @@ class ClosedLoop {
   /// Drives until the next cycle. A failure to plan ends the drive when the plan is due: a plant
   /// that does not wait for it drives meanwhile, and may crash first.
   std::optional<End> carry_out(Cycle& cycle) {
-    const double t_end = timing_.next_cycle();
+    const double t_end = std::min(timing_.next_cycle(), scenario_.goal.time);
     if (timing_.plant_waits()) {
       if (auto end = judge(cycle)) return end;
       swap(cycle);
@@ -143,6 +144,7 @@ class ClosedLoop {
   End end_by(const Event& event) const {
     const auto place = fmt::format("at {:.6g} s at ({:.6g}, {:.6g}), {:.4g} m/s", t_,
                                    state_[vehicle::X], state_[vehicle::Y], state_[vehicle::UX]);
+    if (event.outcome == Outcome::off_road) return {event.outcome, "left the road " + place};
     return {event.outcome,
             event.outcome == Outcome::crash
                 ? fmt::format("hit {} {}", event.what, place)
@@ -153,14 +155,29 @@ class ClosedLoop {
 
   /// At the end of a cycle: whether the goal is reached, or its time is up.
   std::optional<End> check_arrival(double t_end) const {
-    if (t_end <= loop_.timeout + kSameTime &&
-        scenario_.goal.contains(state_[vehicle::X], state_[vehicle::Y]))
-      return End{Outcome::goal,
-                 fmt::format("entered the goal's square at {:.6g} s, arrived at the check at "
-                             "{:.6g} s",
-                             watch_.goal_time().value_or(t_), t_)};
+    if (t_end <= loop_.timeout + kSameTime && scenario_.arrived(state_, t_)) return arrival();
     if (t_end < loop_.timeout - kSameTime) return std::nullopt;
     return End{Outcome::timeout, fmt::format("not at the goal after {:.6g} s", loop_.timeout)};
+  }
+
+  End arrival() const {
+    const double since = watch_.goal_time().value_or(t_);
+    if (scenario_.goal.kind() == world::GoalKind::time)
+      return {Outcome::goal, fmt::format("{:.6g} m along the road by {:.6g} s", progress(), t_)};
+    return {Outcome::goal, fmt::format("{} at {:.6g} s, arrived at the check at {:.6g} s",
+                                       scenario_.goal.kind() == world::GoalKind::square
+                                           ? "entered the goal's square"
+                                           : "reached the goal",
+                                       since, t_)};
+  }
+
+  /// Along the road since the start [m].
+  double progress() const {
+    if (!scenario_.road) return 0;
+    const auto along = [&](const vehicle::State& state) {
+      return scenario_.road->project({state[vehicle::X], state[vehicle::Y]}).s;
+    };
+    return along(state_) - along(scenario_.start);
   }
 
   bool interrupted() const { return planning_.interrupted(); }
@@ -197,6 +214,8 @@ class ClosedLoop {
     drive_.least_clearance_t = watch_.least_clearance_t();
     drive_.least_clearance_obstacle = watch_.least_clearance_obstacle();
     drive_.least_wheel_load = watch_.least_wheel_load();
+    drive_.least_edge_distance = watch_.least_edge_distance();
+    drive_.progress = progress();
     return std::move(drive_);
   }
 

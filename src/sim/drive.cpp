@@ -3,8 +3,9 @@
 namespace slalom::sim {
 
 const std::vector<std::string>& outcome_names() {
-  static const std::vector<std::string> names = {
-      "goal", "crash", "wheel_lift", "not_optimal", "solve_time", "timeout", "interrupted"};
+  static const std::vector<std::string> names = {"goal",     "crash",       "wheel_lift",
+                                                 "off_road", "not_optimal", "solve_time",
+                                                 "timeout",  "interrupted"};
   return names;
 }
 

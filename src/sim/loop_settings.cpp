@@ -58,7 +58,8 @@ const OptionTable<LoopSettings>& loop_options() {
                  "optimisations.",
                  "formulation section 4")
         .real("sm_crash", &L::sm_crash, Range::non_negative(), "m",
-              "Margin by which obstacles grow in the plant's crash check (the paper's sm).",
+              "Margin by which obstacles grow in the plant's crash check (the paper's sm). Where a "
+              "file does not state it and the vehicle's footprint is a rectangle, it is 0.",
               "paper, table of simulation parameters")
         .real("Fz_failure", &L::Fz_failure, Range::any(), "N",
               "Wheel load below which the plant fails as wheel_lift.", "paper, section II")

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "slalom/base/error.hpp"
 #include "slalom/sim/latency.hpp"
 #include "slalom/vehicle/model.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::sim {
 namespace {
@@ -26,6 +28,27 @@ void check_region(const world::Region& region, const std::string& where) {
   side(region.y_min, region.y_max, "y");
 }
 
+/// A polygon says an obstacle's size, and a trajectory where it is: what is set beside them would
+/// say nothing.
+void check_obstacle(const world::Obstacle& obstacle, const std::string& where) {
+  world::obstacle_options().check(obstacle, where);
+  const auto refuse = [&](bool applies, const char* key, double value, double silent,
+                          const char* told_by) {
+    if (applies && value != silent)
+      throw InvalidValue(where, fmt::format("{} = {:.9g}", key, value),
+                         fmt::format("none, for {} says it", told_by), {key});
+  };
+  const double reach = obstacle.outline ? obstacle.outline->reach() : 0;
+  for (const auto& [key, value] : {std::pair{"a", obstacle.a}, {"b", obstacle.b}})
+    refuse(obstacle.outline != nullptr, key, value, reach, "the polygon");
+  for (const auto& [key, value] : {std::pair{"x", obstacle.x},
+                                   {"y", obstacle.y},
+                                   {"vx", obstacle.vx},
+                                   {"vy", obstacle.vy},
+                                   {"psi", obstacle.psi}})
+    refuse(obstacle.trajectory != nullptr, key, value, 0, "the table or path");
+}
+
 /// What each part of a scenario says of its own values.
 void check_parts(const Scenario& s, const std::string& where) {
   check_within("planner", [&] { planner::check(s.planner, where); });
@@ -38,12 +61,11 @@ void check_parts(const Scenario& s, const std::string& where) {
   check_options("plant", plant_options(), s.plant);
   check_options("sensing", sensing_options(), s.sensing);
   check_options("start", vehicle::state_options(), s.start);
-  check_options("goal", world::goal_options(), s.goal);
+  check_within("goal", [&] { world::check(s.goal, s.road.get(), where + ": goal"); });
   check_within("region", [&] { check_region(s.region, where + ": region"); });
   for (const auto& obstacle : s.obstacles)
     check_within("obstacles." + obstacle.name, [&] {
-      world::obstacle_options().check(obstacle,
-                                      fmt::format("{}: obstacle {}", where, obstacle.name));
+      check_obstacle(obstacle, fmt::format("{}: obstacle {}", where, obstacle.name));
     });
 }
 
@@ -93,22 +115,51 @@ void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
 }
 
 void check_start_clear(const Scenario& s, const std::string& where) {
+  const world::Footprint footprint(s.vehicle);
   for (const auto& obstacle : s.obstacles) {
-    const double clearance = world::distance(obstacle.grown(s.loop.sm_crash), s.start[vehicle::X],
-                                             s.start[vehicle::Y], 0);
+    if (!obstacle.present(0, 0)) continue;
+    const double clearance = footprint.distance(obstacle.grown(s.loop.sm_crash), s.start, 0);
     if (!(clearance >= 0))
       throw InvalidValue(
           where + ": start",
-          fmt::format("({:.6g}, {:.6g}), {:.6g} m inside obstacle {} grown by sm_crash = {:.6g} m",
-                      s.start[vehicle::X], s.start[vehicle::Y], -clearance, obstacle.name,
-                      s.loop.sm_crash),
+          fmt::format(
+              "({:.6g}, {:.6g}), {}{:.6g} m inside obstacle {} grown by sm_crash = {:.6g} m",
+              s.start[vehicle::X], s.start[vehicle::Y],
+              footprint.is_point() ? "" : "its footprint ", -clearance, obstacle.name,
+              s.loop.sm_crash),
           "a start outside every grown obstacle",
           {"start", "obstacles." + obstacle.name, "loop.sm_crash"});
   }
 }
 
+/// The road is wide enough for the vehicle, and start and goal are on it.
+void check_road(const Scenario& s, const std::string& where) {
+  if (!s.road) return;
+  const world::Footprint footprint(s.vehicle);
+  const double needed = footprint.is_point() ? 0 : s.vehicle.width;
+  if (s.road->narrowest() <= needed)
+    throw InvalidValue(where + ": road", fmt::format("a width of {:.6g} m", s.road->narrowest()),
+                       fmt::format("more than the vehicle's width of {:.6g} m", needed),
+                       {"road", "vehicle.width"});
+  if (const double off = -footprint.edge_distance(*s.road, s.start); off > 0)
+    throw InvalidValue(
+        where + ": start",
+        fmt::format("({:.6g}, {:.6g}), {}{:.6g} m off the road", s.start[vehicle::X],
+                    s.start[vehicle::Y], footprint.is_point() ? "" : "its footprint ", off),
+        "a start on the road", {"start", "road"});
+  if (s.goal.is_place() && s.road->edge_distance(world::Point{s.goal.x, s.goal.y}) < 0)
+    throw InvalidValue(where + ": goal",
+                       fmt::format("({:.6g}, {:.6g}), {:.6g} m off the road", s.goal.x, s.goal.y,
+                                   -s.road->edge_distance(world::Point{s.goal.x, s.goal.y})),
+                       "a goal on the road", {"goal", "road"});
+  if (s.goal.kind() == world::GoalKind::laps)
+    throw InvalidValue(where + ": goal", fmt::format("laps = {:.6g}", s.goal.laps),
+                       "another goal: laps are not driven yet", {"goal.laps"});
+}
+
 /// A plan ends at the goal, within the region and off every obstacle that stands.
 void check_goal(const Scenario& s, const std::string& where) {
+  if (!s.goal.is_place()) return;
   if (!s.region.contains(s.goal.x, s.goal.y))
     throw InvalidValue(where + ": goal", fmt::format("({:.6g}, {:.6g})", s.goal.x, s.goal.y),
                        "a goal within the region", {"goal", "region"});
@@ -145,6 +196,7 @@ void check(const Scenario& scenario, const std::string& where) {
                        {"start.ax", "planner.model"});
   check_start_clear(scenario, where);
   check_goal(scenario, where);
+  check_road(scenario, where);
 }
 
 }  // namespace slalom::sim

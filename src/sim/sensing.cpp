@@ -1,6 +1,10 @@
 #include "slalom/sim/sensing.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "draws.hpp"
 
@@ -14,6 +18,41 @@ void disturb(double& value, double sigma, NormalDraws& draws) {
   const double z = draws.next();  // drawn in any case: one noise does not change another
   if (sigma > 0) value += sigma * z;
 }
+
+/// A motion as it is believed at t0 [s]: displaced by an error of place, and `factor` times as fast
+/// about t0.
+class BelievedTrajectory final : public world::Trajectory {
+ public:
+  BelievedTrajectory(std::shared_ptr<const Trajectory> base, double t0, double factor,
+                     world::Point displacement)
+      : base_(std::move(base)), t0_(t0), factor_(factor), displacement_(displacement) {}
+
+  world::Pose at(double t) const override {
+    world::Pose pose = base_->at(true_time(t));
+    pose.x += displacement_.x;
+    pose.y += displacement_.y;
+    pose.vx *= factor_;
+    pose.vy *= factor_;
+    pose.omega *= factor_;
+    return pose;
+  }
+  world::Rates fastest(double t0, double t1) const override {
+    const auto [begin, end] = std::minmax({true_time(t0), true_time(t1)});
+    const world::Rates rates = base_->fastest(begin, end);
+    return {std::fabs(factor_) * rates.speed, std::fabs(factor_) * rates.omega};
+  }
+  bool present(double t0, double t1) const override {
+    const auto [begin, end] = std::minmax({true_time(t0), true_time(t1)});
+    return base_->present(begin, end);
+  }
+
+ private:
+  double true_time(double t) const { return factor_ == 1 ? t : t0_ + factor_ * (t - t0_); }
+
+  std::shared_ptr<const Trajectory> base_;
+  double t0_, factor_;
+  world::Point displacement_;
+};
 
 }  // namespace
 
@@ -37,7 +76,8 @@ const OptionTable<SensingSettings>& sensing_options() {
               "Age of the vehicle's measured state, which the planner takes for the present one; "
               "until then it is told the state at the start.")
         .real("obstacle_velocity_factor", &S::obstacle_velocity_factor, Range::any(), "1",
-              "Believed over true velocity of obstacles. Where they are when planning begins is "
+              "Believed over true velocity of obstacles; those that move by a table or a path are "
+              "believed to go through it so much faster. Where they are when planning begins is "
               "measured right, so the error grows with time from there.")
         .real("obstacle_position_noise", &S::obstacle_position_noise, noise, "m",
               "Standard deviation of the measured x, and of y, of each obstacle.");
@@ -71,13 +111,21 @@ std::optional<std::vector<world::Obstacle>> Sensors::believed(
   auto result = obstacles;
   for (std::uint32_t i = 0; i < result.size(); ++i) {
     auto& o = result[i];
+    NormalDraws draws{static_cast<std::uint32_t>(settings_.noise_seed),
+                      static_cast<std::uint32_t>(index), i + 1};
+    if (o.trajectory) {
+      world::Point displacement;
+      disturb(displacement.x, settings_.obstacle_position_noise, draws);
+      disturb(displacement.y, settings_.obstacle_position_noise, draws);
+      o.trajectory = std::make_shared<BelievedTrajectory>(
+          o.trajectory, t0, settings_.obstacle_velocity_factor, displacement);
+      continue;
+    }
     const double x = o.x_at(t0), y = o.y_at(t0);
     o.vx *= settings_.obstacle_velocity_factor;
     o.vy *= settings_.obstacle_velocity_factor;
     o.x = x - o.vx * t0;
     o.y = y - o.vy * t0;
-    NormalDraws draws{static_cast<std::uint32_t>(settings_.noise_seed),
-                      static_cast<std::uint32_t>(index), i + 1};
     disturb(o.x, settings_.obstacle_position_noise, draws);
     disturb(o.y, settings_.obstacle_position_noise, draws);
   }

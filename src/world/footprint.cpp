@@ -38,4 +38,9 @@ double Footprint::distance(const Obstacle& obstacle, const State& state, double 
   return world::distance(obstacle, at(state), t);
 }
 
+double Footprint::edge_distance(const Road& road, const State& state) const {
+  if (is_point()) return road.edge_distance(Point{state[vehicle::X], state[vehicle::Y]});
+  return road.edge_distance(at(state));
+}
+
 }  // namespace slalom::world

@@ -58,6 +58,14 @@ Pose Obstacle::pose_at(double t) const {
   return {x + vx * t, y + vy * t, psi, vx, vy, 0};
 }
 
+std::vector<Point> Obstacle::corners_at(double t) const {
+  std::vector<Point> corners;
+  if (!outline) return corners;
+  const Pose pose = pose_at(t);
+  for (const Point& p : outline->corners()) corners.push_back(pose.to_world(p));
+  return corners;
+}
+
 double Obstacle::fastest(double t0, double t1) const {
   if (!trajectory) return std::hypot(vx, vy);
   const Rates rates = trajectory->fastest(t0, t1);
@@ -84,6 +92,7 @@ double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, dou
   std::vector<Point> corners;
   for (const Point& p : polygon) corners.push_back(pose.to_body(p));
   if (obstacle.outline) return distance(corners, obstacle.outline->corners()) - obstacle.rounding;
+  if (obstacle.a == obstacle.b) return signed_distance({}, corners) - obstacle.a;
   double least = std::numeric_limits<double>::infinity();
   bool holds_centre = true;
   for (std::size_t k = 0; k < corners.size(); ++k) {

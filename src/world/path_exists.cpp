@@ -46,7 +46,7 @@ class Search {
     for (int looked_at = 0; !open_.empty() && looked_at < p_.max_places; ++looked_at) {
       const Place from = open_.top().at;
       open_.pop();
-      if (goal_.contains(from.x, from.y)) return true;
+      if (arrived(from)) return true;
       for (const double turn : {0.0, -1.0, 1.0})
         for (const double push : {p_.acceleration, 0.0, -p_.braking})
           if (Place to; move(from, turn * p_.curvature_rate, push, to)) add(to);
@@ -55,9 +55,18 @@ class Search {
   }
 
  private:
+  bool arrived(const Place& p) const {
+    vehicle::State state{};
+    state[vehicle::X] = p.x;
+    state[vehicle::Y] = p.y;
+    state[vehicle::PSI] = p.psi;
+    state[vehicle::UX] = p.v;
+    return goal_.reached(state, p.t, nullptr);
+  }
   bool free(const Place& p) const {
     if (!region_.contains(p.x, p.y)) return false;
     return std::none_of(obstacles_.begin(), obstacles_.end(), [&](const auto& o) {
+      if (!o.is_plain()) return o.present(p.t, p.t) && distance(o, p.x, p.y, p.t) < 0;
       const double dx = (p.x - o.x_at(p.t)) / o.a, dy = (p.y - o.y_at(p.t)) / o.b;
       return dx * dx + dy * dy < 1;
     });

@@ -98,11 +98,26 @@ double Polygon::area() const {
   return doubled_area(corners_) / 2;
 }
 
+double Polygon::width() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const Point along = corners_[(k + 1) % corners_.size()] - corners_[k];
+    double most = 0;
+    for (const Point& p : corners_) most = std::max(most, cross(along, p - corners_[k]));
+    least = std::min(least, most / along.norm());
+  }
+  return least;
+}
+
 double Polygon::distance(Point p) const {
+  return signed_distance(p, corners_);
+}
+
+double signed_distance(Point p, const std::vector<Point>& corners) {
   double least = std::numeric_limits<double>::infinity();
   bool inside = true;
-  for (std::size_t k = 0; k < corners_.size(); ++k) {
-    const Point a = corners_[k], b = corners_[(k + 1) % corners_.size()];
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point a = corners[k], b = corners[(k + 1) % corners.size()];
     inside = inside && cross(b - a, p - a) >= 0;
     least = std::min(least, distance_to_segment(p, a, b));
   }

@@ -3,6 +3,7 @@
 //   SLALOM_DRIVE_DIR      a drive's folder; else one is made by `slalom simulate E_B --planner P_D`
 //   SLALOM_OTHER_DIR      the same with P_A, to compare
 //   SLALOM_VERIFIED_DIR   the same with P_E in E_C, whose plans are verified
+//   SLALOM_SHAPES_DIR    a drive past obstacles of every shape and motion
 //   SLALOM_REPRODUCE_DIR  a reproduction's folder; else one is made by `slalom reproduce`
 //   SLALOM_SWEEP_DIR      a sweep's folder; else one of a small study is made
 //   SLALOM                the program, for making them
@@ -15,6 +16,7 @@ import { lookAt, openBrowser } from './browser.mjs';
 import './compare.mjs';
 import { legibility } from './legibility.mjs';
 import { changedPage, driveDir, made, out, report, slalom, textOf, timeOf, until, valuesOf } from './pages.mjs';
+import './shapes.mjs';
 import './signals.mjs';
 import './verified.mjs';
 

@@ -139,6 +139,16 @@ class Simulate(ProgramTest):
         example = SOURCE / "examples" / "crossing.yaml"
         self.assertEqual(run("simulate", example, "--expect", "goal", "--quiet").code, 0)
 
+    def test_the_example_of_every_shape_and_motion(self):
+        example = SOURCE / "examples" / "shapes.yaml"
+        out = self.folder / "out"
+        result = run("simulate", example, "--expect", "goal", "--out", out, "--quiet")
+        self.assertEqual((result.code, result.err), (0, ""))
+        # What is resolved gives the drive again to the bit, without the files beside the scenario.
+        again = self.folder / "again"
+        self.assertEqual(run("simulate", out / "resolved.yaml", "--out", again, "--quiet").code, 0)
+        self.assertEqual((out / "plant.csv").read_text(), (again / "plant.csv").read_text())
+
 
 class Plan(ProgramTest):
     def test_a_plan_is_printed_and_written(self):

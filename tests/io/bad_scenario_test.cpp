@@ -206,7 +206,8 @@ TEST(BadScenario, Contradictions) {
                               "y: 60, r: 1}]\n"),
       {"my.yaml:3:43", "second obstacle named 'a'"});
   expect_contains(message_of_text(kGood + "obstacles: [{x: 9, y: 50}]\n"), {"without size"});
-  expect_contains(message_of_text(kGood + "obstacles: [{x: 9, r: 5}]\n"), {"without 'y'"});
+  expect_contains(message_of_text(kGood + "obstacles: [{x: 9, r: 5}]\n"),
+                  {"1 of x, y", "all of them"});
   expect_contains(message_of_text(kGood + "obstacles: [{x: 9, y: 9, r: 5, a: 3}]\n"),
                   {"both r and a"});
   expect_contains(message_of_text("start: {x: 0}\ngoal: {x: 0, y: 100}\n"),

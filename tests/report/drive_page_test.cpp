@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <regex>
 
 #include "report/markup.hpp"
@@ -24,6 +26,87 @@ TEST(DrivePage, CarriesTheDrive) {
   ASSERT_EQ(data["cycles"].size(), drive.cycles.size());
   EXPECT_TRUE(data["cycles"][2]["plan"]["held"].is_null());
   EXPECT_DOUBLE_EQ(data["cycles"][3]["plan"]["held"], drive.cycles[3].plan.obstacle_time_held);
+}
+
+TEST(DrivePage, CarriesShapesAndMotions) {
+  auto scenario = synthetic_scenario();
+  auto& box = scenario.obstacles[0];
+  box.outline = std::make_shared<world::Polygon>(world::Polygon::rectangle(4, 2));
+  box.psi = 0.5;
+  auto& car = scenario.obstacles[1];
+  const auto table = std::make_shared<world::TableTrajectory>(
+      std::vector<world::TrajectoryRow>{
+          {1, 0, 0, 0}, {2, 9, 1, 0.3}, {3, 14, 6, 1}, {30, 99, 9, 0}},
+      world::BeyondEnd::absent, world::BeyondEnd::stands, "O2");
+  car.trajectory = table;
+  car.margin_rate = 0.1;
+  scenario.vehicle.footprint = vehicle::FootprintKind::rectangle;
+  const auto data = page_data(drive_page(scenario, synthetic_drive()));
+  EXPECT_EQ(data["vehicle"]["footprint"], "rectangle");
+  EXPECT_EQ(data["obstacles"][0]["polygon"].size(), 4U);
+  EXPECT_EQ(data["obstacles"][0]["psi"], 0.5);
+  EXPECT_FALSE(data["obstacles"][0].contains("track"));
+  const auto& track = data["obstacles"][1]["track"];
+  EXPECT_EQ(data["obstacles"][1]["margin"][1], 0.1);
+  EXPECT_NEAR(data["obstacles"][1]["there"][0], 1, 2e-3);
+  EXPECT_TRUE(data["obstacles"][1]["there"][1].is_null());
+  const auto rows = track["t"].size();
+  ASSERT_GT(rows, 5U);
+  EXPECT_LT(rows, 40U);
+  EXPECT_NEAR(track["t"].back(), 5.5, 1e-9) << "when the last plan ends";
+  // Between the rows, a straight line is within 2 cm of the motion.
+  for (std::size_t k = 0; k + 1 < rows; ++k)
+    for (const double share : {0., 0.3, 0.5, 1.}) {
+      const auto at = [&](const char* column) {
+        return (1 - share) * double(track[column][k]) + share * double(track[column][k + 1]);
+      };
+      const auto pose = table->at(at("t"));
+      EXPECT_NEAR(at("x"), pose.x, 0.02);
+      EXPECT_NEAR(at("y"), pose.y, 0.02);
+      EXPECT_NEAR(at("psi"), pose.psi, 0.02);
+    }
+}
+
+TEST(DrivePage, CarriesTheRoadAndAGoalAcrossIt) {
+  auto scenario = synthetic_scenario();
+  const auto plain = page_data(drive_page(scenario, synthetic_drive()));
+  EXPECT_FALSE(plain.contains("road"));
+  EXPECT_EQ(plain["goal"]["x"].size(), 4U);
+  scenario.road = std::make_shared<world::Road>(
+      std::vector<world::RoadPoint>{{0, -20, 2, 3}, {0, 40, 2, 3}, {0, 100, 2, 3}}, false,
+      std::vector<std::vector<world::Point>>{{{0.5, -20}, {0.5, 100}}}, "road");
+  scenario.goal = {};
+  scenario.goal.s = 70;
+  const auto page = drive_page(scenario, synthetic_drive());
+  const auto data = page_data(page);
+  for (const auto& p : data["road"]["left"]) EXPECT_NEAR(p[0], -3, 1e-6);
+  for (const auto& p : data["road"]["right"]) EXPECT_NEAR(p[0], 2, 1e-6);
+  EXPECT_NEAR(data["road"]["middle"].back()[1], 100, 1e-6);
+  EXPECT_EQ(data["road"]["lanes"][0].size(), 2U);
+  ASSERT_EQ(data["goal"]["y"].size(), 2U);
+  EXPECT_NEAR(data["goal"]["y"][0], 50, 1e-6);
+  EXPECT_EQ(count(page, ">70 m</td>"), 1);
+  const auto path = drive_figures(scenario, synthetic_drive()).front().svg;
+  EXPECT_NE(path.find("stroke-dasharray=\"3 3\""), std::string::npos) << "the lane";
+}
+
+TEST(DrivePage, AClosedRoadEndsWhereItBegins) {
+  auto scenario = synthetic_scenario();
+  std::vector<world::RoadPoint> ring;
+  for (int k = 0; k < 24; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 24;
+    ring.push_back({60 * std::cos(angle), 60 * std::sin(angle), 4, 4});
+  }
+  scenario.road =
+      std::make_shared<world::Road>(ring, true, std::vector<std::vector<world::Point>>{}, "ring");
+  scenario.goal.laps = 1;
+  const auto data = page_data(drive_page(scenario, synthetic_drive()));
+  for (const char* line : {"left", "right", "middle"}) {
+    const auto& points = data["road"][line];
+    EXPECT_NEAR(double(points.front()[0]), double(points.back()[0]), 0.02) << line;
+    EXPECT_NEAR(double(points.front()[1]), double(points.back()[1]), 0.02) << line;
+  }
+  EXPECT_EQ(data["goal"]["x"].size(), 2U) << "laps begin and end at a line";
 }
 
 TEST(DrivePage, CarriesWhatWasVerified) {

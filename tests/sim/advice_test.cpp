@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "sim/fakes.hpp"
 
 namespace slalom::sim {
@@ -62,6 +64,29 @@ TEST(Advice, GapsThatAreTooNarrow) {
       << all(s);
   s.obstacles[1].x = 6.1;
   EXPECT_FALSE(says(s, "gap"));
+}
+
+TEST(Advice, GapsBetweenBoxesThatABodyDoesNotFit) {
+  auto s = field();
+  const auto box = [](const char* name, double x) {
+    const auto shape = world::Polygon::rectangle(6, 2);
+    world::Obstacle o{name, x, 60, shape.reach(), shape.reach()};
+    o.outline = std::make_shared<world::Polygon>(shape);
+    o.psi = 0.3;
+    return o;
+  };
+  s.planner.sm_start = s.planner.sm_end = 0.5;
+  s.obstacles = {box("left", 0), box("right", 10)};
+  const double gap = world::distance(s.obstacles[0], s.obstacles[1].corners_at(0), 0);
+  EXPECT_GT(gap, 3);
+  EXPECT_FALSE(says(s, "narrower")) << all(s);
+  s.obstacles[1].x -= gap - 2.5;  // and the rest of it at an angle
+  EXPECT_FALSE(says(s, "narrower")) << all(s);
+  s.vehicle.footprint = vehicle::FootprintKind::rectangle;
+  EXPECT_TRUE(says(s,
+                   "twice the margin of 0.5 m and the vehicle's 2 m (the narrowest: left and "
+                   "right"))
+      << all(s);
 }
 
 TEST(Advice, AGoalWithoutAWay) {

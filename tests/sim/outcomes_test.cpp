@@ -170,7 +170,7 @@ TEST(Outcomes, HaveTheNamesFilesUse) {
   EXPECT_STREQ(to_string(Outcome::wheel_lift), "wheel_lift");
   EXPECT_STREQ(to_string(Outcome::not_optimal), "not_optimal");
   EXPECT_STREQ(to_string(Outcome::interrupted), "interrupted");
-  EXPECT_EQ(outcome_names().size(), 7u);
+  EXPECT_EQ(outcome_names().size(), 8u);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -74,6 +76,68 @@ TEST(Scenario, StartInsideAGrownObstacleIsRefused) {
   expect_refused([](Scenario& s) { s.obstacles[0] = testing::circle("O1", 5.9, 0, 4); },
                  "inside obstacle O1 grown by sm_crash = 2 m");
   expect_refused([](Scenario& s) { s.obstacles[0] = {"O2", 0, 4.9, 50, 3, 0, 0}; }, "O2");
+}
+
+/// 4 m long, 2 m wide, turned by half a right angle.
+world::Obstacle turned_box(double x, double y) {
+  const auto box = world::Polygon::rectangle(4, 2);
+  world::Obstacle o{"box", x, y};
+  o.a = o.b = box.reach();
+  o.outline = std::make_shared<world::Polygon>(box);
+  o.psi = std::numbers::pi / 4;
+  return o;
+}
+
+TEST(Scenario, StartsAndGoalsAreJudgedByExactShapes) {
+  // The box's corner that is nearest to the start lies (-1, -3) / sqrt(2) off its middle.
+  const auto near = [](double margin) {
+    return [margin](Scenario& s) {
+      s.loop.sm_crash = margin;
+      s.obstacles[0] = turned_box(1 / std::sqrt(2), 3 / std::sqrt(2) + 1);
+    };
+  };
+  EXPECT_EQ(message(near(0.99)), "accepted");
+  expect_refused(near(1.01), "0.01 m inside obstacle box grown by sm_crash = 1.01 m");
+  const auto with_body = [&](double margin) {
+    return [=](Scenario& s) {
+      near(margin)(s);
+      s.vehicle.footprint = vehicle::FootprintKind::rectangle;
+    };
+  };
+  EXPECT_EQ(message(with_body(0.35)), "accepted");  // the body reaches 0.649 m ahead
+  expect_refused(with_body(0.36), "its footprint 0.009 m inside obstacle box");
+  expect_refused([](Scenario& s) { s.obstacles[0] = turned_box(s.goal.x, s.goal.y + 3); },
+                 "m inside obstacle box grown by sm_end = 4 m");
+  // What is absent at the start is not in its way; what moves may be gone from the goal.
+  const auto by_table = [](double from) {
+    return [from](Scenario& s) {
+      auto box = turned_box(0, 0);
+      box.x = box.y = box.psi = 0;
+      box.trajectory = std::make_shared<world::TableTrajectory>(
+          std::vector<world::TrajectoryRow>{{from, 0, 0}, {9, s.goal.x, s.goal.y}},
+          world::BeyondEnd::absent, world::BeyondEnd::stands, "box");
+      s.obstacles[0] = box;
+    };
+  };
+  EXPECT_EQ(message(by_table(1)), "accepted");
+  expect_refused(by_table(0), "inside obstacle box");
+}
+
+TEST(Scenario, WhatAPolygonOrATableSaysIsNotSetBesideIt) {
+  expect_refused(
+      [](Scenario& s) {
+        s.obstacles[0] = turned_box(50, 50);
+        s.obstacles[0].b = 3;
+      },
+      "obstacle box: found b = 3, expected none, for the polygon says it");
+  expect_refused(
+      [](Scenario& s) {
+        s.obstacles[0].trajectory =
+            std::make_shared<world::TurningTrajectory>(0, world::Pose{50, 50});
+        s.obstacles[0].x = s.obstacles[0].y = 0;
+        s.obstacles[0].vx = 3;
+      },
+      "found vx = 3, expected none, for the table or path says it");
 }
 
 TEST(Scenario, AGoalThatNoPlanMayEndAtIsRefused) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -109,6 +110,43 @@ TEST(Sensors, ObstaclesHaveNoiseOfTheirOwn) {
       square += ((o.x - 10) * (o.x - 10) + (o.y - 20) * (o.y - 20)) / (6. * kCycles);
   }
   EXPECT_NEAR(square, 0.49, 5 * 0.49 * std::sqrt(2 / (6. * kCycles)));
+}
+
+TEST(Sensors, AMotionByATableIsGoneThroughFasterFromWhereItIs) {
+  SensingSettings settings;
+  settings.obstacle_velocity_factor = 1.5;
+  auto car = testing::circle("car", 0, 0, 1);
+  const auto rows = std::vector<world::TrajectoryRow>{
+      {0, 0, 0, 0}, {1, 4, 0, 0.2}, {2, 7, 2, 0.6}, {5, 7, 12, 1.6}};
+  const auto table = std::make_shared<world::TableTrajectory>(rows, world::BeyondEnd::stands,
+                                                              world::BeyondEnd::absent, "car");
+  car.trajectory = table;
+  const double t0 = 1.2;
+  const auto believed = Sensors(settings, 0).believed({car}, 2, t0).value()[0];
+  for (const double h : {0., 0.4, 1.5, 2.5}) {
+    const auto pose = believed.pose_at(t0 + h), real = table->at(t0 + 1.5 * h);
+    EXPECT_NEAR(pose.x, real.x, 1e-12);
+    EXPECT_NEAR(pose.psi, real.psi, 1e-12);
+    EXPECT_NEAR(pose.vy, 1.5 * real.vy, 1e-12);
+    EXPECT_NEAR(pose.omega, 1.5 * real.omega, 1e-12);
+    EXPECT_LE(std::hypot(pose.vx, pose.vy), believed.trajectory->fastest(t0, t0 + h).speed + 1e-12);
+  }
+  // It is gone that much sooner, too.
+  EXPECT_TRUE(believed.present(3.7, 3.7));
+  EXPECT_FALSE(believed.present(3.8, 3.8));
+  settings = {};
+  settings.obstacle_position_noise = 0.7;
+  const auto displaced = Sensors(settings, 0).believed({car}, 2, t0).value()[0];
+  const double dx = displaced.x_at(0) - table->at(0).x, dy = displaced.y_at(0) - table->at(0).y;
+  EXPECT_NE(dx, 0);
+  EXPECT_NE(dy, dx);
+  EXPECT_NEAR(displaced.x_at(3) - table->at(3).x, dx, 1e-12);
+  EXPECT_EQ(displaced.pose_at(3).vx, table->at(3).vx);
+  // As an obstacle at constant velocity would be.
+  const auto plain =
+      Sensors(settings, 0).believed({testing::circle("car", 5, 6, 1, 2, 3)}, 2, t0).value()[0];
+  EXPECT_NEAR(plain.x - 5, dx, 1e-12);
+  EXPECT_NEAR(plain.y - 6, dy, 1e-12);
 }
 
 TEST(Sensors, EverySettingIsAnOptionWithItsRange) {

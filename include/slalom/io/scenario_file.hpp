@@ -31,6 +31,10 @@ sim::Scenario parse_scenario(const std::string& text, const std::string& source)
 /// from.
 sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& request);
 
+/// One obstacle by the keys of a scenario file, a map as YAML or JSON; `source` names it in
+/// messages. A file that it names counts from the working directory. Throws InvalidValue.
+world::Obstacle parse_obstacle(const std::string& text, const std::string& source);
+
 /// The whole scenario as one YAML file that load_scenario reads back to the same bits.
 std::string to_yaml(const sim::Scenario& scenario);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,16 @@
 
 namespace slalom::sim {
 
-enum class Outcome { goal, crash, wheel_lift, not_optimal, solve_time, timeout, interrupted };
+enum class Outcome {
+  goal,
+  crash,
+  wheel_lift,
+  off_road,
+  not_optimal,
+  solve_time,
+  timeout,
+  interrupted
+};
 
 /// "goal", "crash", ... as files have it.
 const char* to_string(Outcome outcome);
@@ -46,8 +56,9 @@ struct Cycle {
 struct Drive {
   Outcome outcome = Outcome::timeout;
   double time = 0;  ///< when the drive ended [s]
-  /// When the goal square was first entered [s], located in time; the drive goes on to the check at
-  /// the end of the execution horizon, and may fail on the way or have left the square by then.
+  /// When the goal was first reached, a square entered [s], located in time; the drive goes on to
+  /// the check at the end of the execution horizon, and may fail on the way or have left the square
+  /// by then.
   std::optional<double> goal_time;
   std::string hit;             ///< obstacle hit, or wheel that lifted; empty otherwise
   std::string message;         ///< one sentence on how it ended
@@ -55,6 +66,9 @@ struct Drive {
   double least_clearance_t = 0;
   std::string least_clearance_obstacle;
   double least_wheel_load = 0;  ///< [N]
+  /// Of the footprint from the road's edge, at samples [m]; infinite without a road.
+  double least_edge_distance = std::numeric_limits<double>::infinity();
+  double progress = 0;  ///< along the road from the start to the end of the drive [m]
   std::vector<PlantSample> plant;
   std::vector<Cycle> cycles;
 };

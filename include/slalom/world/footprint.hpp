@@ -5,6 +5,7 @@
 #include "slalom/vehicle/parameters.hpp"
 #include "slalom/vehicle/state.hpp"
 #include "slalom/world/obstacle.hpp"
+#include "slalom/world/road.hpp"
 
 namespace slalom::world {
 
@@ -28,13 +29,15 @@ class Footprint {
   /// How far its farthest point is from the front axle's centre [m].
   double reach() const { return reach_; }
 
-  /// Discs that cover it and stick out by at most `excess` [m], but for no more than kMostDiscs; a
-  /// point's is of radius 0.
+  /// Discs that cover it as covering_discs of an obstacle do; a point's is of radius 0.
   std::vector<Disc> covering_discs(double excess) const;
 
   /// Distance between the footprint of a vehicle in this state and the obstacle at t [s]; negative
   /// where they overlap.
   double distance(const Obstacle& obstacle, const vehicle::State& state, double t) const;
+  /// How far all of the footprint is from the road's nearer edge; negative where a part of it is
+  /// off the road (Road::edge_distance).
+  double edge_distance(const Road& road, const vehicle::State& state) const;
 
  private:
   std::vector<Point> corners_;

@@ -35,6 +35,8 @@ struct Obstacle {
   /// An ellipse along the axes of x and y at constant velocity: what the paper has.
   bool is_plain() const { return !trajectory && !outline && (psi == 0 || a == b); }
   bool present(double t0, double t1) const { return !trajectory || trajectory->present(t0, t1); }
+  /// Corners of the outline in the world's frame; none of an ellipse.
+  std::vector<Point> corners_at(double t) const;
   /// What no point of the body is faster than from t0 to t1 [m/s].
   double fastest(double t0, double t1) const;
   /// The body larger by `margin` [m]: an ellipse's semi-axes are longer, a polygon is so far off.
@@ -52,9 +54,10 @@ double distance(const Obstacle& obstacle, double x, double y, double t);
 /// obstacle at absolute time t [s]; negative where they overlap.
 double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, double t);
 
-/// Circles that cover the body at all times and together stick out of it by at most `excess` [m],
-/// but for no more than kMostDiscs of them; the body itself where it is plain. Named as it is.
-/// Corners of a polygon are covered with the rectangle about it.
+/// Circles in a row that cover the body at all times; the body itself where it is plain. Named as
+/// it is. They cover the rectangle about a polygon or a turned ellipse, and stick out of its long
+/// sides by at most `excess` [m], but for no more than kMostDiscs of them, and beyond its ends by
+/// less than half its width.
 std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess);
 constexpr int kMostDiscs = 16;
 

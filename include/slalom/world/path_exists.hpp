@@ -20,13 +20,13 @@ struct PathSearch {
   int max_places = 150'000;       ///< looked at before the search gives up
 };
 
-/// Whether the search finds a way from the start into the goal's square, past the obstacles where
-/// they are by then and within the region: hybrid A* (D. Dolgov, S. Thrun, M. Montemerlo and
-/// J. Diebel, "Path planning for autonomous vehicles in unknown semi-structured environments", Int.
-/// J. Robotics Research 29(5), 2010) over place, heading, speed, curvature and time. A move holds
-/// one rate of curvature and one acceleration; the way is one that a vehicle with these limits and
-/// no slip can drive. Its clearance is checked every tenth of a move. It may deny a way that leads
-/// between its grid's points.
+/// Whether the search finds a way from the start into the goal, which is a place, past the
+/// obstacles where they are by then and within the region: hybrid A* (D. Dolgov, S. Thrun, M.
+/// Montemerlo and J. Diebel, "Path planning for autonomous vehicles in unknown semi-structured
+/// environments", Int. J. Robotics Research 29(5), 2010) over place, heading, speed, curvature and
+/// time. A move holds one rate of curvature and one acceleration; the way is one that a vehicle
+/// with these limits and no slip can drive. Its clearance is checked every tenth of a move. It may
+/// deny a way that leads between its grid's points.
 bool path_exists(const Environment& environment, const vehicle::State& start,
                  const PathSearch& search = {});
 

@@ -20,6 +20,8 @@ class Polygon {
   /// Least radius about the origin of a circle that covers it.
   double reach() const { return reach_; }
   double area() const;
+  /// Of the narrowest strip that holds it.
+  double width() const;
 
   /// Signed Euclidean distance from a point to the edge: negative inside.
   double distance(Point p) const;
@@ -28,6 +30,10 @@ class Polygon {
   std::vector<Point> corners_;
   double reach_ = 0;
 };
+
+/// Signed Euclidean distance from a point to the edge of a convex polygon, whose corners are
+/// counter-clockwise: negative inside.
+double signed_distance(Point p, const std::vector<Point>& corners);
 
 /// Euclidean distance between two convex polygons in one frame; where they overlap, minus the
 /// length of the shortest move that parts them (by the edges' normals; the separating axis theorem:

@@ -89,10 +89,10 @@ def _map(drive: Drive) -> fox.Message:
     """What stays as it is: road, goal, obstacles that stand."""
     t0 = float(drive.t[0])
     entities = []
-    road = getattr(drive.scenario, "road", None)
+    road = drive.scenario.road
     if road is not None:
-        lines = [fox.line(np.asarray(edge), fox.STRIP, 0.15, GREY) for edge in (road.right, road.left)]
-        lines += [fox.line(np.asarray(lane), fox.STRIP, 0.08, fox.colour(0.7, 0.7, 0.7)) for lane in road.lanes]
+        lines = [fox.line(edge, fox.STRIP, 0.15, GREY) for edge in (road.edge(left=False), road.edge(left=True))]
+        lines += [fox.line(lane, fox.STRIP, 0.08, fox.colour(0.7, 0.7, 0.7)) for lane in road.lanes]
         entities.append(fox.entity("road", t0, lines=lines))
     goal = goal_outline(drive.scenario)
     if goal is not None:

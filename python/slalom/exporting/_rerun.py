@@ -41,17 +41,17 @@ def _still(rerun: Any, recording: Any, drive: Drive) -> None:
     goal = goal_outline(drive.scenario)
     if goal is not None:
         recording.log("map/goal", rerun.LineStrips2D([_closed(goal)], colors=[38, 153, 77]), static=True)
-    road = getattr(drive.scenario, "road", None)
+    road = drive.scenario.road
     if road is not None:
         recording.log(
             "map/road",
-            rerun.LineStrips2D([np.asarray(road.right), np.asarray(road.left)], colors=[115, 115, 115]),
+            rerun.LineStrips2D([road.edge(left=False), road.edge(left=True)], colors=[115, 115, 115]),
             static=True,
         )
         if len(road.lanes):
             recording.log(
                 "map/lanes",
-                rerun.LineStrips2D([np.asarray(lane) for lane in road.lanes], colors=[180, 180, 180]),
+                rerun.LineStrips2D([lane for lane in road.lanes], colors=[180, 180, 180]),
                 static=True,
             )
     standing = [o for o in drive.scenario.obstacles if not moves(o, drive.t)]

@@ -70,10 +70,13 @@ def _turned(pose: tuple[float, float, float, float, float, float], ahead: float)
 
 
 def goal_outline(scenario: slalom.Scenario) -> Array | None:
-    """Corners of the goal's area; None where it is a line or a time."""
+    """Corners of the goal's area, or the ends of its line across the road; None of a time and of laps."""
     values: dict[str, Any] = {key: scenario[key] for key in scenario.keys() if key.startswith("goal.")}
-    if any(np.isfinite(values.get("goal." + key, np.inf)) for key in ("s", "time", "laps")):
+    if any(np.isfinite(values.get("goal." + key, np.inf)) for key in ("time", "laps")):
         return None
+    if scenario.road is not None and np.isfinite(values.get("goal.s", np.inf)):
+        x, y, psi, right, left = scenario.road.at(values["goal.s"])
+        return np.array([[x + n * np.cos(psi + np.pi / 2), y + n * np.sin(psi + np.pi / 2)] for n in (-right, left)])
     if np.isfinite(values.get("goal.length", np.inf)):
         half = np.array([values["goal.length"], values["goal.width"]]) / 2
         return placed(
