@@ -15,6 +15,8 @@ void add_study_report(CLI::App& app, Command& run);
 void add_replay(CLI::App& app, Command& run);
 void add_compare(CLI::App& app, Command& run);
 void add_make_scenarios(CLI::App& app, Command& run);
+void add_import(CLI::App& app, Command& run);
+void add_export(CLI::App& app, Command& run);
 void add_check(CLI::App& app, Command& run);
 void add_list(CLI::App& app, Command& run);
 void add_problems(CLI::App& app, Command& run);

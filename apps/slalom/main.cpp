@@ -71,6 +71,8 @@ int run_app(int argc, char** argv) {
   app::add_replay(cli, run);
   app::add_compare(cli, run);
   app::add_make_scenarios(cli, run);
+  app::add_import(cli, run);
+  app::add_export(cli, run);
   app::add_check(cli, run);
   app::add_list(cli, run);
   app::add_problems(cli, run);

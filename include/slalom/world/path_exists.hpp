@@ -21,8 +21,8 @@ struct PathSearch {
   int max_places = 150'000;       ///< looked at before the search gives up
 };
 
-/// Whether the search finds a way of `vehicle` from the start into the goal, which is a place, past the
-/// obstacles where they are by then and within the region: hybrid A* (D. Dolgov, S. Thrun, M.
+/// Whether the search finds a way of `vehicle` from the start into the goal, which is a place, past
+/// the obstacles where they are by then and within the region: hybrid A* (D. Dolgov, S. Thrun, M.
 /// Montemerlo and J. Diebel, "Path planning for autonomous vehicles in unknown semi-structured
 /// environments", Int. J. Robotics Research 29(5), 2010) over place, heading, speed, curvature and
 /// time. A move holds one rate of curvature and one acceleration; the way is one that a vehicle
