@@ -171,21 +171,6 @@ TEST(CoveringDiscs, CoverAnObstacleWhereverItGoes) {
       }
 }
 
-TEST(CoveringDiscs, StickOutOfABoxByTheExcessAtMostWhereSixteenDo) {
-  const auto box = outlined(Polygon::rectangle(4.5, 1.8), 0.3);
-  const Pose pose = box.pose_at(0);
-  for (const double excess : {0.12, 0.3, 1.}) {
-    const auto discs = covering_discs(box, excess);
-    EXPECT_LT(discs.size(), std::size_t{kMostDiscs}) << excess;
-    for (const auto& disc : discs) {
-      const Point centre = pose.to_body({disc.x, disc.y});
-      EXPECT_LE(std::fabs(centre.y) + disc.a, 0.9 + excess + 1e-9);
-      EXPECT_LE(std::fabs(centre.x) + disc.a, 2.25 + excess + 1e-9);
-    }
-  }
-  EXPECT_LE(covering_discs(box, 0.01).size(), std::size_t{kMostDiscs});
-}
-
 TEST(CoveringDiscs, OfTheVehicleCoverItsFootprint) {
   const auto car = body();
   for (const double excess : {0.05, 0.2, 0.5}) {

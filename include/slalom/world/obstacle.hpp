@@ -63,9 +63,9 @@ double distance(const Obstacle& obstacle, double x, double y, double t);
 double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, double t);
 
 /// Circles that cover the body at all times; the body itself where it is plain. Named as it is.
-/// They cover the rectangle about a polygon or a turned ellipse, in a row along its middle and
-/// small ones in its corners, and stick out of it by at most `excess` [m], or by as little as
-/// kMostDiscs do.
+/// They cover the rectangle about a polygon or a turned ellipse by a row along its middle and cells
+/// in what that leaves of its corners, and stick out of it by at most `excess` [m], but for no more
+/// than kMostDiscs of them.
 std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess);
 constexpr int kMostDiscs = 16;
 
