@@ -22,8 +22,6 @@ ACCELERATION = 4.0
 """By which the road's length for a goal of time alone is reckoned [m/s^2]."""
 BEHIND, BEYOND = 15.0, 60.0
 """How much road is kept behind the vehicle and beyond the goal [m]."""
-CLOSE = {"verified_clearance": 0.2, "kept_clearance": 0.1, "arrival_margin": 0.1}
-"""How near to bodies a plan may come [m]: between lanes there is no room for the paper's 2 m."""
 TEX = 0.1
 """Execution horizon [s]: a scene may leave a second to act, and tells the traffic in such steps."""
 TURNED_AWAY = 10.0
@@ -66,7 +64,7 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
         points=road.points() if road else [],
         lanes=road.lane_lines() if road else [],
         obstacles=obstacles,
-        planner={"base": "P_E", "prediction": "known", **CLOSE},
+        planner={"base": "P_E_road", "prediction": "known"},
         loop={"tex": TEX},
         notes=notes,
     )
