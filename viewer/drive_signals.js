@@ -6,7 +6,12 @@
   const deg = 180 / Math.PI;
 
   const scaled = (values, factor) => (factor === 1 ? values : values.map((v) => (v === null ? null : v * factor)));
-  const cubic = (c, u) => ((c[0] * u + c[1]) * u + c[2]) * u + c[3];
+  /** The value at speed u of what is given at every `step`. */
+  const atSpeed = (values, step, u) => {
+    const at = Math.max(0, u / step);
+    const k = Math.min(Math.floor(at), values.length - 2);
+    return values[k] + (values[k + 1] - values[k]) * (at - k);
+  };
   const limit = (value, label, hard, side) => ({ value, label, hard, side });
   const WHEELS = [['rl', '--blue', 'RL'], ['rr', '--vermilion', 'RR'], ['fl', '--green', 'FL'], ['fr', '--purple', 'FR']];
   const WHEEL_WORDS = { rl: 'rear left', rr: 'rear right', fl: 'front left', fr: 'front right' };
@@ -31,9 +36,9 @@
     limit(v.Fz_min / 1000, number(v.Fz_min, 0) + ' N, least in a plan'),
     limit(loop.Fz_failure / 1000, number(loop.Fz_failure, 0) + ' N, failure', true, 'left')];
   const bothSides = (name) => ({ data: { vehicle } }) => [limit(vehicle[name] * deg, 'bound'), limit(-vehicle[name] * deg)];
-  const accelerations = ({ data: { plant, vehicle } }) => [
-    { values: plant.ux.map((u) => cubic(vehicle.ax_max, u)), label: 'limits at this speed' },
-    { values: plant.ux.map((u) => cubic(vehicle.ax_min, u)) }];
+  const accelerations = ({ data: { plant, vehicle: { ax_limits: { ux_step: step, most, least } } } }) => [
+    { values: plant.ux.map((u) => atSpeed(most, step, u)), label: 'limits at this speed' },
+    { values: plant.ux.map((u) => atSpeed(least, step, u)) }];
 
   /** The least of a drive's wheel loads at each instant: one curve where drives are compared. */
   function leastLoad({ data: { plant } }) {

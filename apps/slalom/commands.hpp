@@ -7,6 +7,7 @@ namespace slalom::app {
 /// Each adds one sub-command to `app` and, when it is chosen, sets `run`.
 void add_simulate(CLI::App& app, Command& run);
 void add_plan(CLI::App& app, Command& run);
+void add_lap(CLI::App& app, Command& run);
 void add_reproduce(CLI::App& app, Command& run);
 void add_sweep(CLI::App& app, Command& run);
 void add_merge(CLI::App& app, Command& run);

@@ -63,6 +63,7 @@ int run_app(int argc, char** argv) {
   app::Command run;
   app::add_simulate(cli, run);
   app::add_plan(cli, run);
+  app::add_lap(cli, run);
   app::add_reproduce(cli, run);
   app::add_sweep(cli, run);
   app::add_merge(cli, run);

@@ -20,10 +20,13 @@ void add_scenario(CLI::App& command, CommonOptions& options) {
       ->required();
 }
 
-void add_overrides(CLI::App& command, CommonOptions& options, bool with_planner) {
-  if (with_planner)
+void add_overrides(CLI::App& command, CommonOptions& options, bool with_files) {
+  if (with_files) {
     command.add_option("--planner", options.request.planner,
                        "Built-in planner or a file, instead of the scenario's own");
+    command.add_option("--vehicle", options.request.vehicle,
+                       "Built-in vehicle or a file, instead of the scenario's own");
+  }
   command.add_option("--tex", options.request.tex, "Execution horizon [s]");
   // One value an option: a list would swallow what follows it.
   command

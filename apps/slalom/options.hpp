@@ -27,7 +27,7 @@ struct CommonOptions {
 /// Which of the shared options a sub-command has.
 void add_scenario(CLI::App& command, CommonOptions& options);  ///< SCENARIO
 void add_overrides(CLI::App& command, CommonOptions& options,
-                   bool with_planner);                         ///< --planner --tex --set
+                   bool with_files);                           ///< --planner --vehicle --tex --set
 void add_output(CLI::App& command, CommonOptions& options);    ///< --out --force
 void add_printing(CLI::App& command, CommonOptions& options);  ///< --json --quiet
 void add_expect(CLI::App& command, CommonOptions& options, const std::string& outcomes);

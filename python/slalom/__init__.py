@@ -70,6 +70,7 @@ from ._core import (  # noqa: E402
     state_names,
     tan,
     tanh,
+    vehicle_names,
 )
 from ._trials import read_trials, write_parquet  # noqa: E402
 
@@ -80,5 +81,5 @@ __all__ = [
     "__version__", "absolute", "arccos", "arcsin", "arctan", "arctan2", "backends", "control_names",
     "cos", "cosh", "cubic_spline", "exp", "load_scenario", "log", "maximum", "minimum",
     "planner_names", "power", "read_trials", "scenario_names", "scheme_names", "select", "sign", "simulate", "sin",
-    "sinh", "solver_options", "sqrt", "square", "state_names", "tan", "tanh", "write_parquet",
+    "sinh", "solver_options", "sqrt", "square", "state_names", "tan", "tanh", "vehicle_names", "write_parquet",
 ]

@@ -29,8 +29,8 @@ using OnCycle = std::function<void(const Cycle&)>;
 
 Driven simulate(const ScenarioChoice& scenario, const std::optional<std::string>& planner,
                 std::optional<double> tex, const ByName<nb::any>& set,
-                const std::optional<OnCycle>& on_cycle) {
-  Driven driven{scenario_of(scenario, {planner, tex, set}), {}};
+                const std::optional<OnCycle>& on_cycle, const std::optional<std::string>& vehicle) {
+  Driven driven{scenario_of(scenario, {planner, tex, set, vehicle}), {}};
   Released released;
   std::exception_ptr thrown;
   sim::LoopHooks hooks;
@@ -171,6 +171,7 @@ void bind_drive(nb::module_& module) {
   module.def(
       "simulate", &simulate, "scenario"_a, nb::kw_only(), "planner"_a = nb::none(),
       "tex"_a = nb::none(), "set"_a = nb::dict(), "on_cycle"_a = nb::none(),
+      "vehicle"_a = nb::none(),
       "Drives a scenario in closed loop: one that was loaded, or what load_scenario takes. "
       "`on_cycle` is\ncalled after each planning cycle, with that Cycle; what it raises ends "
       "the drive and comes out\nhere. Raises InvalidValue for what is no scenario; how a "

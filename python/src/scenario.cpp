@@ -14,7 +14,7 @@ namespace {
 using sim::Scenario;
 
 io::ScenarioRequest request_of(const std::string& source, const Changes& changes) {
-  io::ScenarioRequest request{source, changes.planner, changes.tex, {}};
+  io::ScenarioRequest request{source, changes.planner, changes.tex, {}, changes.vehicle};
   for (const auto& [key, value] : changes.set) {
     // As the command line has it: text, or what Python prints of a number or truth value.
     const auto text = nb::isinstance<nb::bool_>(value) ? (nb::cast<bool>(value) ? "true" : "false")
@@ -184,21 +184,22 @@ void bind_class(nb::module_& module) {
       .def_prop_ro(
           "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
       .def_prop_ro(
-          "road", [](const Scenario& s) { return s.road.get(); },
-          nb::rv_policy::reference_internal, nb::sig("def road(self) -> Road | None"),
-          "To stay on; None without one.")
+          "road", [](const Scenario& s) { return s.road.get(); }, nb::rv_policy::reference_internal,
+          nb::sig("def road(self) -> Road | None"), "To stay on; None without one.")
       .def("keys", &keys, "Keys of all values, as `set=` takes them.")
       .def("__getitem__", &value, "key"_a,
            "A value by its key, such as \"planner.w_t\", \"start.ux\" or \"obstacles.lorry.b\".")
       .def(
           "replace",
           [](const Scenario& s, const std::optional<std::string>& planner,
-             std::optional<double> tex, const ByName<nb::any>& set) {
-            return scenario_of(s, {planner, tex, set});
+             std::optional<double> tex, const ByName<nb::any>& set,
+             const std::optional<std::string>& vehicle) {
+            return scenario_of(s, {planner, tex, set, vehicle});
           },
           nb::kw_only(), "planner"_a = nb::none(), "tex"_a = nb::none(), "set"_a = nb::dict(),
-          "The scenario with another planner, execution horizon [s] or other values by key, "
-          "checked anew.")
+          "vehicle"_a = nb::none(),
+          "The scenario with another planner, execution horizon [s], vehicle or other values by "
+          "key, checked anew.")
       .def(
           "to_yaml", [](const Scenario& s) { return io::to_yaml(s); }, doc::io_to_yaml)
       .def("__repr__", [](const Scenario& s) {
@@ -235,18 +236,23 @@ void bind_scenario(nb::module_& module) {
   module.def(
       "load_scenario",
       [](const ScenarioChoice& scenario, const std::optional<std::string>& planner,
-         std::optional<double> tex, const ByName<nb::any>& set) {
-        return scenario_of(scenario, {planner, tex, set});
+         std::optional<double> tex, const ByName<nb::any>& set,
+         const std::optional<std::string>& vehicle) {
+        return scenario_of(scenario, {planner, tex, set, vehicle});
       },
       "scenario"_a, nb::kw_only(), "planner"_a = nb::none(), "tex"_a = nb::none(),
-      "set"_a = nb::dict(),
+      "set"_a = nb::dict(), "vehicle"_a = nb::none(),
       "Reads and checks a scenario: that of a built-in name, of a file, or a dict with a file's "
-      "keys.\n`planner` is a built-in planner's name or a file, `tex` the execution horizon [s], "
-      "`set` changes\nvalues by key, such as {\"planner.w_t\": 50}. Raises InvalidValue with file, "
+      "keys.\n`planner` and `vehicle` are names of built-in ones or files, `tex` the execution "
+      "horizon [s], `set`\nchanges values by key, such as {\"planner.w_t\": 50}. Raises "
+      "InvalidValue with file, "
       "line and column, what\nwas found and what was expected.");
   module.def(
       "scenario_names", [] { return names_of(io::built_in_scenarios()); },
       "The names of the built-in scenarios.");
+  module.def(
+      "vehicle_names", [] { return names_of(io::built_in_vehicles()); },
+      "The names of the built-in vehicles.");
   module.def(
       "planner_names", [] { return names_of(io::built_in_planners()); },
       "The names of the built-in planners.");

@@ -17,14 +17,15 @@ namespace slalom::python {
 /// name of a built-in one or of a file.
 using ScenarioChoice = std::variant<sim::Scenario, ByName<nb::any>, std::filesystem::path>;
 
-/// What differs from the scenario: a planner's name or file, an execution horizon [s], and values
-/// by key.
+/// What differs from the scenario: a planner's name or file, an execution horizon [s], values by
+/// key, and a vehicle's name or file.
 struct Changes {
   std::optional<std::string> planner;
   std::optional<double> tex;
   nb::dict set;
+  std::optional<std::string> vehicle = {};
 
-  bool none() const { return !planner && !tex && set.size() == 0; }
+  bool none() const { return !planner && !tex && set.size() == 0 && !vehicle; }
 };
 
 /// Throws InvalidValue for what is no scenario.

@@ -30,6 +30,16 @@ def test_a_drive_arrives():
     assert drive.scenario["planner.w_t"] == 100
 
 
+def test_another_vehicle_is_chosen_by_name():
+    assert {"hmmwv", "bmw_320i"} <= set(slalom.vehicle_names())
+    car = slalom.load_scenario("E_B", vehicle="bmw_320i")
+    assert car["vehicle.name"] == "bmw_320i" and car["vehicle.tyre"] == "combined_slip"
+    assert car.replace(vehicle="hmmwv")["vehicle.m"] == 2688.7
+    assert slalom.simulate("E_B", vehicle="bmw_320i").goal_time < 5.5
+    with pytest.raises(slalom.InvalidValue, match="bmw_320i"):
+        slalom.load_scenario("E_B", vehicle="tank")
+
+
 def test_values_of_a_scenario():
     scenario = slalom.load_scenario("E_B", tex=0.25, set={"loop.timeout": 1, "loop.warm_up": False})
     assert scenario["loop.tex"] == 0.25 and scenario["loop.warm_up"] is False

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "json_file.hpp"
+#include "obstacle_json.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/drive_files.hpp"
 #include "slalom/io/scenario_file.hpp"
@@ -26,24 +27,6 @@ vehicle::State state(const JsonReader& reader) {
   if (list.size() != result.size())
     reader.refuse(fmt::format("{} numbers", list.size()), fmt::format("{}", result.size()));
   std::copy(list.begin(), list.end(), result.begin());
-  return result;
-}
-
-Json json_obstacles(const std::vector<world::Obstacle>& obstacles) {
-  Json json = Json::array();
-  for (const auto& o : obstacles)
-    json.push_back({{"name", o.name}, {"numbers", json_numbers({o.x, o.y, o.a, o.b, o.vx, o.vy})}});
-  return json;
-}
-
-std::vector<world::Obstacle> obstacles(const JsonReader& reader) {
-  std::vector<world::Obstacle> result;
-  for (std::size_t i = 0; i < reader.size(); ++i) {
-    const JsonReader one = reader.at(i), numbers = one.at("numbers");
-    const auto n = numbers.list();
-    if (n.size() != 6) numbers.refuse(fmt::format("{} numbers", n.size()), "x, y, a, b, vx, vy");
-    result.push_back({one.at("name").text(), n[0], n[1], n[2], n[3], n[4], n[5]});
-  }
   return result;
 }
 
@@ -76,7 +59,7 @@ RecordedMotion motion(const JsonReader& reader, const std::string& file) {
   p.seen_x = seen[0];
   p.seen_y = seen[1];
   p.seen_radius = seen[2];
-  p.obstacles = obstacles(reader.at("obstacles"));
+  p.obstacles = read_obstacles(reader.at("obstacles"));
   p.t = reader.at("t").list();
   if (!std::is_sorted(p.t.begin(), p.t.end()))
     reader.at("t").refuse("times out of order", "rising");
@@ -155,7 +138,7 @@ Recorded read_recording(const std::string& file) {
   r.t0 = request.at("t0").real();
   r.t_start = request.at("t_start").real();
   r.goal_in_range = request.at("goal_in_range").flag();
-  if (request.has("obstacles")) r.obstacles = obstacles(request.at("obstacles"));
+  if (request.has("obstacles")) r.obstacles = read_obstacles(request.at("obstacles"));
   r.kernels = reader.at("kernels").one_of(KernelSet::avx2);
   r.options = reader.at("options").options();
   r.status = reader.at("status").one_of(nlp::Status::numerical_failure);

@@ -91,8 +91,9 @@ class Loader {
     if (!section.required.empty()) require_key(root_, "a scenario", section.name);
     const Value* value = root_.find(section.name);
     if (section.in_files) {
-      // --planner puts another file in the place of the one that the scenario names.
-      read_over_file(section, value, section.name == "planner" ? request_.planner : std::nullopt);
+      // --planner and --vehicle put another file in the place of the one that the scenario names.
+      read_over_file(section, value,
+                     section.name == "planner" ? request_.planner : request_.vehicle);
     } else if (value != nullptr && section.form == ScenarioSection::Form::list) {
       read_obstacles(*value);
     } else if (value != nullptr && section.form == ScenarioSection::Form::road) {

@@ -26,8 +26,6 @@ const std::vector<double>& shares(bool between) {
   static const std::vector<double> all = {-0.2, -0.1, 0, 0.1, 0.2}, none = {0};
   return between ? all : none;
 }
-/// Where the end may lie, in half-widths of the goal's square from its centre.
-constexpr double kEnd = 0.6;
 /// Points of the guess for each interval.
 constexpr int kGuessPoints = 4;
 /// An answer that is not solved starts a tracked motion still, up to this violation [its unit].
@@ -63,12 +61,18 @@ ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     : room_(room),
       intervals_(task.planner.arrival_N),
       shares_(shares(task.planner.rows_between)),
-      problem_("arrival") {
+      problem_("arrival"),
+      road_(task.road) {
+  if (const world::Footprint footprint(task.vehicle); !footprint.is_point())
+    box_.emplace(footprint);
   add_dynamics(task);
   add_obstacles();
-  add_cost_and_end(task);
-  set_obstacles({});
+  if (road_) corridor_.emplace(problem_, X_[X], X_[Y], X_[PSI], world::Footprint(task.vehicle));
+  add_cost(task);
+  end_.emplace(problem_, task, X_, t_start_);
+  set_obstacles({}, 0, 0);
   transcription_.emplace(problem_, growing_mesh(task.planner.arrival_N), ocp::hermite_simpson());
+  tau_ = transcription_->trajectory(transcription_->point(transcription_->straight_guess())).tau;
 }
 
 void ArrivalProblem::add_dynamics(const Task& task) {
@@ -109,6 +113,14 @@ void ArrivalProblem::add_limits(const Model& model, const Parameters& vehicle) {
     add(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle.Fz_min));
 }
 
+/// How far the vehicle is outside a body whose centre lies (x, y) from the front axle's: >= 0. A
+/// point keeps off the ellipse with the semi-axes a and b; the body keeps the smooth distance a.
+ocp::Expr ArrivalProblem::outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a,
+                                  const Expr& b) const {
+  if (box_) return box_->square_of_distance(-x, -y, psi) / square(a) - 1;
+  return square(x / a) + square(y / b) - 1;
+}
+
 void ArrivalProblem::add_obstacles() {
   const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
@@ -116,7 +128,7 @@ void ArrivalProblem::add_obstacles() {
   const Expr share = Expr::symbol("share");
   if (room_.far > 0)
     far_rows_ = problem_.path_family("far obstacle", {xo, yo, a, b},
-                                     square((X_[X] - xo) / a) + square((X_[Y] - yo) / b) - 1,
+                                     outside(X_[X] - xo, X_[Y] - yo, X_[PSI], a, b),
                                      Bounds::at_least(0), Points::after_first);
   if (room_.close == 0) return;
   // The length of the interval about a point, as the mesh grows along tau.
@@ -127,19 +139,44 @@ void ArrivalProblem::add_obstacles() {
   const Expr t = t_start_ + problem_.time() + after;
   const Expr x = X_[X] + after * rate_[X] - xo - vx * t, y = X_[Y] + after * rate_[Y] - yo - vy * t;
   close_rows_ = problem_.path_family("close obstacle", {xo, yo, a, b, vx, vy, share},
-                                     square(x / a) + square(y / b) - 1, Bounds::at_least(0),
-                                     Points::after_first);
+                                     outside(x, y, X_[PSI] + after * rate_[PSI], a, b),
+                                     Bounds::at_least(0), Points::after_first);
+}
+
+/// Of a row that holds the share of an interval after each point. Those that vary are taken as they
+/// are when a motion over tf from t_start is at the point.
+std::vector<double> ArrivalProblem::row_numbers(const world::Obstacle& o, double share,
+                                                double t_start, double tf) const {
+  std::vector<double> row;
+  const auto add = [&](double t, double around) {
+    auto n = numbers_at(o, t, around);
+    if (box_) n[2] = box_->smooth_radius(n[2]);
+    row.insert(row.end(), n.begin(), n.end());
+    row.push_back(share);
+  };
+  if (!varies(o)) {
+    add(0, 0);
+    return row;
+  }
+  for (std::size_t k = 0; k < tau_.size(); ++k)
+    add(t_start + tau_[k] * tf, tf * (k > 0 ? tau_[k] - tau_[k - 1] : tau_[1]));
+  return row;
 }
 
 /// Places that no obstacle takes are taken by one far away from everything.
-void ArrivalProblem::set_obstacles(const Obstacles& obstacles) {
-  constexpr double away = 1e5, size = 1e3;
+void ArrivalProblem::set_obstacles(const Obstacles& obstacles, double t_start, double tf) {
   std::vector<std::vector<double>> far, close;
-  for (const auto& o : obstacles.far) far.push_back({o.x, o.y, o.a, o.b});
+  for (const auto& o : obstacles.far) {
+    const auto all = row_numbers(o, 0, t_start, tf);
+    auto& row = far.emplace_back();
+    for (std::size_t k = 0; k < all.size(); k += 7) row.insert(row.end(), &all[k], &all[k] + 4);
+  }
   for (const auto& o : obstacles.close)
-    for (const double share : shares_) close.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy, share});
-  far.resize(room_.far, {away, away, size, size});
-  close.resize(room_.close * shares_.size(), {away, away, size, size, 0, 0, 0});
+    for (const double share : shares_) close.push_back(row_numbers(o, share, t_start, tf));
+  far.resize(room_.far, {kNowhere.begin(), kNowhere.begin() + 4});
+  auto nowhere = std::vector(kNowhere.begin(), kNowhere.end());
+  nowhere.push_back(0);
+  close.resize(room_.close * shares_.size(), nowhere);
   const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers) {
     if (numbers.empty()) return;
     std::vector<std::string> names;
@@ -150,26 +187,39 @@ void ArrivalProblem::set_obstacles(const Obstacles& obstacles) {
   set(close_rows_, std::move(close));
 }
 
-void ArrivalProblem::add_cost_and_end(const Task& task) {
+void ArrivalProblem::add_cost(const Task& task) {
   const Settings& s = task.planner;
   const auto& goal = task.goal;
   problem_.mayer("final_time", s.w_t * problem_.final_time());
   problem_.lagrange("control_effort",
                     s.w_ce * (s.w_sa * square(X_[SA]) + kSteeringRate * s.w_sr * square(U_[SR]) +
                               kJerk * s.w_jx * square(U_[JX])));
+  // A road says where it leads.
+  if (task.road) return;
   problem_.lagrange("heading_area", kArea * s.w_haf *
                                         square(std::sin(goal.psi) * (X_[X] - goal.x) -
                                                std::cos(goal.psi) * (X_[Y] - goal.y)));
-  const double within = kEnd * goal.sigma;
-  problem_.boundary("goal x", problem_.final(X_[X]) - goal.x, {-within, within});
-  problem_.boundary("goal y", problem_.final(X_[Y]) - goal.y, {-within, within});
+}
+
+void ArrivalProblem::set_corridor(const Motion& guess, const State& X0p, double tf, double margin) {
+  if (!corridor_) return;
+  std::vector<State> at;
+  std::vector<double> after;
+  for (const double tau : tau_) {
+    after.push_back(tau * tf);
+    at.push_back(guess.state_at(guess.begin() + tau * tf));
+  }
+  at[0] = X0p;
+  corridor_->set(problem_, *road_, at, after, margin);
 }
 
 std::optional<Motion> ArrivalProblem::solve(const Motion& guess, const State& X0p,
-                                            const Obstacles& obstacles, nlp::Solver& solver,
-                                            const nlp::Options& options) {
-  const double t_start = guess.begin(), tf = guess.end() - t_start;
-  set_obstacles(obstacles);
+                                            const Obstacles& obstacles, double edge_margin,
+                                            nlp::Solver& solver, const nlp::Options& options) {
+  const double t_start = guess.begin(), tf = end_->duration(guess);
+  set_obstacles(obstacles, t_start, tf);
+  set_corridor(guess, X0p, tf, edge_margin);
+  end_->set(problem_, guess);
   for (std::size_t i = 0; i < kStates; ++i) problem_.set_parameter(X0p_[i], X0p[i]);
   problem_.set_parameter(t_start_, t_start);
   transcription_->update(problem_);

@@ -5,11 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "arrival_end.hpp"
+#include "corridor_rows.hpp"
 #include "motion.hpp"
+#include "obstacle_view.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/task.hpp"
+#include "smooth_box.hpp"
 
 namespace slalom::planner {
 
@@ -18,10 +22,11 @@ namespace slalom::planner {
 /// too; intervals grow along the way, for what is near is driven first. An obstacle that moves
 /// fast, or that the way bends about, could be passed through between two points: rows of close
 /// obstacles hold at moments between them too, to which vehicle and obstacle go on at the velocity
-/// they have at the point. Transcribed once for a number of obstacles, and solved for any fewer.
+/// they have at the point. What moves by a trajectory does so at a point as it does when the guess
+/// is there. Transcribed once for a number of obstacles, and solved for any fewer.
 class ArrivalProblem {
  public:
-  /// Obstacles, grown by their margins.
+  /// Obstacles as covered() leaves them, grown by their margins.
   struct Obstacles {
     std::vector<world::Obstacle> far;    ///< that stand and are not close
     std::vector<world::Obstacle> close;  ///< with rows between the points
@@ -39,10 +44,10 @@ class ArrivalProblem {
   static Room room_for(const Obstacles& obstacles);
 
   /// Solves from `guess` (whose end is the guess of the final time) for obstacles, no more of them
-  /// than there is room for. None when it is not solved, nor near it. `solver` is used for this
-  /// alone.
+  /// than there is room for, and within the road's edges by a margin [m]. None when it is not
+  /// solved, nor near it. `solver` is used for this alone.
   std::optional<Motion> solve(const Motion& guess, const vehicle::State& X0p,
-                              const Obstacles& obstacles, nlp::Solver& solver,
+                              const Obstacles& obstacles, double edge_margin, nlp::Solver& solver,
                               const nlp::Options& options);
 
   int iterations() const { return answer_.iterations; }  ///< of the last solve
@@ -50,21 +55,30 @@ class ArrivalProblem {
 
  private:
   using Expr = ocp::Expr;
-  void set_obstacles(const Obstacles& obstacles);
+  void set_obstacles(const Obstacles& obstacles, double t_start, double tf);
   void add_dynamics(const Task& task);
   void add_limits(const vehicle::Model& model, const vehicle::Parameters& vehicle);
   void add_obstacles();
-  void add_cost_and_end(const Task& task);
+  Expr outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a, const Expr& b) const;
+  std::vector<double> row_numbers(const world::Obstacle& o, double share, double t_start,
+                                  double tf) const;
+  void add_cost(const Task& task);
+  void set_corridor(const Motion& guess, const vehicle::State& X0p, double tf, double margin);
 
   Room room_;
   int intervals_;
+  std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
   const std::vector<double>& shares_;
   ocp::Problem problem_;
   ocp::ConstraintId far_rows_{}, close_rows_{};
+  std::optional<CorridorRows> corridor_;
+  std::optional<ArrivalEnd> end_;
+  std::shared_ptr<const world::Road> road_;
   std::array<Expr, vehicle::kStates> X_, X0p_, rate_;
   std::array<Expr, vehicle::kControls> U_;
   Expr t_start_;
   std::optional<ocp::Transcription> transcription_;
+  std::vector<double> tau_;  ///< of the points
   nlp::Answer answer_;
 };
 

@@ -9,14 +9,7 @@ namespace {
 
 using namespace vehicle;
 
-struct Vector {
-  double x = 0, y = 0;
-
-  Vector operator+(Vector o) const { return {x + o.x, y + o.y}; }
-  Vector operator-(Vector o) const { return {x - o.x, y - o.y}; }
-  Vector operator*(double s) const { return {x * s, y * s}; }
-  double norm() const { return std::hypot(x, y); }
-};
+using Vector = world::Point;
 
 /// Of the front axle's centre (paper, Eqn. 1; docs/formulation.md, section 2).
 Vector velocity(const State& s, double la) {
@@ -29,11 +22,22 @@ Vector velocity(const State& s, double la) {
 struct Interval {
   double t0 = 0, length = 0;  ///< absolute time of the first [s]
   Vector p0, p1, v0, v1;
+  double psi0 = 0, psi1 = 0, r0 = 0, r1 = 0;  ///< headings [rad] and yaw rates [rad/s]
 
-  Vector place(double share) const {
+  /// Place and heading.
+  State at(double share) const {
     const double s = share, h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s);
     const double h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
-    return p0 * h00 + p1 * h01 + (v0 * h10 + v1 * h11) * length;
+    const Vector p = p0 * h00 + p1 * h01 + (v0 * h10 + v1 * h11) * length;
+    State state{};
+    state[X] = p.x;
+    state[Y] = p.y;
+    state[PSI] = psi0 * h00 + psi1 * h01 + (r0 * h10 + r1 * h11) * length;
+    return state;
+  }
+  double fastest_turn() const {
+    const double middle = (psi1 - psi0) * (3 / length) - r0 - r1;
+    return std::max({std::fabs(r0), std::fabs(middle), std::fabs(r1)});
   }
   /// The derivative's Bernstein coefficients bound it.
   double fastest() const {
@@ -45,18 +49,27 @@ struct Interval {
 /// Looks for where an interval is deepest within an obstacle's margin.
 class Search {
  public:
-  Search(const Interval& interval, const world::Obstacle& obstacle, double held, double margin,
-         Passage& deepest)
-      : interval_(interval), obstacle_(obstacle), held_(held), margin_(margin), deepest_(deepest) {
-    const double moving = held < 0 ? std::hypot(obstacle.vx, obstacle.vy) : 0;
+  Search(const Interval& interval, const world::Footprint& footprint,
+         const world::Obstacle& obstacle, double held, double margin, Passage& deepest)
+      : interval_(interval),
+        footprint_(footprint),
+        obstacle_(obstacle),
+        held_(held),
+        margin_(margin),
+        deepest_(deepest) {
+    const double moving = held < 0 ? obstacle.fastest(time(0), time(1)) + obstacle.margin_rate : 0;
     rate_ = (interval.fastest() + moving) * interval.length;
+    if (!footprint.is_point())
+      rate_ += interval.fastest_turn() * footprint.reach() * interval.length;
   }
 
   void run() {
+    if (!obstacle_.present(time(0), time(1))) return;
     // Far ones, which are most, are told by the distance between centres.
-    const Vector o{obstacle_.x_at(time(0)), obstacle_.y_at(time(0))};
-    const double most = std::max(obstacle_.a, obstacle_.b) + margin_ - deepest_.depth;
-    if ((interval_.p0 - o).norm() > most + rate_) return;
+    const world::Pose o = obstacle_.pose_at(time(0));
+    const double most = obstacle_.reach() + footprint_.reach() + margin_ +
+                        obstacle_.margin(time(0)) - deepest_.depth;
+    if ((interval_.p0 - Vector{o.x, o.y}).norm() > most + rate_) return;
     split(0, depth(0), 1, depth(1));
   }
 
@@ -65,8 +78,8 @@ class Search {
     return held_ >= 0 ? held_ : interval_.t0 + share * interval_.length;
   }
   double depth(double share) {
-    const Vector p = interval_.place(share);
-    const double d = margin_ - world::distance(obstacle_, p.x, p.y, time(share));
+    const double d = margin_ + obstacle_.margin(time(share)) -
+                     footprint_.distance(obstacle_, interval_.at(share), time(share));
     if (d > deepest_.depth + kPassageResolution / 2)
       deepest_ = {d, obstacle_.name, interval_.t0 + share * interval_.length};
     return d;
@@ -82,6 +95,7 @@ class Search {
   }
 
   const Interval& interval_;
+  const world::Footprint& footprint_;
   const world::Obstacle& obstacle_;
   const double held_, margin_;
   Passage& deepest_;
@@ -91,7 +105,7 @@ class Search {
 }  // namespace
 
 Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
-                        double margin, double la) {
+                        double margin, const world::Footprint& footprint, double la) {
   Passage deepest;
   for (std::size_t k = 0; k + 1 < plan.t.size(); ++k) {
     Interval i;
@@ -103,7 +117,12 @@ Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& ob
     i.p1 = {b[X], b[Y]};
     i.v0 = velocity(a, la);
     i.v1 = velocity(b, la);
-    for (const auto& o : obstacles) Search(i, o, plan.obstacle_time_held, margin, deepest).run();
+    i.psi0 = a[PSI];
+    i.psi1 = b[PSI];
+    i.r0 = a[R];
+    i.r1 = b[R];
+    for (const auto& o : obstacles)
+      Search(i, footprint, o, plan.obstacle_time_held, margin, deepest).run();
   }
   return deepest;
 }

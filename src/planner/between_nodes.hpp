@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "slalom/planner/plan.hpp"
-#include "slalom/world/obstacle.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::planner {
 
@@ -11,10 +11,11 @@ namespace slalom::planner {
 inline constexpr double kPassageResolution = 0.02;
 
 /// How deep a plan goes into an obstacle grown by `margin` [m], between its nodes too, where rows
-/// of obstacles do not look: the front axle's centre on the cubic through each two nodes and their
-/// velocities (C. de Boor, "A Practical Guide to Splines", chapter IV), obstacles as the plan has
-/// them. Depth 0 where it stays out. `la` [m]: from the c.g. to the front axle.
+/// of obstacles do not look: the front axle's centre and the heading on the cubics through each two
+/// nodes and their rates (C. de Boor, "A Practical Guide to Splines", chapter IV), obstacles as the
+/// plan has them, with the margins of their predictions. Depth 0 where it stays out. `la` [m]: from
+/// the c.g. to the front axle.
 Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
-                        double margin, double la);
+                        double margin, const world::Footprint& footprint, double la);
 
 }  // namespace slalom::planner

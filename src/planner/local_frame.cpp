@@ -1,6 +1,7 @@
 #include "local_frame.hpp"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace slalom::planner {
@@ -17,9 +18,12 @@ double LocalFrame::without_turns(double psi) {
 }
 
 void LocalFrame::move(std::vector<world::Obstacle>& obstacles) const {
+  if (x_ == 0 && y_ == 0) return;
   for (auto& o : obstacles) {
     o.x -= x_;
     o.y -= y_;
+    if (o.trajectory)
+      o.trajectory = std::make_shared<world::MovedTrajectory>(o.trajectory, world::Point{-x_, -y_});
   }
 }
 
@@ -32,6 +36,7 @@ Task LocalFrame::to_local(Task task) const {
   task.region.y_min -= y_;
   task.region.y_max -= y_;
   move(task.obstacles);
+  if (task.road && (x_ != 0 || y_ != 0)) task.road = task.road->moved({-x_, -y_});
   return task;
 }
 

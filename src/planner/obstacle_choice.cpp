@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "obstacle_view.hpp"
+
 namespace slalom::planner {
 namespace {
 
@@ -39,8 +41,19 @@ double scale_to_cover(const world::Obstacle& o, const world::Obstacle& member) {
   return most + steepest * step / 2;
 }
 
-/// The least distance [m] between the obstacle's centre and a point over absolute times t0 to t1.
+/// The least distance [m] between the obstacle's centre and a point over absolute times t0 to t1;
+/// of a trajectory a lower bound, by places so close that it is 1 m too small at the most.
 double nearest_pass(const world::Obstacle& o, double x, double y, double t0, double t1) {
+  if (o.trajectory) {
+    double least = INFINITY;
+    const double rate = o.trajectory->fastest(t0, t1).speed;
+    const double parts = std::clamp(std::ceil(rate * (t1 - t0) / 2), 1., 1000.);
+    const double step = (t1 - t0) / parts;
+    for (double k = 0; k <= parts; ++k)
+      if (const double t = t0 + k * step; o.present(t - step, t + step))
+        least = std::min(least, std::hypot(o.x_at(t) - x, o.y_at(t) - y));
+    return least - rate * step / 2;
+  }
   const double dx = o.x_at(t0) - x, dy = o.y_at(t0) - y;
   const double speed2 = o.vx * o.vx + o.vy * o.vy;
   const double t = speed2 > 0 ? std::clamp(-(dx * o.vx + dy * o.vy) / speed2, 0.0, t1 - t0) : 0.0;
@@ -51,6 +64,11 @@ double nearest_pass(const world::Obstacle& o, double x, double y, double t0, dou
 /// within X0_tol of X0p.
 double reach_of(const Settings& s) {
   return s.L_range + s.kappa + std::hypot(s.X0_tol[0], s.X0_tol[1]);
+}
+
+/// How far from X0p the centre of an obstacle is that a plan can touch [m].
+double reach_of(const Settings& s, const Request& request, const world::Obstacle& o) {
+  return reach_of(s) + std::max(o.a, o.b) + s.sm_end + o.margin(request.t_start + s.tf_max);
 }
 
 /// The least distance [m] between an obstacle's centre and X0p over the times of a plan.
@@ -65,27 +83,27 @@ double nearest_pass(const Settings& s, const Request& request, const world::Obst
 constexpr double kFar = 2048, kParked = 50;
 
 bool far(const Settings& s, const Request& request, const world::Obstacle& o) {
-  return nearest_pass(s, request, o) > reach_of(s) + std::max(o.a, o.b) + s.sm_end + kFar;
+  return nearest_pass(s, request, o) > reach_of(s, request, o) + kFar;
 }
 
 /// A far obstacle, standing where its row is of the others' size and no plan comes.
 world::Obstacle parked(const Settings& s, const Request& request, const world::Obstacle& o) {
   const double x = request.X0p[vehicle::X], y = request.X0p[vehicle::Y];
   const double dx = o.x_at(request.t_start) - x, dy = o.y_at(request.t_start) - y;
-  const double share = (reach_of(s) + std::max(o.a, o.b) + s.sm_end + kParked) / std::hypot(dx, dy);
+  const double share = (reach_of(s, request, o) + kParked) / std::hypot(dx, dy);
   world::Obstacle result = o;
   result.x = x + share * dx;
   result.y = y + share * dy;
   result.vx = result.vy = 0;
+  result.trajectory = nullptr;
   return result;
 }
 
 std::vector<world::Obstacle> in_reach(const Settings& s, const Request& request,
-                                      const std::vector<world::Obstacle>& obstacles) {
+                                      const std::vector<world::Obstacle>& obstacles, double body) {
   std::vector<world::Obstacle> chosen;
   for (const auto& o : obstacles)
-    if (nearest_pass(s, request, o) <= reach_of(s) + std::max(o.a, o.b) + s.sm_end)
-      chosen.push_back(o);
+    if (nearest_pass(s, request, o) <= reach_of(s, request, o) + body) chosen.push_back(o);
   return chosen;
 }
 
@@ -94,6 +112,12 @@ std::vector<world::Obstacle> nearest(const Settings& s, const Request& request,
   const double t = s.moving_avoidance ? request.t_start : request.t0;
   std::vector<double> distance;
   for (const auto& o : obstacles) {
+    if (!o.is_plain()) {
+      distance.push_back(
+          o.present(t, t) ? world::distance(o, request.X0p[vehicle::X], request.X0p[vehicle::Y], t)
+                          : INFINITY);
+      continue;
+    }
     const double dx = o.x_at(t) - request.X0p[vehicle::X], dy = o.y_at(t) - request.X0p[vehicle::Y];
     distance.push_back(std::hypot(dx, dy) - radius_towards(o, dx, dy));
   }
@@ -143,7 +167,9 @@ std::vector<world::Obstacle> group_obstacles(const Settings& settings,
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
       const auto &p = obstacles[i], &q = obstacles[j];
-      if (p.vx != q.vx || p.vy != q.vy || gap(p, q) >= settings.obstacle_group_gap) continue;
+      if (!p.is_plain() || !q.is_plain() || p.vx != q.vx || p.vy != q.vy ||
+          gap(p, q) >= settings.obstacle_group_gap)
+        continue;
       const auto keep = std::min(group[i], group[j]), drop = std::max(group[i], group[j]);
       std::replace(group.begin(), group.end(), drop, keep);
     }
@@ -158,12 +184,14 @@ std::vector<world::Obstacle> group_obstacles(const Settings& settings,
 }
 
 std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
-                                              const std::vector<world::Obstacle>& obstacles) {
+                                              const std::vector<world::Obstacle>& obstacles,
+                                              const world::Footprint& footprint) {
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
-    return in_reach(settings, request, obstacles);
-  auto chosen = settings.obstacle_choice == ObstacleChoice::nearest
-                    ? nearest(settings, request, obstacles)
-                    : obstacles;
+    return in_reach(settings, request, covered(settings, footprint, obstacles), footprint.reach());
+  auto chosen = covered(settings, footprint,
+                        settings.obstacle_choice == ObstacleChoice::nearest
+                            ? nearest(settings, request, obstacles)
+                            : obstacles);
   for (auto& o : chosen)
     if (far(settings, request, o)) o = parked(settings, request, o);
   return chosen;

@@ -4,13 +4,14 @@
 
 #include "slalom/planner/planner.hpp"
 #include "slalom/planner/settings.hpp"
-#include "slalom/world/obstacle.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::planner {
 
 /// The obstacles with those of one velocity and less than obstacle_group_gap between their edges
 /// replaced by one ellipse that covers them, in the order of the first of each group. A chain of
-/// near ones is one group. Gaps are measured along the line of centres: exact for circles.
+/// near ones is one group. Gaps are measured along the line of centres: exact for circles. Those
+/// that are not plain stay on their own.
 std::vector<world::Obstacle> group_obstacles(const Settings& settings,
                                              const std::vector<world::Obstacle>& obstacles);
 
@@ -25,9 +26,11 @@ bool any_far(const Settings& settings, const Request& request,
              const std::vector<world::Obstacle>& obstacles);
 
 /// Of `obstacles`, in their order, those that a plan for `request` knows of, as
-/// Settings::obstacle_choice says. Far ones stand nearer than they are, still out of reach.
+/// Settings::obstacle_choice says, as the discs that cover them. Of a long one in_reach keeps the
+/// discs in reach. Far ones stand nearer than they are, still out of reach.
 std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
-                                              const std::vector<world::Obstacle>& obstacles);
+                                              const std::vector<world::Obstacle>& obstacles,
+                                              const world::Footprint& footprint);
 
 bool same_names(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b);
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "obstacle_view.hpp"
 #include "references.hpp"
+#include "road_reference.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -17,11 +19,11 @@ constexpr double kFar = 18;
 constexpr double kClose = 1.5;
 /// An obstacle that a tracked motion came too near to grows by the shortfall and this [m], so many
 /// times.
-constexpr double kRegrow = 0.08;
+constexpr double kRegrow = 0.08, kRegrowEdge = 0.03;
 constexpr int kRounds = 5;
 /// A way found while another leads to the goal is looked at if it is sooner by this [s].
 constexpr double kSooner = 0.3;
-/// What ways keep off beyond the clearance needed at first [m].
+/// What ways keep off beyond the clearance needed at first [m], and as much as that at the most.
 constexpr double kWayClearance = 0.65;
 /// Shorter motions are not solved [s].
 constexpr double kShortest = 0.4;
@@ -51,20 +53,38 @@ double depth_of(const world::Goal& goal) {
   }
 }
 
-/// Least distance to an obstacle's edge, knots of the motion being seconds apart [m].
-double least_distance(const world::Obstacle& o, const Motion& motion) {
-  double least = std::numeric_limits<double>::infinity();
+/// A place at a time [m, s].
+struct Passed {
+  double t, x, y;
+};
+
+/// Where a motion, whose knots may be seconds apart, takes a point `ahead` of the front axle.
+std::vector<Passed> places_of(const Motion& motion, double ahead) {
+  std::vector<Passed> places;
   for (std::size_t k = 0; k < motion.size(); ++k) {
     const double t0 = motion.t[k], t1 = motion.t[std::min(k + 1, motion.size() - 1)];
     const int parts = std::max(1, static_cast<int>(std::ceil((t1 - t0) / Tracker::kStep)));
     for (int part = 0; part < parts; ++part) {
       const double share = static_cast<double>(part) / parts;
       const State &a = motion.states[k], &b = motion.states[std::min(k + 1, motion.size() - 1)];
-      least =
-          std::min(least, world::distance(o, a[X] + share * (b[X] - a[X]),
-                                          a[Y] + share * (b[Y] - a[Y]), t0 + share * (t1 - t0)));
+      Passed at{t0 + share * (t1 - t0), a[X] + share * (b[X] - a[X]), a[Y] + share * (b[Y] - a[Y])};
+      if (ahead != 0) {
+        const double psi = a[PSI] + share * (b[PSI] - a[PSI]);
+        at.x += ahead * std::cos(psi);
+        at.y += ahead * std::sin(psi);
+      }
+      places.push_back(at);
     }
   }
+  return places;
+}
+
+/// Least distance to an obstacle's edge where it is there [m].
+double least_distance(const world::Obstacle& o, const std::vector<Passed>& places) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& p : places)
+    if (o.present(p.t, p.t))
+      least = std::min(least, world::distance(o, p.x, p.y, p.t) - o.margin(p.t));
   return least;
 }
 
@@ -74,7 +94,8 @@ Proposals::Proposals(const Task& task, Tracker& tracker, Verifier& verifier)
     : task_(task),
       tracker_(tracker),
       verifier_(verifier),
-      ways_(task, task.vehicle),
+      footprint_(task.vehicle),
+      ways_(task, task.vehicle, task.planner.cover_excess),
       solver_(nlp::make_solver(to_string(task.planner.solver))) {}
 
 void Proposals::ask(Question question) {
@@ -96,8 +117,8 @@ void Proposals::look() {
 void Proposals::follow_ways() {
   auto obstacles = question_.obstacles;
   for (auto& o : obstacles) o = o.grown(question_.need.clearance);
-  world::WaySearch search;
-  search.clearance = kWayClearance;
+  auto search = world::way_search(task_.vehicle);
+  search.clearance = std::min(kWayClearance, question_.need.clearance);
   search.max_places = question_.places;
   int number = 0;
   ways_.find_ways(
@@ -110,8 +131,8 @@ void Proposals::follow_ways() {
 bool Proposals::follow(const world::Way& way, const std::string& name) {
   if (way.back().t > question_.arrival - kSooner) return false;
   turns_.wait_for(longest_besides_s_);
-  const Motion reference =
-      braked_on(reference_of(way, task_.vehicle), task_.vehicle, question_.beyond);
+  const Motion reference = braked_on(reference_of(way, task_.vehicle), task_.vehicle,
+                                     task_.road.get(), question_.beyond);
   Motion guess = tracked(reference);
   const bool arrives = propose(name, guess, false);
   const State &end = guess.states.back(), &wanted = reference.states.back();
@@ -142,14 +163,21 @@ ArrivalProblem::Obstacles Proposals::near(const Motion& guess,
                                           const std::vector<double>& extra) const {
   ArrivalProblem::Obstacles result;
   const double margin = question_.need.clearance + task_.planner.arrival_margin;
-  for (std::size_t k = 0; k < question_.obstacles.size(); ++k) {
-    const auto& o = question_.obstacles[k];
-    const double least = least_distance(o, guess);
-    if (extra[k] > 0 || least < (o.moves() ? kFar : kClose) + margin)
-      result.close.push_back(o.grown(margin + extra[k]));
-    else if (least < kFar + margin)
-      result.far.push_back(o.grown(margin + extra[k]));
-  }
+  const Settings& s = task_.planner;
+  const auto vehicle = footprint_.covering_discs(s.cover_excess);
+  std::vector<std::vector<Passed>> places;
+  for (const auto& disc : vehicle) places.push_back(places_of(guess, disc.ahead));
+  for (std::size_t k = 0; k < question_.obstacles.size(); ++k)
+    for (const auto& o : covered(s, footprint_, {question_.obstacles[k]})) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t d = 0; d < vehicle.size(); ++d)
+        least = std::min(least, least_distance(o, places[d]) - vehicle[d].radius);
+      const double close = (extra[k] > 0 || o.moves() ? kFar : kClose) + margin;
+      if (least < close)
+        result.close.push_back(o.grown(margin + extra[k]));
+      else if (least < kFar + margin)
+        result.far.push_back(o.grown(margin + extra[k]));
+    }
   return result;
 }
 
@@ -181,9 +209,10 @@ Motion Proposals::to_the_goal(Motion motion) const {
   return motion;
 }
 
-/// The answer of the OCP among obstacles grown by their margins and `extra`.
-std::optional<Motion> Proposals::answer_from(const Motion& guess,
-                                             const std::vector<double>& extra) {
+/// The answer of the OCP among obstacles grown by their margins and `extra`, and so far from the
+/// road's edges.
+std::optional<Motion> Proposals::answer_from(const Motion& guess, const std::vector<double>& extra,
+                                             double edge_margin) {
   const auto obstacles = near(guess, extra);
   ArrivalProblem* problem = problem_for(obstacles);
   if (!problem) return std::nullopt;
@@ -193,7 +222,7 @@ std::optional<Motion> Proposals::answer_from(const Motion& guess,
   options.max_iterations = task_.planner.arrival_max_iterations;
   options.stop = cancelled;
   options.stop_data = &turns_;
-  auto answer = problem->solve(guess, question_.from, obstacles, *solver_, options);
+  auto answer = problem->solve(guess, question_.from, obstacles, edge_margin, *solver_, options);
   iterations_ += problem->iterations();
   return answer;
 }
@@ -202,31 +231,36 @@ std::optional<Motion> Proposals::answer_from(const Motion& guess,
 /// again with it grown. Whether it comes to a verified arrival.
 bool Proposals::solve(const Motion& guess, const std::string& name) {
   std::vector<double> extra(question_.obstacles.size(), 0);
+  double edge_margin = question_.need.edge;
   Motion from = to_the_goal(guess);
   for (int round = 0; round < kRounds; ++round) {
     if (from.end() - from.begin() < kShortest) return false;
-    auto answer = answer_from(from, extra);
+    auto answer = answer_from(from, extra, edge_margin);
     turns_.wait_for(longest_besides_s_);
     if (!answer || turns_.spend(0)) return false;
     const Timer timer;
-    Motion motion = tracked(braked_on(*answer, task_.vehicle, question_.beyond));
+    Motion motion = tracked(braked_on(*answer, task_.vehicle, task_.road.get(), question_.beyond));
     const bool arrives = propose(name, std::move(motion), true);
     longest_besides_s_ = std::max(longest_besides_s_, timer.cpu());
     if (arrives) return true;
-    if (!regrow(extra)) return false;
+    if (!regrow(extra, edge_margin)) return false;
     from = std::move(*answer);
   }
   return false;
 }
 
-/// Whether an obstacle was too near to the last motion, and is grown.
-bool Proposals::regrow(std::vector<double>& extra) const {
+/// Whether an obstacle or an edge was too near to the last motion, and is grown.
+bool Proposals::regrow(std::vector<double>& extra, double& edge_margin) const {
   const Verdict& verdict = verifier_.last();
   bool regrown = false;
   for (std::size_t k = 0; k < extra.size(); ++k) {
     const double short_of = question_.need.clearance - verdict.nearest[k];
     if (short_of <= 0) continue;
     extra[k] += short_of + kRegrow;
+    regrown = true;
+  }
+  if (const double short_of = question_.need.edge - verdict.nearest_edge; short_of > 0) {
+    edge_margin += short_of + kRegrowEdge;
     regrown = true;
   }
   return regrown;

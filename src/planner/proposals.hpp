@@ -65,8 +65,9 @@ class Proposals {
   bool follow(const world::Way& way, const std::string& name);
   bool propose(const std::string& name, Motion motion, bool solved);
   bool solve(const Motion& guess, const std::string& name);
-  bool regrow(std::vector<double>& extra) const;
-  std::optional<Motion> answer_from(const Motion& guess, const std::vector<double>& extra);
+  bool regrow(std::vector<double>& extra, double& edge_margin) const;
+  std::optional<Motion> answer_from(const Motion& guess, const std::vector<double>& extra,
+                                    double edge_margin);
   Motion tracked(const Motion& reference);
   ArrivalProblem::Obstacles near(const Motion& guess, const std::vector<double>& extra) const;
   ArrivalProblem* problem_for(const ArrivalProblem::Obstacles& obstacles);
@@ -75,6 +76,7 @@ class Proposals {
   const Task& task_;
   Tracker& tracker_;
   Verifier& verifier_;
+  const world::Footprint footprint_;
   world::WayFinder ways_;
   std::unique_ptr<nlp::Solver> solver_;
   std::map<ArrivalProblem::Room, ArrivalProblem> problems_;

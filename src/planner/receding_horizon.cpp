@@ -107,7 +107,9 @@ void RecedingHorizon::Form::update(const Request& request) {
 RecedingHorizon::RecedingHorizon(const Task& task)
     : task_(with_groups(task)),
       settings_(task_.planner),
-      chosen_(choose_obstacles(settings_, {}, task_.obstacles)),
+      footprint_(task_.vehicle),
+      known_(believed(settings_, task_.obstacles, 0)),
+      chosen_(choose_obstacles(settings_, {}, known_, footprint_)),
       guess_(task_),
       solver_(nlp::make_solver(to_string(settings_.solver))) {
   prepare();
@@ -142,22 +144,31 @@ RecedingHorizon::Form& RecedingHorizon::form(bool in_range, int intervals) {
   const FormKey key{in_range, chosen_.size(), intervals};
   const auto found = forms_.find(key);
   if (found != forms_.end()) return found->second;
-  Task chosen = task_;
-  chosen.obstacles = chosen_;
-  return forms_.try_emplace(key, TrajectoryProblem(chosen, in_range), settings_, intervals)
+  return forms_.try_emplace(key, TrajectoryProblem(task_, chosen_, in_range), settings_, intervals)
       .first->second;
 }
 
 /// Chooses this cycle's obstacles.
 void RecedingHorizon::choose(const Request& request) {
-  const bool as_made = !request.obstacles && !any_far(settings_, request, task_.obstacles);
+  const bool as_made = !request.obstacles && !any_far(settings_, request, task_.obstacles) &&
+                       !belief_varies(settings_, task_.obstacles);
   if (settings_.obstacle_choice == ObstacleChoice::all && as_made && as_made_) return;
   as_made_ = as_made;
-  chosen_ = choose_obstacles(
-      settings_, request,
-      request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles);
+  known_ =
+      believed(settings_,
+               request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
+               request.t0);
+  chosen_ = choose_obstacles(settings_, request, known_, footprint_);
   for (auto& [key, form] : forms_)
-    if (std::get<1>(key) == chosen_.size()) form.problem.set_obstacles(chosen_);
+    if (std::get<1>(key) == chosen_.size()) form.problem.set_obstacles(chosen_, {request.t0});
+}
+
+/// Gives rows of obstacles whose numbers vary those of the times at which the start of the solve is
+/// at the points of the mesh.
+void RecedingHorizon::place_obstacles(const Request& request, Form& form) const {
+  form.problem.set_obstacles(chosen_,
+                             obstacle_times(settings_, request, form.transcription, start_.x));
+  form.transcription.update(form.problem.problem());
 }
 
 /// One solve without an iteration of either form, so that all memory is there before the first
@@ -181,6 +192,7 @@ RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int interv
   form.update(cycle.request);
   form.problem.map().to_planner(guess);
   start_.x = form.transcription.point(guess);
+  if (std::any_of(chosen_.begin(), chosen_.end(), varies)) place_obstacles(cycle.request, form);
   nlp::Options options = solver_options(settings_, cycle.request);
   options.warm_start = warm;
   options.time_limit =
@@ -245,7 +257,7 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
   const std::string& row = plan.report.worst_constraint;
   if (row.empty()) return "";
   const auto plain = fmt::format("{} falls short by {:.3g}", row, plan.report.worst_violation);
-  for (const auto& o : chosen_) {
+  for (const auto& o : known_) {
     const auto begin = fmt::format("obstacle[{}] at node ", o.name);
     if (!row.starts_with(begin)) continue;
     char* end = nullptr;
@@ -254,9 +266,10 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
     const State& x = plan.states[node];
     const double t =
         plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[node];
-    const double margin =
-        settings_.sm_start + (settings_.sm_end - settings_.sm_start) * plan.t[node] / plan.tf;
-    const double distance = world::distance(o, x[X], x[Y], t);
+    const double margin = settings_.sm_start +
+                          (settings_.sm_end - settings_.sm_start) * plan.t[node] / plan.tf +
+                          o.margin(t);
+    const double distance = footprint_.distance(o, x, t);
     return fmt::format(
                "{} in the way: node {} of the plan comes {} its edge, where a margin of {:.2f} m "
                "is kept",
@@ -297,9 +310,11 @@ SolveReport RecedingHorizon::report(const Request& request, ocp::Transcription& 
 void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
   if (settings_.obstacle_constraint == ObstacleConstraint::soft) return;
   SolveReport& report = plan.report;
-  const auto& known = cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles;
+  const auto known =
+      believed(settings_, cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles,
+               cycle.request.t0);
   report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
-                                   task_.vehicle.la);
+                                   footprint_, task_.vehicle.la);
   if (report.status != PlanStatus::solved || report.passage.depth <= settings_.passage_depth)
     return;
   report.status = PlanStatus::passes_through;

@@ -54,6 +54,7 @@ class RecedingHorizon final : public PlanningMethod {
 
   Form& form(bool in_range, int intervals);
   void choose(const Request& request);
+  void place_obstacles(const Request& request, Form& form) const;
   void prepare();
   Attempt attempt(const Cycle& cycle, int intervals, ocp::Trajectory& guess, bool warm);
   Recording record_solve(const Cycle& cycle, const nlp::Options& options) const;
@@ -68,7 +69,9 @@ class RecedingHorizon final : public PlanningMethod {
 
   const Task task_;  ///< its obstacles grouped
   const Settings& settings_;
-  std::vector<world::Obstacle> chosen_;   ///< of these, in this cycle
+  const world::Footprint footprint_;
+  std::vector<world::Obstacle> known_;    ///< as believed in this cycle
+  std::vector<world::Obstacle> chosen_;   ///< of these, as discs
   std::vector<world::Obstacle> of_last_;  ///< of the last plan, whose multipliers are there
   bool as_made_ = false;                  ///< none measured in the last cycle, and none too far
   std::map<FormKey, Form> forms_;

@@ -43,11 +43,17 @@ Replayed replay(const Recording& recording, const Task& task) {
   const Settings& settings = task.planner;
   Task known = LocalFrame(task.goal).to_local(task);
   if (recording.obstacles) known.obstacles = *recording.obstacles;
-  known.obstacles = choose_obstacles(settings, request, group_obstacles(settings, known.obstacles));
-  TrajectoryProblem problem(known, recording.goal_in_range);
+  const world::Footprint footprint(known.vehicle);
+  const auto chosen = choose_obstacles(
+      settings, request, believed(settings, group_obstacles(settings, known.obstacles), request.t0),
+      footprint);
+  TrajectoryProblem problem(known, chosen, recording.goal_in_range);
   problem.update(request);
   ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
                                    scheme_of(settings));
+  problem.set_obstacles(chosen,
+                        obstacle_times(settings, request, transcription, recording.start.x));
+  transcription.update(problem.problem());
   nlp::Options options = recording.options;
   options.time_limit = std::numeric_limits<double>::infinity();
   const bool cut = cut_off(recording.status);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slalom/vehicle/model.hpp"
+#include "slalom/vehicle/agility.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -19,20 +19,18 @@ constexpr std::ptrdiff_t kSmooth = 6;
 constexpr double kShare = 0.9;
 /// Braking ends at this speed [m/s]; it settles there at this rate [1/s].
 constexpr double kCreep = 0.12, kSettling = 1.2;
-/// Braking beyond a way's end [m/s^2].
+/// Braking beyond a way's end [m/s^2], of the HMMWV.
 constexpr double kBraking = 3;
 constexpr double kLongestStop = 30;  ///< [s]
-/// A swerve: each of its bends [s], its curvature [1/m] and lateral acceleration [m/s^2] at most.
+/// A swerve: each of its bends [s], its curvature [1/m] and lateral acceleration [m/s^2] at most,
+/// of the HMMWV.
 constexpr double kBend = 1, kSwerveCurvature = 0.1, kSwerveLateral = 3;
 
-/// Cornering stiffnesses [N/rad] of the axles at their static loads: the slope of Pacejka's formula
-/// at zero slip (H. Pacejka, Tire and Vehicle Dynamics, 2012, Eqn. 4.E25), positive here.
+/// Cornering stiffnesses [N/rad] of the axles at their static loads.
 struct Stiffness {
   double front, rear;
-  explicit Stiffness(const Parameters& p) : front(at(p, p.FzF0)), rear(at(p, p.FzR0)) {}
-  static double at(const Parameters& p, double Fz) {
-    return -p.PKY1 * p.FZ0 * std::sin(2 * std::atan(Fz / (p.PKY2 * p.FZ0)));
-  }
+  explicit Stiffness(const Parameters& p)
+      : front(p.cornering_stiffness(p.FzF0)), rear(p.cornering_stiffness(p.FzR0)) {}
 };
 
 /// Steady cornering of the front axle's centre at speed v along curvature kappa and heading theta.
@@ -98,10 +96,11 @@ Motion braked_on(Motion motion, const Parameters& vehicle, double beyond) {
   x[X] = last[X];
   x[Y] = last[Y];
   x[PSI] = direction(last, vehicle);
-  x[AX] = -kBraking;
+  const double braking = kBraking * agility(vehicle).braking;
+  x[AX] = -braking;
   double v = last[UX], t = motion.end();
   for (const double end = t + beyond; t < end;) {
-    const double slower = std::max(kCreep, v - kBraking * kKnot);
+    const double slower = std::max(kCreep, v - braking * kKnot);
     x[X] += kKnot * (v + slower) / 2 * std::cos(x[PSI]);
     x[Y] += kKnot * (v + slower) / 2 * std::sin(x[PSI]);
     x[UX] = v = slower;
@@ -115,7 +114,9 @@ Motion braked_on(Motion motion, const Parameters& vehicle, double beyond) {
 Motion swerve_reference(const State& X0, double t0, double side, const Parameters& vehicle) {
   const Stiffness stiffness(vehicle);
   world::WayPoint w{t0, X0[X], X0[Y], direction(X0, vehicle), std::max(X0[UX], kCreep), 0, 0};
-  const double most = std::min(kSwerveCurvature, kSwerveLateral / (w.v * w.v));
+  const Agility can = agility(vehicle);
+  const double most =
+      std::min(kSwerveCurvature * can.curvature, kSwerveLateral * can.lateral / (w.v * w.v));
   Motion motion;
   for (const double end = t0 + 2 * kBend; w.t < end; w.t += kKnot) {
     w.kappa = side * (w.t < t0 + kBend ? most : -most);

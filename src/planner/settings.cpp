@@ -24,10 +24,11 @@ const std::vector<std::string>& solver_names() {
 void add_what_tells_planners_apart(Table& table) {
   using S = Settings;
   table.text("name", &S::name, "Name of the planner, shown in reports.")
-      .choice("method", &S::method, {"receding_horizon", "verified"},
+      .choice("method", &S::method, {"receding_horizon", "verified", "along_road"},
               "receding_horizon: the paper's OCP, from cycle to cycle. verified: whole ways to the "
               "goal, found by a search in place and time, of which none is driven before the plant "
-              "as it is believed in has driven it; see docs/verified-planner.md.")
+              "as it is believed in has driven it; see docs/verified-planner.md. along_road: the "
+              "fastest motion over the next L_range metres of a road without obstacles.")
       .real("w_t", &S::w_t, Range::non_negative(), "1/s",
             "Weight of the final time tf in the cost (paper Eqn. 5, first term): 0 for P_A, 100 "
             "for P_B, P_C and P_D.",
@@ -62,6 +63,18 @@ void add_what_tells_planners_apart(Table& table) {
           "far its rows fall below 1, integrated over time (l1).")
       .real("w_obstacle", &S::w_obstacle, Range::positive(), "1/s",
             "Weight of going into obstacles, where they are soft.")
+      .choice(
+          "prediction", &S::prediction, {"known", "constant_velocity", "constant_turn"},
+          "How obstacles with a table or a path are believed to move, each time a plan is made. "
+          "known: as they will; constant_velocity: straight on at the velocity that they have "
+          "then; constant_turn: on at their speed and turn rate. By the last two, one that is "
+          "not there yet is not known of. Obstacles without either go straight on anyway.")
+      .real(
+          "cover_excess", &S::cover_excess, Range::positive(), "m",
+          "By how much the discs that stand in for a box, a polygon or a turned ellipse may stick "
+          "out of it in the OCP and the search, where 16 discs do; half as much takes 1.4 times as "
+          "many rows. In the search discs stand in for the vehicle's body too. What judges plans "
+          "and drives has the exact shapes.")
       .choice(
           "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
           "Rows of obstacles hold at nodes alone, as in the paper. A plan that between them goes "
@@ -145,6 +158,10 @@ void add_horizon(Table& table) {
             kTable)
       .real("kappa", &S::kappa, Range::non_negative(), "m",
             "Relaxation of the LiDAR's range (paper Eqn. 8, 19, 20): 5, and 10 in E_C.", kTable)
+      .real(
+          "road_margin", &S::road_margin, Range::non_negative(), "m",
+          "What a plan along a road keeps the body from the road's edges by, for they are kept at "
+          "the nodes of its mesh and the plant's path between.")
       .real("sm_start", &S::sm_start, Range::non_negative(), "m",
             "Margin by which obstacles grow at the first node (sm_1 in paper Eqn. 7).", kTable)
       .real("sm_end", &S::sm_end, Range::non_negative(), "m",
@@ -196,6 +213,10 @@ void add_verification(Table& table) {
       .real("kept_clearance", &S::kept_clearance, Range::non_negative(), "m",
             "Least distance of the rest of a plan where state or obstacles are not those it was "
             "verified for; a new plan keeps this and the greatest error of the last 5 s.")
+      .real(
+          "edge_clearance", &S::edge_clearance, Range::non_negative(), "m",
+          "Least distance of the footprint from the road's edges, where there is a road; the rest "
+          "of a plan keeps on the road.")
       .real("kept_wheel_load", &S::kept_wheel_load, Range::any(), "N",
             "Least wheel load of such a rest.")
       .real("standing_horizon", &S::standing_horizon, Range::positive(), "s",

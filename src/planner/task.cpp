@@ -9,4 +9,15 @@ bool goal_in_range(const Task& task, const vehicle::State& X0p) {
          task.planner.L_range;
 }
 
+double way_left(const Task& task, const vehicle::State& state) {
+  const world::Goal& goal = task.goal;
+  if (!task.road) return std::hypot(state[vehicle::X] - goal.x, state[vehicle::Y] - goal.y);
+  const double s = task.road->project({state[vehicle::X], state[vehicle::Y]}).s;
+  double left = task.road->length() - s;
+  if (goal.kind() == world::GoalKind::line) left = goal.s - s;
+  if (goal.is_place()) left = task.road->project({goal.x, goal.y}).s - s;
+  if (task.road->closed() && left < 0) left += task.road->length();
+  return std::fabs(left);
+}
+
 }  // namespace slalom::planner

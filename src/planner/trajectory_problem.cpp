@@ -26,13 +26,27 @@ const ocp::Scheme& scheme_of(const Settings& settings) {
   }
 }
 
-TrajectoryProblem::TrajectoryProblem(const Task& task, bool goal_in_range)
+std::vector<double> obstacle_times(const Settings& settings, const Request& request,
+                                   const ocp::Transcription& transcription,
+                                   std::span<const double> x) {
+  if (!settings.moving_avoidance) return {request.t0};
+  const auto trajectory = transcription.trajectory(x);
+  std::vector<double> times;
+  for (std::size_t k = 0; k < trajectory.tau.size(); ++k)
+    times.push_back(request.t_start + trajectory.time(k));
+  return times;
+}
+
+TrajectoryProblem::TrajectoryProblem(const Task& task,
+                                     const std::vector<world::Obstacle>& obstacles,
+                                     bool goal_in_range)
     : settings_(task.planner),
       vehicle_(task.vehicle),
       goal_(task.goal),
       goal_in_range_(goal_in_range),
       map_(task.vehicle, task.planner.model),
       problem_("trajectory") {
+  if (const world::Footprint footprint(vehicle_); !footprint.is_point()) box_.emplace(footprint);
   const Model& model = map_.model();
   add_variables(model, task.region);
   add_dynamics(model);
@@ -40,7 +54,7 @@ TrajectoryProblem::TrajectoryProblem(const Task& task, bool goal_in_range)
   add_initial_state(model);
   add_vehicle_limits(model);
   add_obstacles();
-  set_obstacles(task.obstacles);
+  set_obstacles(obstacles, {0});
   add_lidar_region();
   add_goal();
 }
@@ -162,19 +176,40 @@ void TrajectoryProblem::add_obstacles() {
   const Expr t = settings_.moving_avoidance ? t_start_ + problem_.time() : t_planning_;
   const Expr x = xo + vx * t, y = yo + vy * t;
   const Expr sm = settings_.sm_start + (settings_.sm_end - settings_.sm_start) * problem_.tau();
-  const Expr outside = square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
+  // A point keeps off the ellipse; a body keeps the smooth distance a from the centre, for which a
+  // margin on top is on the safe side.
+  const Expr outside =
+      box_ ? box_->square_of_distance(x - X_[X], y - X_[Y], X_[PSI]) / square(a + sm)
+           : square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
   obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
                                         Bounds::at_least(0), Points::after_first);
   if (settings_.obstacle_constraint == ObstacleConstraint::soft)
     problem_.soften(obstacle_rows_, {ocp::Norm::l1, settings_.w_obstacle, 0});
 }
 
-void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstacles) {
+void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstacles,
+                                      const std::vector<double>& times) {
+  const bool held = times.size() == 1;
   std::vector<std::string> names;
   std::vector<std::vector<double>> numbers;
   for (const auto& o : obstacles) {
     names.push_back(o.name);
-    numbers.push_back({o.x, o.y, o.a, o.b, o.vx, o.vy});
+    auto& row = numbers.emplace_back();
+    const auto add = [&](double t) {
+      auto at = numbers_at(o, t);
+      if (box_) at[2] = box_->smooth_radius(at[2]);
+      row.insert(row.end(), at.begin(), at.end());
+    };
+    if (!varies(o)) {
+      add(0);
+    } else if (held) {
+      add(times[0]);
+      row[0] += row[4] * times[0];
+      row[1] += row[5] * times[0];
+      row[4] = row[5] = 0;
+    } else {
+      for (const double t : times) add(t);
+    }
   }
   problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
 }

@@ -2,29 +2,43 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "model_map.hpp"
+#include "obstacle_view.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/planner.hpp"
 #include "slalom/planner/task.hpp"
 #include "slalom/vehicle/model.hpp"
+#include "smooth_box.hpp"
 
 namespace slalom::planner {
 
 /// The collocation scheme that the settings name.
 const ocp::Scheme& scheme_of(const Settings& settings);
 
+/// The absolute time [s] at which the trajectory of x is at each point of the mesh, for obstacles
+/// that vary to be placed; or the one at which they are held (Settings::moving_avoidance).
+std::vector<double> obstacle_times(const Settings& settings, const Request& request,
+                                   const ocp::Transcription& transcription,
+                                   std::span<const double> x);
+
 /// The trajectory-planning OCP of section 3 of docs/formulation.md (the paper's section II-B), in
 /// one of its two forms: goal within the LiDAR range, or beyond it. What a form does not have is
 /// absent from it, not switched to zero.
 class TrajectoryProblem {
  public:
-  TrajectoryProblem(const Task& task, bool goal_in_range);
+  /// Among obstacles as covered() leaves them; the task's are not used.
+  TrajectoryProblem(const Task& task, const std::vector<world::Obstacle>& obstacles,
+                    bool goal_in_range);
 
-  /// Puts other obstacles, as many, in the place of those the problem has.
-  void set_obstacles(const std::vector<world::Obstacle>& obstacles);
+  /// Puts others, as many, in the place of those the problem has. What varies has the numbers of
+  /// obstacle_times(); of one time for all it is held as it is then.
+  void set_obstacles(const std::vector<world::Obstacle>& obstacles,
+                     const std::vector<double>& times);
   /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
   void update(const Request& request);
 
@@ -50,6 +64,7 @@ class TrajectoryProblem {
   const ModelMap map_;
 
   ocp::Problem problem_;
+  std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
   ocp::ConstraintId obstacle_rows_{};
   std::array<Expr, vehicle::kStates> X_;    ///< states, and what the model derives from them
   std::array<Expr, vehicle::kControls> U_;  ///< controls; zero where the model has none

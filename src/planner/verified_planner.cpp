@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "obstacle_view.hpp"
 #include "references.hpp"
 
 namespace slalom::planner {
@@ -26,9 +27,13 @@ constexpr double kRemembered = 5;
 /// which the vehicle stands, for the later it brakes the better.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
 
+/// Margins count from one moment or another: less is left of them then.
 bool same(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
-    return p.x == q.x && p.y == q.y && p.a == q.a && p.b == q.b && p.vx == q.vx && p.vy == q.vy;
+    return p.x == q.x && p.y == q.y && p.a == q.a && p.b == q.b && p.vx == q.vx && p.vy == q.vy &&
+           p.psi == q.psi && p.rounding == q.rounding && p.outline == q.outline &&
+           p.trajectory == q.trajectory && p.margin_start == q.margin_start &&
+           p.margin_rate == q.margin_rate;
   });
 }
 
@@ -94,11 +99,12 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
 }
 
 std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) const {
-  std::vector<world::Obstacle> obstacles = request.obstacles.value_or(task_.obstacles);
+  auto obstacles = believed(task_.planner, request.obstacles.value_or(task_.obstacles), request.t0);
   if (task_.planner.known == Known::range) {
     const Seen seen = this->seen(request);
     std::erase_if(obstacles, [&](const auto& o) {
-      return world::distance(o, seen.x, seen.y, request.t0) > seen.radius;
+      return !o.present(request.t0, request.t0) ||
+             world::distance(o, seen.x, seen.y, request.t0) > seen.radius;
     });
   }
   return obstacles;
@@ -119,6 +125,7 @@ Need VerifiedPlanner::need(const Cycle& cycle) const {
   for (const auto& [when, size] : errors_) error = std::max(error, size);
   Need need{std::max(s.verified_clearance, s.kept_clearance + error), s.verified_wheel_load};
   if (s.known == Known::range && s.unseen == Unseen::standing) need.seen = seen(cycle.request);
+  need.edge = s.edge_clearance;
   return need;
 }
 
@@ -126,11 +133,13 @@ double VerifiedPlanner::cost_of(const Motion& motion, const Verdict& verdict) co
   const Settings& s = task_.planner;
   const bool arrives = verdict.end == MotionEnd::arrives;
   const State& last = motion.states.back();
-  if (!arrives)
-    return kStandingCost + kMetreCost * std::hypot(last[X] - task_.goal.x, last[Y] - task_.goal.y);
-  const double end = verdict.arrival;
+  if (!arrives) return kStandingCost + kMetreCost * way_left(task_, last);
+  double end = verdict.arrival;
+  // As far as possible: what is left counts as time.
+  if (task_.goal.kind() == world::GoalKind::time)
+    end += way_left(task_, motion.state_at(end)) / kProgressSpeed;
   double cost = s.w_t * end;
-  for (std::size_t k = 0; k + 1 < motion.size() && motion.t[k] < end; ++k)
+  for (std::size_t k = 0; k + 1 < motion.size() && motion.t[k] < verdict.arrival; ++k)
     cost +=
         s.w_ce * (motion.t[k + 1] - motion.t[k]) *
         (s.w_sa * std::pow(motion.states[k][SA], 2) + s.w_sr * std::pow(motion.controls[k][SR], 2) +
@@ -260,7 +269,7 @@ void VerifiedPlanner::ask(Cycle& cycle) {
   question.need = need(cycle);
   question.places = leads ? s.improvement_places : s.search_places;
   question.ways = leads ? 1 : s.ways;
-  if (leads) question.arrival = cycle.arrival();
+  if (leads && task_.goal.kind() != world::GoalKind::time) question.arrival = cycle.arrival();
   if (cycle.rest && cycle.trusts(*cycle.rest)) {
     const Motion& rest = cycle.rest->motion();
     const double a_cycle =

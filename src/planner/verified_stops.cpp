@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "references.hpp"
+#include "road_reference.hpp"
+#include "slalom/vehicle/agility.hpp"
 #include "verified_planner.hpp"
 
 namespace slalom::planner {
@@ -13,7 +15,7 @@ namespace {
 
 using namespace vehicle;
 
-/// How stops brake [m/s^2].
+/// How stops brake [m/s^2], of the HMMWV.
 constexpr std::array kStops = {3.4, 2.0, 1.0};
 /// A late stop begins so long before it would have to by its braking alone [s], or half-way there.
 constexpr double kEarlier = 1;
@@ -67,13 +69,14 @@ bool VerifiedPlanner::stop_late(Cycle& cycle, const Proposal& proposal) {
   const double t0 = cycle.t_start(), wrong = proposal.verdict.certificate.refused_at;
   if (motion.size() < 4 || wrong > motion.end()) return false;
   const Course course = std::make_shared<const Motion>(motion);
+  const double deceleration = kStops[0] * agility(task_.vehicle).braking;
   for (const double share : kLate) {
     // While it brakes it comes half as far as at its speed.
-    const double braking = motion.state_at(wrong)[UX] / (2 * kStops[0]) + kEarlier;
+    const double braking = motion.state_at(wrong)[UX] / (2 * deceleration) + kEarlier;
     const double at = t0 + share * (wrong - t0 - braking);
     if (at <= t0 + cycle.tex()) continue;
     if (stop_along(cycle, {proposal.name + ", then a stop", part_before(motion, at), motion},
-                   kStops[0], course))
+                   deceleration, course))
       return true;
   }
   return false;
@@ -109,14 +112,22 @@ void VerifiedPlanner::stop(Cycle& cycle) {
     if (stop_late(cycle, cycle.rest->proposal)) return;
     stops.push_back({"stop along the rest", {}, cycle.rest->motion()});
   }
+  if (task_.road) {
+    // As far as the gentlest stop goes, and on.
+    const double enough = X0p[UX] / kStops.back() + 1;
+    stops.push_back({"stop along the road",
+                     {},
+                     road_reference(*task_.road, X0p, t0, enough, 0, task_.vehicle)});
+  }
   stops.push_back({"stop straight on", {}, straight_reference(X0p, t0, 1)});
   stops.push_back(
       {"stop after a swerve to the left", {}, swerve_reference(X0p, t0, 1, task_.vehicle)});
   stops.push_back(
       {"stop after a swerve to the right", {}, swerve_reference(X0p, t0, -1, task_.vehicle)});
+  const double can = agility(task_.vehicle).braking;
   for (const Stop& stop : stops)
     for (const double deceleration : kStops)
-      if (stop_along(cycle, stop, deceleration, {})) return;
+      if (stop_along(cycle, stop, can * deceleration, {})) return;
 }
 
 }  // namespace slalom::planner

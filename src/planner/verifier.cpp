@@ -15,8 +15,8 @@ using namespace vehicle;
 /// An interval as short as this [s] is not divided further: what its bound does not show is
 /// refused.
 constexpr double kShortest = 1e-4;
-/// Speed grows by less than this within an interval between knots [m/s].
-constexpr double kSpeedSlack = 0.5;
+/// Speed grows by less than this within an interval between knots [m/s], and yaw rate [rad/s].
+constexpr double kSpeedSlack = 0.5, kTurnSlack = 0.3;
 /// Wheel loads are looked at this often [s] at least. Between, they change by less than what
 /// the load needed stands above that at which a wheel lifts.
 constexpr double kLoadStep = 0.026;
@@ -25,12 +25,20 @@ constexpr double kLoadStep = 0.026;
 constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e-3;
 /// A vehicle stands when it is slower than this [m/s] and accelerates by less than this [m/s^2].
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
-/// Standing, distances are looked at this far apart at the least [m].
-constexpr double kLook = 0.01;
+/// Standing, distances are looked at this far apart at the least [m]; and this often at the least,
+/// where the motion is a trajectory's [s].
+constexpr double kLook = 0.01, kLookAgain = 1;
 /// A motion that begins beyond a limit is within it after this [s].
 constexpr double kToComeBack = 1;
 /// Within the goal's square by this much counts as there [m].
 constexpr double kInside = 0.1;
+/// Another goal is reached by so much [its unit].
+constexpr double kWell = 0.02;
+/// No point of the body accelerates by more [m/s^2]: the tyres' 10, and as much again for a yaw
+/// rate of 1 rad/s, or 2 rad/s^2, five metres off.
+constexpr double kMostAcceleration = 20;
+/// A motion that begins nearer to the road's edge than is needed keeps that but for this [m].
+constexpr double kEdgeSlack = 0.01;
 
 /// The plant's integrator as the loop has it by default.
 constexpr double kPlantTolerance = 1e-9, kSampleStep = 0.02;
@@ -39,11 +47,14 @@ double speed(const Parameters& p, const State& x) {
   return std::hypot(x[UX], x[V] + p.la * x[R]);
 }
 
-/// Distance to an obstacle's edge, or a lower bound of it where it is beyond `far`.
-double distance_within(const world::Obstacle& o, const State& x, double t, double far) {
-  const double dx = x[X] - o.x_at(t), dy = x[Y] - o.y_at(t);
-  const double bound = std::hypot(dx, dy) - std::max(o.a, o.b);
-  return bound > far || o.a == o.b ? bound : world::distance(o, x[X], x[Y], t);
+/// Distance of the footprint to an obstacle's edge, or a lower bound of it where it is beyond
+/// `far`.
+double distance_within(const world::Footprint& footprint, const world::Obstacle& o, const State& x,
+                       double t, double far) {
+  const world::Pose at = o.pose_at(t);
+  const double bound = std::hypot(x[X] - at.x, x[Y] - at.y) - o.reach() - footprint.reach();
+  const bool exact = o.a == o.b && !o.outline && footprint.is_point();
+  return bound > far || exact ? bound : footprint.distance(o, x, t);
 }
 
 /// By how much a value is beyond its range.
@@ -96,7 +107,8 @@ void Verifier::note_limits(double t, const State& x) {
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
   if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
-  if (std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y) > need_.seen.radius - need_.clearance &&
+  if (std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y) >
+          need_.seen.radius - need_.clearance - footprint_.reach() &&
       certificate.refused.empty()) {
     refuse(t, "beyond what is seen");
     verdict_.unseen = true;
@@ -110,21 +122,19 @@ void Verifier::note_limits(double t, const State& x) {
 /// obstacle can go towards each other at the most.
 void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   const auto& o = (*obstacles_)[obstacle];
-  const double need = need_.clearance;
+  if (!o.present(i.t0, i.t1)) return;
+  const double need = need_.clearance, margin0 = o.margin(i.t0), margin1 = o.margin(i.t1);
+  const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
   const double rate = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
-                      kSpeedSlack + std::hypot(o.vx, o.vy);
+                      kSpeedSlack + o.fastest(i.t0, i.t1) + turn * footprint_.reach() +
+                      o.margin_rate;
   const double reach = rate * (i.t1 - i.t0);
-  const double d0 = distance_within(o, i.x0, i.t0, need + reach);
-  const double d1 = distance_within(o, i.x1, i.t1, need + reach);
-  auto& certificate = verdict_.certificate;
-  const double least = std::min(d0, d1);
-  verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], least);
-  if (least < certificate.least_clearance) {
-    certificate.least_clearance = least;
-    certificate.nearest = o.name;
-  }
-  if (!(least >= need)) return refuse(i.t0, "clearance to " + o.name);
-  if ((d0 + d1 - reach) / 2 >= need) return;
+  const double d0 = distance_within(footprint_, o, i.x0, i.t0, need + margin0 + reach);
+  const double d1 = distance_within(footprint_, o, i.x1, i.t1, need + margin1 + reach);
+  note_distance(obstacle, std::min(d0, d1), std::min(d0 - margin0, d1 - margin1));
+  if (!(std::min(d0 - margin0, d1 - margin1) >= need))
+    return refuse(i.t0, "clearance to " + o.name);
+  if ((d0 - margin0 + (d1 - margin1) - reach) / 2 >= need) return;
   if (i.t1 - i.t0 < kShortest) return refuse(i.t0, "clearance to " + o.name);
   const double middle = (i.t0 + i.t1) / 2;
   Control u;
@@ -134,38 +144,74 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   keep_off({middle, i.t1, x, i.x1, u, i.u1}, obstacle);
 }
 
+/// Along an interval each point of the body is off its chord, and an edge bends away from its own,
+/// by less than second derivatives times the square of the duration over 8.
+void Verifier::keep_on_road(const Interval& i) {
+  const double need = i.t0 - begin_ < kToComeBack && first_edge_ < need_.edge
+                          ? first_edge_ - kEdgeSlack
+                          : need_.edge;
+  const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
+  const double fast = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
+                      kSpeedSlack + turn * footprint_.reach();
+  const double dt = i.t1 - i.t0;
+  const double slack = (kMostAcceleration + task_.road->sharpest() * fast * fast) * dt * dt / 8;
+  const double least = std::min(footprint_.edge_distance(*task_.road, i.x0),
+                                footprint_.edge_distance(*task_.road, i.x1));
+  verdict_.nearest_edge = std::min(verdict_.nearest_edge, least);
+  if (!(least >= need)) return refuse(i.t0, "off the road");
+  if (least - slack >= need) return;
+  if (dt < kShortest) return refuse(i.t0, "off the road");
+  const double middle = (i.t0 + i.t1) / 2;
+  Control u;
+  for (std::size_t c = 0; c < kControls; ++c) u[c] = (i.u0[c] + i.u1[c]) / 2;
+  const State x = plant_.advance(i.x0, i.u0, u, i.t0, middle);
+  keep_on_road({i.t0, middle, i.x0, x, i.u0, u});
+  keep_on_road({middle, i.t1, x, i.x1, u, i.u1});
+}
+
+/// Notes the distance to an obstacle and what is left of it beside its margin.
+void Verifier::note_distance(std::size_t obstacle, double distance, double spare) {
+  verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], spare);
+  auto& certificate = verdict_.certificate;
+  if (!(distance < certificate.least_clearance)) return;
+  certificate.least_clearance = distance;
+  certificate.nearest = (*obstacles_)[obstacle].name;
+}
+
 /// After its end the motion goes on straight at the speed it ends with. Distance is looked at as
-/// often as both speeds allow it to fall to what is needed.
+/// often as both speeds allow it to fall to what is needed. Margins grow no more: plans to come
+/// know better.
 void Verifier::stand_for_good(const Motion& motion) {
-  const State& x = motion.states.back();
+  State x = motion.states.back();
+  const double x0 = x[X], y0 = x[Y];
   const double forward_x = std::cos(x[PSI]) * x[UX], forward_y = std::sin(x[PSI]) * x[UX];
-  const double need = need_.clearance;
+  const double forward = std::fabs(x[UX]), horizon = task_.planner.standing_horizon;
   for (std::size_t k = 0; k < obstacles_->size(); ++k) {
     const auto& o = (*obstacles_)[k];
-    const double rate = std::hypot(o.vx - forward_x, o.vy - forward_y);
+    const double need = need_.clearance + o.margin(motion.end());
+    const double end = motion.end() + horizon;
     double after = 0;
-    while (after <= task_.planner.standing_horizon) {
-      const double d = world::distance(o, x[X] + forward_x * after, x[Y] + forward_y * after,
-                                       motion.end() + after);
-      verdict_.nearest[k] = std::min(verdict_.nearest[k], d);
-      if (!(d >= need + kLook))
-        return refuse(motion.end() + after, "standing in the way of " + o.name);
-      if (rate == 0) break;
-      after += std::max(d - need, kLook) / rate;
+    while (after <= horizon) {
+      const double t = motion.end() + after;
+      if (!o.present(t, end)) break;
+      x[X] = x0 + forward_x * after;
+      x[Y] = y0 + forward_y * after;
+      const double d = footprint_.distance(o, x, t);
+      verdict_.nearest[k] = std::min(verdict_.nearest[k], d - o.margin(motion.end()));
+      if (!(d >= need + kLook)) return refuse(t, "standing in the way of " + o.name);
+      const double rate = o.trajectory ? o.fastest(t, t + kLookAgain) + forward
+                                       : std::hypot(o.vx - forward_x, o.vy - forward_y);
+      if (rate == 0 && !o.trajectory) break;
+      const double step = std::max(d - need, kLook) / rate;
+      after += o.trajectory ? std::min(step, kLookAgain) : step;
     }
   }
 }
 
-void Verifier::find_end(const Motion& motion, double tex) {
-  const auto outside = [&](const State& x, double t) {
-    return task_.goal.outside(x, t, task_.road.get());
-  };
-  const bool by_time = task_.goal.kind() == world::GoalKind::time;
-  const double inside = by_time ? 0 : kInside;
+void Verifier::find_end_by_square(const Motion& motion, double tex) {
+  const auto outside = [&](const State& x, double t) { return task_.goal.outside(x, t, nullptr); };
   for (double t = motion.begin(); t <= motion.end() + 1e-9; t += tex) {
-    // The loop looks when the time is up, too.
-    if (by_time && t > task_.goal.time && t - tex < task_.goal.time) t = task_.goal.time;
-    if (outside(motion.state_at(t), t) > -inside) continue;
+    if (outside(motion.state_at(t), t) > -kInside) continue;
     verdict_.end = MotionEnd::arrives;
     verdict_.arrival = t;
     // The square's edge is passed a little earlier, which tells motions apart that are looked at
@@ -177,6 +223,19 @@ void Verifier::find_end(const Motion& motion, double tex) {
       }
     return;
   }
+}
+
+void Verifier::find_end(const Motion& motion, double tex) {
+  if (task_.goal.kind() == world::GoalKind::square) {
+    find_end_by_square(motion, tex);
+  } else {
+    for (std::size_t k = 0; k < motion.size() && verdict_.end == MotionEnd::open; ++k) {
+      if (task_.goal.outside(motion.states[k], motion.t[k], task_.road.get()) > -kWell) continue;
+      verdict_.end = MotionEnd::arrives;
+      verdict_.arrival = motion.t[k];
+    }
+  }
+  if (verdict_.end == MotionEnd::arrives) return;
   const State& last = motion.states.back();
   if (last[UX] < kStanding && std::fabs(last[AX]) < kStandingAcceleration)
     verdict_.end = MotionEnd::stands;
@@ -199,6 +258,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   certificate.until = motion.end();
   begin_ = motion.begin();
   first_ = excess_of(motion.states[0], plant_.dynamics().wheel_loads(motion.states[0]));
+  if (task_.road) first_edge_ = footprint_.edge_distance(*task_.road, motion.states[0]);
   note_limits(motion.t[0], motion.states[0]);
   for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {
     const Interval i{motion.t[k],          motion.t[k + 1],    motion.states[k],
@@ -212,6 +272,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
     }
     try {
       for (std::size_t o = 0; o < obstacles.size(); ++o) keep_off(i, o);
+      if (task_.road) keep_on_road(i);
     } catch (const PlantError& error) {
       refuse(i.t0, error.what());
     }

@@ -9,13 +9,13 @@
 #include "slalom/planner/plan.hpp"
 #include "slalom/planner/task.hpp"
 #include "slalom/vehicle/plant.hpp"
-#include "slalom/world/obstacle.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::planner {
 
 /// How a motion ends.
 enum class MotionEnd {
-  arrives,  ///< it is within the goal's square when the loop looks
+  arrives,  ///< it reaches the goal; it is within a square when the loop looks
   stands,   ///< it creeps, clear of every obstacle's path for good
   open      ///< neither
 };
@@ -24,11 +24,12 @@ enum class MotionEnd {
 struct Seen {
   double x = 0, y = 0, radius = std::numeric_limits<double>::infinity();
 };
-/// What a verified motion keeps: distance from obstacles' edges [m] and wheel loads [N], and this
-/// distance within what is seen.
+/// What a verified motion keeps: distance of its footprint from obstacles' edges, beside their
+/// margins [m], wheel loads [N], and this distance within what is seen.
 struct Need {
   double clearance, wheel_load;
   Seen seen{};
+  double edge = 0;  ///< and distance of its footprint from the road's edges [m]
 };
 
 /// What judge() found.
@@ -36,9 +37,10 @@ struct Verdict {
   Certificate certificate;
   MotionEnd end = MotionEnd::open;
   double arrival = 0;           ///< when it arrives [s]
-  std::vector<double> nearest;  ///< least distance to each obstacle's edge [m]
-  Need need{};                  ///< what was asked of it
-  bool unseen = false;          ///< it is refused for nothing but leaving what is seen
+  std::vector<double> nearest;  ///< least distance to each obstacle's edge beside its margin [m]
+  double nearest_edge = std::numeric_limits<double>::infinity();  ///< of the road [m]
+  Need need{};                                                    ///< what was asked of it
+  bool unseen = false;  ///< it is refused for nothing but leaving what is seen
 };
 
 /// Judges motions of the plant: whether, driven as they stand, they keep off all obstacles as
@@ -53,7 +55,8 @@ class Verifier {
   static vehicle::Plant believed_plant(const vehicle::Parameters& vehicle);
 
   /// Both outlive it.
-  Verifier(const Task& task, const vehicle::Plant& plant) : task_(task), plant_(plant) {}
+  Verifier(const Task& task, const vehicle::Plant& plant)
+      : task_(task), plant_(plant), footprint_(task.vehicle) {}
 
   /// `motion` among `obstacles`, of a cycle whose plan begins at motion.begin() and whose next
   /// checks of arrival are `tex` [s] apart from there.
@@ -73,16 +76,21 @@ class Verifier {
   Excess excess_of(const vehicle::State& state, const vehicle::WheelLoads& loads) const;
   void note_limits(double t, const vehicle::State& state);
   void keep_off(const Interval& interval, std::size_t obstacle);
+  void keep_on_road(const Interval& interval);
   void find_end(const Motion& motion, double tex);
+  void find_end_by_square(const Motion& motion, double tex);
+  void note_distance(std::size_t obstacle, double distance, double spare);
   void stand_for_good(const Motion& motion);
   void refuse(double t, std::string why);
 
   const Task& task_;
   const vehicle::Plant& plant_;
+  const world::Footprint footprint_;
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
   Need need_{};
   double begin_ = 0;
-  Excess first_;  ///< at the motion's beginning
+  Excess first_;           ///< at the motion's beginning
+  double first_edge_ = 0;  ///< distance from the road's edge there [m]
   Verdict verdict_;
 };
 

@@ -49,6 +49,19 @@ std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
   return indices;
 }
 
+/// Least and greatest acceleration [m/s^2] at speeds as far apart as those at 0 and `ux_step`
+/// [m/s].
+Json acceleration_limits(const vehicle::Parameters& v) {
+  constexpr int kSteps = 60;
+  const double step = v.ux_max / kSteps;
+  Json least = Json::array(), most = Json::array();
+  for (int i = 0; i <= kSteps; ++i) {
+    least.push_back(rounded(v.ax_min_at(i * step), 4));
+    most.push_back(rounded(v.ax_max_at(i * step), 4));
+  }
+  return {{"ux_step", step}, {"least", least}, {"most", most}};
+}
+
 /// A motion by a table or along a path, in columns.
 Json track_data(const Track& track) {
   Json json = {{"t", Json::array()}, {"x", Json::array()}, {"y", Json::array()}};
@@ -150,8 +163,7 @@ Json scenario_data(const sim::Scenario& scenario, double until) {
       {"front_overhang", v.front_overhang},
       {"footprint", v.footprint == vehicle::FootprintKind::point ? "point" : "rectangle"},
       {"length", v.length},
-      {"ax_max", v.ax_max},
-      {"ax_min", v.ax_min},
+      {"ax_limits", acceleration_limits(v)},
       {"ux_max", v.ux_max},
       {"sa_max", v.sa_max()},
       {"sr_max", v.sr_max()},

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "slalom/vehicle/derived.hpp"
+#include "slalom/vehicle/plausible.hpp"
 #include "slalom/world/path_exists.hpp"
 
 namespace slalom::sim {
@@ -14,8 +14,7 @@ namespace {
 
 using namespace vehicle;
 
-constexpr double kLoadTolerance = 0.05;  // of the weight
-constexpr double kSlowest = 5;           // a plan is not slower than this [m/s]
+constexpr double kSlowest = 5;  // a plan is not slower than this [m/s]
 
 bool verifies(const Scenario& s) {
   return s.planner.method == planner::Method::verified;
@@ -115,18 +114,11 @@ void no_way(const Scenario& s, std::vector<std::string>& found) {
       (verifies(s) ? s.planner.verified_clearance : s.planner.sm_start) + body_width(s) / 2;
   search.v_max = std::min(search.v_max, s.vehicle.ux_max);
   search.t_max = s.loop.timeout;
-  if (world::path_exists(s, s.start, search)) return;
+  if (world::path_exists(s, s.vehicle, s.start, search)) return;
   found.push_back(fmt::format(
       "no way from start to goal was found that keeps {:g} m off all obstacles within {:g} s (a "
       "search that may miss one)",
       search.clearance, s.loop.timeout));
-}
-
-void loads(const Scenario& s, std::vector<std::string>& found) {
-  const double sum = s.vehicle.FzF0 + s.vehicle.FzR0, weight = s.vehicle.m * kGravity;
-  if (std::fabs(sum - weight) <= kLoadTolerance * weight) return;
-  found.push_back(fmt::format(
-      "the static loads FzF0 + FzR0 = {:.0f} N are not the weight m g = {:.0f} N", sum, weight));
 }
 
 }  // namespace
@@ -137,7 +129,7 @@ std::vector<std::string> advice(const Scenario& scenario) {
   goal_behind(scenario, found);
   narrow_gaps(scenario, found);
   no_way(scenario, found);
-  loads(scenario, found);
+  for (auto& sentence : implausible(scenario.vehicle)) found.push_back(std::move(sentence));
   return found;
 }
 

@@ -155,9 +155,15 @@ class ClosedLoop {
 
   /// At the end of a cycle: whether the goal is reached, or its time is up.
   std::optional<End> check_arrival(double t_end) const {
-    if (t_end <= loop_.timeout + kSameTime && scenario_.arrived(state_, t_)) return arrival();
+    if (t_end <= loop_.timeout + kSameTime && arrived()) return arrival();
     if (t_end < loop_.timeout - kSameTime) return std::nullopt;
     return End{Outcome::timeout, fmt::format("not at the goal after {:.6g} s", loop_.timeout)};
+  }
+
+  /// The goal's square is looked at now; any other goal is reached at any moment.
+  bool arrived() const {
+    return scenario_.arrived(state_, t_) ||
+           (scenario_.goal.kind() != world::GoalKind::square && watch_.goal_time());
   }
 
   End arrival() const {

@@ -25,11 +25,11 @@ void move_cg(vehicle::Parameters& p, double shift) {
   p.lb += shift;
 }
 
-/// The scaling factors LMUY and LKY of H. B. Pacejka, Tyre and Vehicle Dynamics, section 4.3.2:
-/// friction scales D and the vertical shift, and leaves B C D, the cornering stiffness, which has a
-/// factor of its own.
+/// The scaling factors LMUX, LMUY and LKY of H. B. Pacejka, Tyre and Vehicle Dynamics,
+/// section 4.3.2: friction scales D and the vertical shift, and leaves B C D, the cornering
+/// stiffness, which has a factor of its own.
 void scale_tyre(vehicle::Parameters& p, double friction, double stiffness) {
-  for (double* value : {&p.PDY1, &p.PDY2, &p.PVY1, &p.PVY2}) *value *= friction;
+  for (double* value : {&p.PDX1, &p.PDY1, &p.PDY2, &p.PVY1, &p.PVY2}) *value *= friction;
   p.PKY1 *= stiffness;
 }
 
@@ -67,8 +67,8 @@ const OptionTable<PlantSettings>& plant_options() {
             "mass_factor", &P::mass_factor, Range::closed(0.1, 10), "1",
             "The plant's mass over the vehicle's. Izz, FzF0, FzR0, KZX, KZYR and KZYF go with it.")
         .real("friction_factor", &P::friction_factor, Range::closed(0.05, 10), "1",
-              "Scales the greatest lateral force of the plant's tyres, and their vertical shift "
-              "(LMUY). Cornering stiffness stays.",
+              "Scales the greatest forces of the plant's tyres (LMUX, LMUY), and their vertical "
+              "shift. Cornering stiffness stays.",
               kPacejka)
         .real(
             "cornering_stiffness_factor", &P::cornering_stiffness_factor, Range::closed(0.05, 10),

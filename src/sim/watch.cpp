@@ -21,8 +21,9 @@ constexpr double kTimeTolerance = 1e-10;
 /// Of a distance with several minima, lows less deep than half of this may be missed [m], and
 /// others are found to within kLow [m].
 constexpr double kGraze = 1e-4, kLow = 1e-3;
-/// But no more often than so many times in a stretch, whatever the speeds.
-constexpr double kMostLooks = 20'000;
+/// After so many looks in a stretch, the others are evenly apart and as many at most: whatever the
+/// speeds, a stretch is soon judged.
+constexpr int kMostLooks = 1000;
 /// Share of a stretch over which one-sided differences of wheel loads are taken.
 constexpr double kDifference = 1e-3;
 
@@ -70,10 +71,11 @@ std::optional<double> first_entry(const F& f, double length, double f0, double f
 /// Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996, section 2.3).
 template <class F>
 std::optional<double> first_touch(const F& f, double from, double f_from, double to, double rate) {
-  const double least_step = (to - from) / kMostLooks;
   double value = f_from;
+  int looks = 0;
   if (value < 0) return from;
   for (double t = from; t < to;) {
+    const double least_step = ++looks > kMostLooks ? (to - from) / kMostLooks : 0;
     const double next = std::min(to, t + std::max(std::max(value, kGraze) / rate, least_step));
     const double then = f(next);
     if (then < 0)

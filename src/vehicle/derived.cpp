@@ -53,6 +53,7 @@ const std::vector<Rule>& rules() {
       {"KZX", {"m", "la", "lb", "h"}, [](const auto& p) { return p.m * p.h / axle_distance(p); }},
       {"KZYR", {"m", "h", "track"}, [](const auto& p) { return lateral_transfer(p, p.KZYR); }},
       {"KZYF", {"m", "h", "track"}, [](const auto& p) { return lateral_transfer(p, p.KZYF); }},
+      {"PDX1", {"PDY1"}, [](const auto& p) { return p.PDY1; }},
       {"F_offset_front", with_tyre("FzF0"), [](const auto& p) { return -force_at_rest(p, 0); }},
       {"F_offset_rear", with_tyre("FzR0"), [](const auto& p) { return -force_at_rest(p, 1); }},
   };

@@ -1,6 +1,10 @@
 #include "slalom/vehicle/model.hpp"
 
+#include <cmath>
+#include <optional>
 #include <vector>
+
+#include "acceleration_limits.hpp"
 
 namespace slalom::vehicle {
 namespace {
@@ -33,9 +37,12 @@ struct TyreCoefficients {
 ///   a = alpha + PH2 Fz + PH1                        D = (PD2 Fz + PD1) Fz
 ///   B = PK1 sin(2 atan(PK2 Fz)) / (PC1 D)           E = (PE2 Fz + PE1)(1 - PE3 a/sqrt(a² + EP²))
 ///   Fy = D sin(PC1 atan(B a - E (B a - atan(B a)))) + (PV2 Fz + PV1) Fz + F_offset
-Expr lateral_force(const TyreCoefficients& c, const Expr& alpha, const Expr& Fz, double F_offset) {
+/// With `derating` the peak is that share of D; the cornering stiffness B PC1 D stays.
+Expr lateral_force(const TyreCoefficients& c, const Expr& alpha, const Expr& Fz, double F_offset,
+                   const std::optional<Expr>& derating) {
   const Expr a = alpha + c.PH2 * Fz + c.PH1;
-  const Expr D = (c.PD2 * Fz + c.PD1) * Fz;
+  const Expr pure = (c.PD2 * Fz + c.PD1) * Fz;
+  const Expr D = derating ? *derating * pure : pure;
   const Expr B = c.PK1 * sin(2 * atan(c.PK2 * Fz)) / (c.PC1 * D);
   const Expr E = (c.PE2 * Fz + c.PE1) * (1 - c.PE3 * a / sqrt(square(a) + c.EP * c.EP));
   const Expr Ba = B * a;
@@ -48,9 +55,31 @@ Expr linear_force(const TyreCoefficients& c, const Expr& alpha, const Expr& Fz) 
   return c.PK1 * sin(2 * atan(c.PK2 * Fz)) * alpha;
 }
 
-/// A cubic, highest power first (formulation section 2, limits of ax).
-Expr cubic(const std::array<double, 4>& c, const Expr& x) {
-  return ((c[0] * x + c[1]) * x + c[2]) * x + c[3];
+/// Between driving and braking the front axle's share of the longitudinal force changes over about
+/// this much acceleration [m/s^2].
+constexpr double kOverDrive = 0.1;
+/// Rounds off the derating where the longitudinal force takes all friction.
+constexpr double kAllFriction = 0.05;
+
+/// Longitudinal force [N] of the front axle, then of the rear, for force over mass a [m/s^2].
+std::array<Expr, 2> longitudinal_forces(const Parameters& p, const Expr& a) {
+  const double mean = (p.drive_front + p.brake_front) / 2;
+  const double difference = (p.drive_front - p.brake_front) / 2;
+  const Expr sign = a / sqrt(square(a) + kOverDrive * kOverDrive);
+  const Expr front = p.m * a * (mean + difference * sign);
+  return {front, p.m * a - front};
+}
+
+/// What the longitudinal force Fx [N] leaves of an axle's greatest lateral one, as a share: the
+/// friction ellipse sqrt(1 - (Fx/(mu Fz))²) (R. Y. Hindiyeh and J. C. Gerdes, "A controller
+/// framework for autonomous drifting", J. Dyn. Sys. Meas. Control 136(5), 2014: derating factor of
+/// a coupled tyre), with
+/// w = 1 - (Fx/(mu Fz))² replaced by (w + sqrt(w² + e²))/2, and 1 where Fx = 0.
+Expr derating_of(double mu, const Expr& Fx, const Expr& Fz) {
+  constexpr double e = kAllFriction;
+  const Expr w = 1 - square(Fx / (mu * Fz));
+  // (w + sqrt(w² + e²))/2 = e²/2 / (sqrt(w² + e²) - w), which keeps its digits for w < 0.
+  return sqrt((std::sqrt(1 + e * e) - 1) / (sqrt(square(w) + e * e) - w));
 }
 
 template <std::size_t N>
@@ -93,8 +122,8 @@ void add_axle_loads(const Parameters& p, Frame& frame) {
 
 /// Limits of acceleration, formulation section 2: ax_min(ux) <= ax <= ax_max(ux).
 void add_acceleration_limits(const Parameters& p, Model& model) {
-  model.ax_max = cubic(p.ax_max, model.state[UX]);
-  model.ax_min = cubic(p.ax_min, model.state[UX]);
+  model.ax_max = acceleration::most(p, model.state[UX]);
+  model.ax_min = acceleration::least(p, model.state[UX]);
 }
 
 /// Wheel loads, formulation section 2, for `lateral` = (Fyf + Fyr)/m [m/s²]:
@@ -123,8 +152,14 @@ Model make_dynamic(const Parameters& p, ModelKind kind) {
   const TyreCoefficients tyre(p);
   if (kind != ModelKind::linear_tyre) {
     const auto offset = [&](double F) { return p.tyre_asymmetry ? F : 0; };
-    model.Fyf = lateral_force(tyre, model.alpha_f, frame.FzF, offset(p.F_offset_front));
-    model.Fyr = lateral_force(tyre, model.alpha_r, frame.FzR, offset(p.F_offset_rear));
+    std::array<std::optional<Expr>, 2> derating;
+    if (p.tyre == TyreKind::combined_slip) {
+      const auto Fx = longitudinal_forces(p, ax - v * r);
+      derating = {derating_of(p.PDX1, Fx[0], frame.FzF), derating_of(p.PDX1, Fx[1], frame.FzR)};
+    }
+    model.Fyf =
+        lateral_force(tyre, model.alpha_f, frame.FzF, offset(p.F_offset_front), derating[0]);
+    model.Fyr = lateral_force(tyre, model.alpha_r, frame.FzR, offset(p.F_offset_rear), derating[1]);
   }
   model.Fyf_linear = linear_force(tyre, model.alpha_f, frame.FzF);
   model.Fyr_linear = linear_force(tyre, model.alpha_r, frame.FzR);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "acceleration_limits.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::vehicle {
@@ -58,6 +60,9 @@ void add_tyre(OptionTable<Parameters>& table) {
   using P = Parameters;
   const auto any = Range::any();
   table
+      .choice("tyre", &P::tyre, {"pure_slip", "combined_slip"},
+              "combined_slip: the longitudinal force of an axle takes from its lateral one "
+              "(docs/vehicles.md); the paper's tyre is pure_slip.")
       .real("FZ0", &P::FZ0, Range::positive(), "N", "Nominal load of the tyre formula, per axle.",
             kSection)
       .real("PCY1", &P::PCY1, Range::positive(), "1", "Shape factor C.", kSection)
@@ -91,6 +96,20 @@ void add_tyre(OptionTable<Parameters>& table) {
                kSection);
 }
 
+void add_longitudinal(OptionTable<Parameters>& table) {
+  using P = Parameters;
+  const auto share = Range::closed(0, 1);
+  table
+      .real("PDX1", &P::PDX1, Range::positive(), "1",
+            "Longitudinal friction, used by combined_slip and friction_share. Where a file states "
+            "PDY1 and not this, it is PDY1.")
+      .real("drive_front", &P::drive_front, share, "1",
+            "Share of the driving force that the front axle has; of combined_slip and "
+            "friction_share.")
+      .real("brake_front", &P::brake_front, share, "1",
+            "Share of the braking force that the front axle has; likewise.");
+}
+
 void add_limits(OptionTable<Parameters>& table) {
   using P = Parameters;
   table
@@ -109,7 +128,12 @@ void add_limits(OptionTable<Parameters>& table) {
       .vector("ax_max", &P::ax_max, Range::any(), "m/s^2 over m/s",
               "Greatest longitudinal acceleration as a cubic in ux, highest power first.", kSection)
       .vector("ax_min", &P::ax_min, Range::any(), "m/s^2 over m/s",
-              "Least longitudinal acceleration as a cubic in ux, highest power first.", kSection);
+              "Least longitudinal acceleration as a cubic in ux, highest power first.", kSection)
+      .real("power", &P::power, Range::non_negative(), "W",
+            "Power of the drive: ax is also below power/(m ux), smoothly. 0 limits nothing.")
+      .real("friction_share", &P::friction_share, Range::closed(0, 1), "1",
+            "Share of its friction PDX1 Fz that driving and braking may take of an axle: ax is "
+            "also within what that allows, smoothly. 0 limits nothing.");
 }
 
 }  // namespace
@@ -123,11 +147,15 @@ double Parameters::sr_max() const {
 }
 
 double Parameters::ax_max_at(double speed) const {
-  return ((ax_max[0] * speed + ax_max[1]) * speed + ax_max[2]) * speed + ax_max[3];
+  return acceleration::most(*this, speed);
 }
 
 double Parameters::ax_min_at(double speed) const {
-  return ((ax_min[0] * speed + ax_min[1]) * speed + ax_min[2]) * speed + ax_min[3];
+  return acceleration::least(*this, speed);
+}
+
+double Parameters::cornering_stiffness(double Fz) const {
+  return -PKY1 * FZ0 * std::sin(2 * std::atan(Fz / (PKY2 * FZ0)));
 }
 
 const OptionTable<Parameters>& parameter_options() {
@@ -135,6 +163,7 @@ const OptionTable<Parameters>& parameter_options() {
     OptionTable<Parameters> options;
     add_body(options);
     add_tyre(options);
+    add_longitudinal(options);
     add_limits(options);
     return options;
   }();

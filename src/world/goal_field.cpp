@@ -75,7 +75,7 @@ void GoalField::shut(const Frame& frame, const Region& region,
     for (int i = i0_; i < i0_ + columns_; ++i, ++at)
       shut_[at] = !region.contains(frame.x(i * h_, j * h_), frame.y(i * h_, j * h_));
   for (const auto& o : obstacles)
-    if (o.vx * o.vx + o.vy * o.vy < kStands * kStands) shut(frame, o);
+    if (o.moments < 0 && o.vx * o.vx + o.vy * o.vy < kStands * kStands) shut(frame, o);
 }
 
 void GoalField::shut(const Frame& frame, const Ellipse& obstacle) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -8,10 +9,18 @@
 
 namespace slalom::world {
 
+/// Of an obstacle that moves by a trajectory, at the beginning of a move: its place relative to the
+/// goal [m], by how much it is larger [m], and whether it is there during the move.
+struct Moment {
+  double x = 0, y = 0, larger = 0;
+  bool there = true;
+};
+
 /// An obstacle to a search: place at the search's start relative to the goal [m], velocity [m/s]
 /// and semi-axes [m].
 struct Ellipse {
   double x = 0, y = 0, vx = 0, vy = 0, a = 1, b = 1;
+  std::ptrdiff_t moments = -1;  ///< index of the first of its moments, which override the place
 
   bool contains(double px, double py) const {
     const double dx = (px - x) / a, dy = (py - y) / b;

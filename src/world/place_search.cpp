@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace slalom::world {
 namespace {
@@ -11,6 +12,11 @@ namespace {
 constexpr double kAlong = 0.5, kAcross = 0.6;
 constexpr double kRounding = 1e-4;  ///< of curvatures, relative
 constexpr double kWayStep = 0.05;   ///< between a way's points [s]
+/// A start nearer to the road's edge than ways are to be may come nearer by this [m].
+constexpr double kNearerStart = 0.05;
+/// Within this share of a goal's ranges a place meets them, and this far beyond a line across the
+/// road it is there [m].
+constexpr double kWithin = 0.7, kBeyondLine = 0.5;
 
 /// Turns the unit vector (c, s) by a small angle: a series, for a move has twenty such.
 void turn(double& c, double& s, double angle) {
@@ -31,22 +37,38 @@ std::uint64_t cell(double value, double size, int bits) {
 
 }  // namespace
 
-PlaceSearch::PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle)
-    : goal_(goal), vehicle_(vehicle), frame_{std::cos(goal.psi), std::sin(goal.psi)} {}
+PlaceSearch::PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle,
+                         const std::vector<Disc>& body, const RoadField* road, double to_go)
+    : goal_(goal),
+      vehicle_(vehicle),
+      frame_{std::cos(goal.psi), std::sin(goal.psi)},
+      road_(road),
+      to_go_(to_go) {
+  for (const Disc& disc : body) {
+    disc_radius_ = disc.radius;
+    ahead_.push_back(disc.ahead);
+    body_reach_ = std::max(body_reach_, std::fabs(disc.ahead));
+  }
+}
 
-bool PlaceSearch::run(const Place& start, const Region& region,
-                      const std::vector<Ellipse>& obstacles, const WaySearch& search,
-                      const std::function<bool()>& out_of_budget) {
+std::size_t PlaceSearch::moments(const WaySearch& search) {
+  return static_cast<std::size_t>(std::ceil(search.t_max / search.dt)) + 1;
+}
+
+bool PlaceSearch::run(const Place& start, double t_start, const Region& region,
+                      const std::vector<Ellipse>& obstacles, const std::vector<Moment>& moments,
+                      const WaySearch& search, const std::function<bool()>& out_of_budget) {
   p_ = search;
   region_ = region;
   obstacles_.assign(obstacles.begin(), obstacles.end());
+  moments_.assign(moments.begin(), moments.end());
   found_ = -1;
   looked_at_ = 0;
   places_.clear();
   open_.clear();
   cells_.clear();
-  field_.build(frame_, static_cast<double>(start.x), static_cast<double>(start.y),
-               kAlong * goal_.sigma, kAcross * goal_.sigma, region_, obstacles_);
+  t_start_ = t_start;
+  place_start(start);
   const int most_moves = static_cast<int>(std::ceil(p_.t_max / p_.dt));
   add(start);
   for (; !open_.empty() && looked_at_ < p_.max_places; ++looked_at_) {
@@ -68,10 +90,66 @@ double PlaceSearch::most_curvature(double v) const {
   return std::min(p_.curvature, p_.lateral_acceleration / (v * v));
 }
 
+bool PlaceSearch::meets_conditions(const Place& place) const {
+  const auto within = [](double value, double lower, double upper) {
+    const double by = (1 - kWithin) / 2 * (upper - lower);
+    return std::isinf(by) ? value >= lower && value <= upper
+                          : value >= lower + by && value <= upper - by;
+  };
+  constexpr double turn = 2 * std::numbers::pi;
+  const double off = std::remainder(static_cast<double>(place.heading) - goal_.psi, turn);
+  return std::fabs(off) <= kWithin * goal_.psi_tolerance &&
+         within(static_cast<double>(place.v), goal_.ux_min, goal_.ux_max) &&
+         within(t_start_ + place.moves * p_.dt, goal_.t_min, goal_.t_max);
+}
+
 bool PlaceSearch::arrived(const Place& place) const {
+  if (!meets_conditions(place)) return false;
   const auto x = static_cast<double>(place.x), y = static_cast<double>(place.y);
-  return std::fabs(frame_.u(x, y)) <= kAlong * goal_.sigma &&
-         std::fabs(frame_.w(x, y)) <= kAcross * goal_.sigma;
+  const auto inside = [&](double along, double across) {
+    return std::fabs(frame_.u(x, y)) <= kAlong * along &&
+           std::fabs(frame_.w(x, y)) <= kAcross * across;
+  };
+  switch (goal_.kind()) {
+    case GoalKind::square:
+      return inside(goal_.sigma, goal_.sigma);
+    case GoalKind::rectangle:
+      return inside(goal_.length / 2, goal_.width / 2);
+    case GoalKind::line:
+      return frame_.u(x, y) >= kBeyondLine && way_left(x, y) <= 0;
+    case GoalKind::time:
+      return t_start_ + place.moves * p_.dt >= goal_.time;
+    case GoalKind::laps:
+      break;
+  }
+  return false;
+}
+
+/// What the way ahead is ranked by, and how near to the road's edges a start may be.
+void PlaceSearch::place_start(const Place& start) {
+  const auto x = static_cast<double>(start.x), y = static_cast<double>(start.y);
+  if (road_ == nullptr) {
+    const bool square = goal_.kind() == GoalKind::square;
+    field_.build(frame_, x, y, kAlong * (square ? goal_.sigma : goal_.length / 2),
+                 kAcross * (square ? goal_.sigma : goal_.width / 2), region_, obstacles_);
+    return;
+  }
+  edge_ = disc_radius_ + p_.edge;
+  const auto heading = static_cast<double>(start.heading);
+  for (const double ahead : ahead_)
+    edge_ = std::min(edge_, road_->edge_distance(goal_.x + x + ahead * std::cos(heading),
+                                                 goal_.y + y + ahead * std::sin(heading)) -
+                                kNearerStart);
+}
+
+bool PlaceSearch::on_road(double x, double y) const {
+  return road_ == nullptr || road_->edge_distance(goal_.x + x, goal_.y + y) >= edge_;
+}
+
+/// To the goal, along the road or around what stands [m].
+double PlaceSearch::way_left(double x, double y) const {
+  if (road_ == nullptr) return field_(frame_.u(x, y), frame_.w(x, y));
+  return std::max(0., to_go_ - road_->along(goal_.x + x, goal_.y + y));
 }
 
 void PlaceSearch::add(const Place& place) {
@@ -79,8 +157,8 @@ void PlaceSearch::add(const Place& place) {
   const auto v = static_cast<double>(place.v);
   const double u = frame_.u(x, y), w = frame_.w(x, y), t = place.moves * p_.dt;
   const double least = (std::sqrt(u * u + w * w) - goal_.sigma) / std::max(v, p_.v_max);
-  if (t + least > p_.t_max) return;  // straight on it is too late already
-  std::uint64_t key = 1;             // no key is zero
+  if (road_ == nullptr && t + least > p_.t_max) return;  // straight on it is too late already
+  std::uint64_t key = 1;                                 // no key is zero
   const auto mix = [&key](double value, double size, int bits) {
     key = key << bits | cell(value, size, bits);
   };
@@ -93,7 +171,7 @@ void PlaceSearch::add(const Place& place) {
   if (!cells_.insert(key)) return;
   places_.push_back(place);
   open_.push_back(
-      {t + p_.greed * field_(u, w) / p_.v_max, static_cast<std::int32_t>(places_.size() - 1)});
+      {t + p_.greed * way_left(x, y) / p_.v_max, static_cast<std::int32_t>(places_.size() - 1)});
   std::push_heap(open_.begin(), open_.end());
 }
 
@@ -110,19 +188,43 @@ void PlaceSearch::find_near(const Place& from) {
   const double a = std::max(std::fabs(push), p_.braking);
   const double aside = 0.5 * p_.dt * p_.dt * std::hypot(a, fast * fast * kappa);
   near_.clear();
-  for (const auto& o : obstacles_) {
-    const double dx = o.x + o.vx * t - x, dy = o.y + o.vy * t - y;
+  for (const auto& obstacle : obstacles_) {
+    Ellipse o = obstacle;
+    double dx = o.x + o.vx * t - x, dy = o.y + o.vy * t - y;
+    if (o.moments >= 0) {
+      const Moment& now = moments_[static_cast<std::size_t>(o.moments + from.moves)];
+      const Moment& then = moments_[static_cast<std::size_t>(o.moments + from.moves + 1)];
+      if (!now.there) continue;
+      dx = now.x - x;
+      dy = now.y - y;
+      o.vx = (then.x - now.x) / p_.dt;
+      o.vy = (then.y - now.y) / p_.dt;
+      o.a += then.larger;
+      o.b += then.larger;
+    }
     const double vx = v * c - o.vx, vy = v * s - o.vy, square = vx * vx + vy * vy;
     const double ahead = square > 0 ? (dx * vx + dy * vy) / square : 0;
     const double at = std::clamp(ahead, 0.0, p_.dt);
-    const double ex = dx - at * vx, ey = dy - at * vy, reach = std::max(o.a, o.b) + aside;
+    const double ex = dx - at * vx, ey = dy - at * vy,
+                 reach = std::max(o.a, o.b) + aside + body_reach_;
     if (ex * ex + ey * ey < reach * reach)
       near_.push_back({x + dx, y + dy, o.vx, o.vy, 1 / o.a, 1 / o.b});
   }
 }
 
-bool PlaceSearch::is_free(double x, double y, double after) const {
-  if (!region_.contains(x, y)) return false;
+bool PlaceSearch::is_free(const Motion& at, double after) const {
+  if (!region_.contains(at.x, at.y)) return false;
+  if (body_reach_ == 0) return on_road(at.x, at.y) && is_clear(at.x, at.y, after);
+  // The front wheels roll where the way leads; the body's axis is off that by their steering.
+  double c = at.c, s = at.s;
+  turn(c, s, -(vehicle_.la + vehicle_.lb) * at.kappa);
+  return std::all_of(ahead_.begin(), ahead_.end(), [&](double ahead) {
+    const double x = at.x + ahead * c, y = at.y + ahead * s;
+    return on_road(x, y) && is_clear(x, y, after);
+  });
+}
+
+bool PlaceSearch::is_clear(double x, double y, double after) const {
   for (const auto& o : near_) {
     const double dx = (x - o.x - o.vx * after) * o.per_a;
     const double dy = (y - o.y - o.vy * after) * o.per_b;
@@ -150,7 +252,7 @@ bool PlaceSearch::move(Motion& at, double a, double kappa_rate, double v_least,
   const double h = p_.dt / kParts;
   for (int part = 1; part <= kParts; ++part) {
     advance(at, a, kappa_rate, h, v_least, v_most);
-    if (!is_free(at.x, at.y, part * h)) return false;
+    if (!is_free(at, part * h)) return false;
   }
   return true;
 }

@@ -7,7 +7,9 @@
 
 #include "cell_set.hpp"
 #include "goal_field.hpp"
+#include "road_field.hpp"
 #include "slalom/vehicle/parameters.hpp"
+#include "slalom/world/footprint.hpp"
 #include "slalom/world/way_finder.hpp"
 
 namespace slalom::world {
@@ -21,10 +23,17 @@ class PlaceSearch {
     std::int32_t moves = 0, parent = -1;
   };
 
-  PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle);
+  /// Of the vehicle what keeps off obstacles are the centres of the discs of `body`.
+  /// A road's field, or none, outlives it; to the goal it is `to_go` [m] from the road's start.
+  PlaceSearch(const Goal& goal, const vehicle::Parameters& vehicle, const std::vector<Disc>& body,
+              const RoadField* road, double to_go);
 
-  /// Whether a way was found; region and obstacles as the search is to keep out of them.
-  bool run(const Place& start, const Region& region, const std::vector<Ellipse>& obstacles,
+  /// How many moments an obstacle has that moves by a trajectory: one for each move, and the end.
+  static std::size_t moments(const WaySearch& search);
+  /// Whether a way was found; region and obstacles as the search is to keep out of them. Between
+  /// the moments of an obstacle it goes straight.
+  bool run(const Place& start, double t_start, const Region& region,
+           const std::vector<Ellipse>& obstacles, const std::vector<Moment>& moments,
            const WaySearch& search, const std::function<bool()>& out_of_budget);
 
   int looked_at() const { return looked_at_; }
@@ -59,15 +68,28 @@ class PlaceSearch {
   bool move(Motion& at, double a, double kappa_rate, double v_least, double v_most) const;
   void advance(Motion& at, double a, double kappa_rate, double h, double v_least,
                double v_most) const;
-  bool is_free(double x, double y, double after) const;
+  bool is_free(const Motion& at, double after) const;
+  bool is_clear(double x, double y, double after) const;
   bool arrived(const Place& place) const;
+  bool meets_conditions(const Place& place) const;
+  bool on_road(double x, double y) const;
+  double way_left(double x, double y) const;
+  void place_start(const Place& start);
 
   const Goal goal_;
   const vehicle::Parameters vehicle_;
   const Frame frame_;
+  std::vector<double> ahead_;  ///< of the body's discs, from the front axle's centre on [m]
+  double body_reach_ = 0;      ///< how far their centres are from it [m]
+  const RoadField* road_;
+  const double to_go_;
+  double disc_radius_ = 0;  ///< of the body's [m]
+  double edge_ = 0;         ///< kept by the discs' centres from the road's edges [m]
+  double t_start_ = 0;      ///< [s]
   WaySearch p_;
   Region region_;
   std::vector<Ellipse> obstacles_;
+  std::vector<Moment> moments_;
   GoalField field_;
   std::vector<Place> places_;
   std::vector<Open> open_;  ///< a heap

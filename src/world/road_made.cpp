@@ -141,6 +141,7 @@ void Road::bound() {
           std::max(std::fabs(width(piece.segment, s, &RoadPoint::right, right_slope_).second),
                    std::fabs(width(piece.segment, s, &RoadPoint::left, left_slope_).second));
       piece.bend = std::max(piece.bend, k * g + second * g * g + 2 * slope * k * g * g);
+      sharpest_ = std::max(sharpest_, piece.bend);
     }
   }
 }

@@ -88,7 +88,9 @@ TableTrajectory::TableTrajectory(std::vector<TrajectoryRow> rows, BeyondEnd befo
     if (!(row.t > last.t))
       throw InvalidValue(place, fmt::format("t = {:.9g} after {:.9g}", row.t, last.t),
                          "times that rise");
-    row.psi = last.psi + wrapped(row.psi - last.psi);
+    // What lies within a half turn keeps its bits, so that rows read again are the same.
+    if (std::fabs(row.psi - last.psi) > std::numbers::pi)
+      row.psi = last.psi + wrapped(row.psi - last.psi);
   }
   std::vector<double> t, y;
   for (const auto& row : rows_) t.push_back(row.t);
@@ -246,6 +248,13 @@ Rates OffsetTrajectory::fastest(double t0, double t1) const {
   Rates rates = base_->fastest(t0, t1);
   rates.speed += rates.omega * offset_.norm();
   return rates;
+}
+
+Pose MovedTrajectory::at(double t) const {
+  Pose pose = base_->at(t);
+  pose.x += by_.x;
+  pose.y += by_.y;
+  return pose;
 }
 
 Pose TurningTrajectory::at(double t) const {

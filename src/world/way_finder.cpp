@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
 #include <utility>
 
 #include "place_search.hpp"
+#include "slalom/vehicle/agility.hpp"
 #include "slalom/world/way_signature.hpp"
 
 namespace slalom::world {
@@ -59,6 +63,9 @@ WaySearch varied(const WaySearch& search, const Variant& by) {
   return result;
 }
 
+/// Below the top speed, for the tracker to catch up [m/s].
+constexpr double kSpeedSpare = 1;
+
 /// A wall of circles that goes along with an obstacle and shuts the side on which a way passes it,
 /// from its edge to so far beyond the way; the half of its thickness [m].
 constexpr double kWallBeyond = 10, kWallHalf = 2;
@@ -67,15 +74,27 @@ constexpr double kWallAfter = 1;    ///< sooner there is no time left to pass ot
 constexpr int kWallsPerWay = 4;     ///< tried at the most, for each way wanted
 constexpr int kWallPlaces = 4;      ///< a wall's search looks at so many times fewer places
 
+/// Where the goal lies along the road [m]; its end, where the goal is a time.
+double to_go(const Environment& environment) {
+  if (!environment.road) return 0;
+  const Goal& goal = environment.goal;
+  if (goal.kind() == GoalKind::line) return goal.s;
+  return goal.is_place() ? environment.road->project({goal.x, goal.y}).s
+                         : environment.road->length();
+}
+
 }  // namespace
 
 class WayFinder::Impl {
  public:
-  Impl(const Environment& environment, const vehicle::Parameters& vehicle)
+  Impl(const Environment& environment, const vehicle::Parameters& vehicle, double cover_excess)
       : goal_(environment.goal),
         region_(environment.region),
         vehicle_(vehicle),
-        search_(environment.goal, vehicle) {}
+        cover_excess_(cover_excess),
+        body_(Footprint(vehicle).covering_discs(cover_excess)),
+        road_(environment.road ? std::make_unique<RoadField>(*environment.road) : nullptr),
+        search_(environment.goal, vehicle, body_, road_.get(), to_go(environment)) {}
 
   std::optional<Way> find(const State& start, double t_start,
                           const std::vector<Obstacle>& obstacles, const WaySearch& search,
@@ -139,11 +158,12 @@ class WayFinder::Impl {
 
   std::optional<Way> search_once(const Question& q, const WaySearch& search) {
     ellipses_.clear();
-    for (const auto& o : q.obstacles) add(o, q.start, q.t_start, search.clearance);
-    for (const auto& o : wall_) add(o, q.start, q.t_start, search.clearance);
+    moments_.clear();
+    for (const auto& o : q.obstacles) add(o, q, search);
+    for (const auto& o : wall_) add(o, q, search);
     const auto place = first_place(q.start, goal_, vehicle_);
-    const bool found =
-        search_.run(place, region_for(place, search), ellipses_, search, q.out_of_budget);
+    const bool found = search_.run(place, q.t_start, region_for(place, search), ellipses_, moments_,
+                                   search, q.out_of_budget);
     looked_at_ += search_.looked_at();
     if (!found) return std::nullopt;
     Way way;
@@ -186,8 +206,12 @@ class WayFinder::Impl {
     const double dx = (at->x - o.x_at(at->t)) / passing.nearest;
     const double dy = (at->y - o.y_at(at->t)) / passing.nearest;
     const double edge = 1 / std::hypot(dx / o.a, dy / o.b);
-    for (double r = edge; r < passing.nearest + kWallBeyond; r += kWallHalf)
+    for (double r = edge; r < passing.nearest + kWallBeyond; r += kWallHalf) {
       wall_.push_back({{}, o.x + r * dx, o.y + r * dy, kWallHalf, kWallHalf, o.vx, o.vy});
+      if (o.trajectory)
+        wall_.back().trajectory =
+            std::make_shared<MovedTrajectory>(o.trajectory, Point{r * dx, r * dy});
+    }
   }
 
   Region region_for(const PlaceSearch::Place& start, const WaySearch& search) const {
@@ -198,35 +222,85 @@ class WayFinder::Impl {
             side_for(region_.y_max - goal_.y, y, search.inset, -1)};
   }
 
-  /// The obstacle as the search counts it, so that the start is outside.
-  void add(const Obstacle& o, const State& start, double t_start, double clearance) {
-    const double dx = start[vehicle::X] - o.x_at(t_start), dy = start[vehicle::Y] - o.y_at(t_start);
-    Ellipse e = {o.x_at(t_start) - goal_.x,
-                 o.y_at(t_start) - goal_.y,
-                 o.vx,
-                 o.vy,
-                 o.a + clearance,
-                 o.b + clearance};
-    if (std::hypot(dx / e.a, dy / e.b) < 1) {
-      const double inside = std::hypot(dx / o.a, dy / o.b);
+  /// The obstacle as the search counts it.
+  void add(const Obstacle& o, const Question& q, const WaySearch& search) {
+    if (o.is_plain()) return add_disc(o, q, search);
+    for (const auto& disc : covering_discs(o, cover_excess_)) add_disc(disc, q, search);
+  }
+
+  /// The least of the start's discs' distances from the centre of an ellipse, by its norm.
+  double start_within(double x, double y, double a, double b, const State& start) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Disc& disc : body_) {
+      const double dx = start[vehicle::X] + disc.ahead * std::cos(start[vehicle::PSI]) - x;
+      const double dy = start[vehicle::Y] + disc.ahead * std::sin(start[vehicle::PSI]) - y;
+      least = std::min(least, std::hypot(dx / a, dy / b));
+    }
+    return least;
+  }
+
+  /// Larger by the body's discs, and so that the start is outside.
+  void add_disc(const Obstacle& o, const Question& q, const WaySearch& search) {
+    const double x = o.x_at(q.t_start), y = o.y_at(q.t_start);
+    const double a = o.a + body_.front().radius, b = o.b + body_.front().radius;
+    const double margin = o.margin(q.t_start);
+    Ellipse e = {x - goal_.x, y - goal_.y, o.vx, o.vy, a + search.clearance, b + search.clearance};
+    bool with_margin = true;
+    if (o.present(q.t_start, q.t_start) &&
+        start_within(x, y, e.a + margin, e.b + margin, q.start) < 1) {
+      const double inside = start_within(x, y, a, b, q.start);
       if (inside == 0) return;
-      e.a = o.a * (inside < 1 ? inside / 2 : 1);
-      e.b = o.b * (inside < 1 ? inside / 2 : 1);
+      e.a = a * (inside < 1 ? inside / 2 : 1);
+      e.b = b * (inside < 1 ? inside / 2 : 1);
+      with_margin = false;
+    }
+    if (o.trajectory || o.margin_rate > 0) {
+      e.moments = static_cast<std::ptrdiff_t>(moments_.size());
+      add_moments(o, q.t_start, search, with_margin);
+    } else if (with_margin) {
+      e.a += margin;
+      e.b += margin;
     }
     ellipses_.push_back(e);
+  }
+
+  void add_moments(const Obstacle& o, double t_start, const WaySearch& search, bool with_margin) {
+    const std::size_t count = PlaceSearch::moments(search);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double t = t_start + static_cast<double>(k) * search.dt;
+      const Pose at = o.pose_at(t);
+      moments_.push_back({at.x - goal_.x, at.y - goal_.y, with_margin ? o.margin(t) : 0,
+                          o.present(t, t + search.dt)});
+    }
   }
 
   const Goal goal_;
   const Region region_;
   const vehicle::Parameters vehicle_;
+  const double cover_excess_;
+  const std::vector<Disc> body_;  ///< that cover the vehicle's footprint, of one radius
+  const std::unique_ptr<RoadField> road_;
   PlaceSearch search_;
   std::vector<Obstacle> wall_;
   std::vector<Ellipse> ellipses_;
+  std::vector<Moment> moments_;  ///< of those that move by a trajectory
   int looked_at_ = 0;
 };
 
-WayFinder::WayFinder(const Environment& environment, const vehicle::Parameters& vehicle)
-    : impl_(std::make_unique<Impl>(environment, vehicle)) {}
+WaySearch way_search(const vehicle::Parameters& vehicle) {
+  const auto can = vehicle::agility(vehicle);
+  WaySearch search;
+  search.v_max = std::max(vehicle.ux_max - kSpeedSpare, search.v_min);
+  search.braking *= can.braking;
+  search.lateral_acceleration *= can.lateral;
+  search.curvature *= can.curvature;
+  search.curvature_rate *= can.curvature_rate;
+  return search;
+}
+
+WayFinder::WayFinder(const Environment& environment, const vehicle::Parameters& vehicle,
+                     double cover_excess)
+    : impl_(std::make_unique<Impl>(environment, vehicle, cover_excess)) {}
 WayFinder::~WayFinder() = default;
 WayFinder::WayFinder(WayFinder&&) noexcept = default;
 WayFinder& WayFinder::operator=(WayFinder&&) noexcept = default;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace slalom::world {
 namespace {
@@ -12,15 +14,20 @@ constexpr double kOrder = 1;                       ///< between two passings in 
 
 Passing passing(const Way& way, const Obstacle& o) {
   Passing result;
+  result.nearest = std::numeric_limits<double>::infinity();
   double x0 = 0, y0 = 0;
-  for (std::size_t k = 0; k < way.size(); ++k) {
-    const auto& p = way[k];
+  bool there = false;
+  for (const auto& p : way) {
+    if (!o.present(p.t, p.t)) {
+      there = false;
+      continue;
+    }
     const double x = o.x_at(p.t) - p.x, y = o.y_at(p.t) - p.y, distance = std::hypot(x, y);
-    if (k == 0 || distance < result.nearest) {
+    if (distance < result.nearest) {
       result.nearest = distance;
       result.when = p.t;
     }
-    if (k > 0) result.swept += std::atan2(x0 * y - y0 * x, x0 * x + y0 * y);
+    if (std::exchange(there, true)) result.swept += std::atan2(x0 * y - y0 * x, x0 * x + y0 * y);
     x0 = x;
     y0 = y;
   }

@@ -51,6 +51,15 @@ class Simulate(ProgramTest):
         for figure in (out / "figures").glob("*.svg"):
             xml.etree.ElementTree.parse(figure)
 
+    def test_every_vehicle_arrives_by_either_planner(self):
+        for vehicle in ("ford_escort", "bmw_320i", "vw_vanagon"):
+            for planner in ("P_D", "P_E"):
+                result = run("simulate", "E_B", "--vehicle", vehicle, "--planner", planner, "--expect", "goal")
+                self.assertEqual((result.code, result.err), (0, ""), f"{vehicle} {planner}")
+        result = run("simulate", "E_B", "--vehicle", "tank")
+        self.assertEqual(result.code, 2)
+        self.assertIn("--vehicle: found vehicle 'tank'", result.err)
+
     def test_what_is_not_as_believed_drives_again_from_its_resolved_file(self):
         changed = ["--set", "plant.mass_factor=1.3", "--set", "plant.actuator_delay=0.07", "--set",
                    "sensing.position_noise=0.1", "--set", "sensing.obstacle_velocity_factor=0.9"]
@@ -238,7 +247,7 @@ class Others(ProgramTest):
                                                "E_C-no-cones", "E_C-range-50", "one-crossing",
                                                "one-standing"],
                                  "planners": ["P_A", "P_B", "P_C", "P_D", "P_E"],
-                                 "vehicles": ["hmmwv"],
+                                 "vehicles": ["bmw_320i", "ford_escort", "hmmwv", "vw_vanagon"],
                                  "studies": ["latency", "paper", "paper-printed"]})
         text = run("list").out
         for entries in listed.values():

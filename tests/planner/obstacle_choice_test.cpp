@@ -27,6 +27,7 @@ Settings choosing(ObstacleChoice choice, int count = 5) {
   return s;
 }
 
+const world::Footprint kPoint{vehicle::Parameters{}};
 const std::vector<world::Obstacle> kRow = {{"a", 0, 20, 2, 2, 0, 0},
                                            {"b", 0, 300, 2, 2, 0, -30},
                                            {"c", 0, 64, 2, 2, 0, 0},
@@ -36,26 +37,28 @@ TEST(ObstacleChoice, InReachDropsOnlyWhatNoPlanCanTouch) {
   // From (0, 0) a plan reaches 50 + 5 m and the slacks; "c" begins 64 - 2 - 4 = 58 m away.
   const Request request;
   auto s = choosing(ObstacleChoice::in_reach);
-  EXPECT_EQ(names(choose_obstacles(s, request, kRow)), (Names{"a", "b", "d"})) << "b comes";
+  EXPECT_EQ(names(choose_obstacles(s, request, kRow, kPoint)), (Names{"a", "b", "d"})) << "b comes";
   s.moving_avoidance = false;
-  EXPECT_EQ(names(choose_obstacles(s, request, kRow)), (Names{"a", "d"})) << "b is held";
+  EXPECT_EQ(names(choose_obstacles(s, request, kRow, kPoint)), (Names{"a", "d"})) << "b is held";
   s.sm_end = 9;
-  EXPECT_EQ(names(choose_obstacles(s, request, kRow)), (Names{"a", "c", "d"}));
+  EXPECT_EQ(names(choose_obstacles(s, request, kRow, kPoint)), (Names{"a", "c", "d"}));
 }
 
 TEST(ObstacleChoice, NearestCountsFromTheEdgeAtTheStartOfThePlanAndKeepsTheOrder) {
   Request request;
-  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
+  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow, kPoint)),
             (Names{"a", "d"}));
   request.t0 = 9;
   request.t_start = 9.5;  // b stands at 300 - 30 * 9.5 = 15
-  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow)),
+  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow, kPoint)),
             (Names{"b", "d"}));
-  EXPECT_EQ(choose_obstacles(choosing(ObstacleChoice::nearest, 9), request, kRow).size(), 4u);
+  EXPECT_EQ(choose_obstacles(choosing(ObstacleChoice::nearest, 9), request, kRow, kPoint).size(),
+            4u);
   const std::vector<world::Obstacle> long_one = {{"far", 0, 10, 1, 1, 0, 0},
                                                  {"long", 40, 0, 38, 1, 0, 0}};
-  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 1), request, long_one)),
-            (Names{"long"}));
+  EXPECT_EQ(
+      names(choose_obstacles(choosing(ObstacleChoice::nearest, 1), request, long_one, kPoint)),
+      (Names{"long"}));
 }
 
 TEST(Groups, ChainsOfOneVelocityBecomeOneEllipse) {

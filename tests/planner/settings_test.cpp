@@ -63,6 +63,8 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "w_obstacle",
                            "tyre_force_limit",
                            "method",
+                           "prediction",
+                           "cover_excess",
                            "known",
                            "verified_clearance",
                            "verified_wheel_load",
@@ -77,7 +79,7 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "search_places",
                            "improvement_places"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 65u);
+  EXPECT_EQ(names.size(), 67u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

@@ -128,6 +128,17 @@ TEST(DrivePage, CarriesWhatWasVerified) {
   EXPECT_FALSE(data["cycles"][1].contains("rung"));
 }
 
+TEST(DrivePage, CarriesTheLimitsOfAcceleration) {
+  auto scenario = synthetic_scenario();
+  scenario.vehicle.power = 40e3;
+  const auto limits = page_data(drive_page(scenario, synthetic_drive()))["vehicle"]["ax_limits"];
+  const double step = limits["ux_step"];
+  ASSERT_EQ(limits["most"].size(), 61U);
+  EXPECT_NEAR(60 * step, scenario.vehicle.ux_max, 1e-12);
+  EXPECT_NEAR(limits["most"][40], scenario.vehicle.ax_max_at(40 * step), 1e-4);
+  EXPECT_NEAR(limits["least"][40], scenario.vehicle.ax_min_at(40 * step), 1e-4);
+}
+
 TEST(DrivePage, SaysHowTheDriveEnded) {
   auto drive = synthetic_drive();
   EXPECT_EQ(count(drive_page(synthetic_scenario(), drive), "Reached the goal</p>"), 1);

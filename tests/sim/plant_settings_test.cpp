@@ -74,6 +74,7 @@ TEST(PlantSettings, FrictionScalesThePeakAndNotTheSlope) {
   const Parameters believed = symmetric(), icy = driven(believed, {.friction_factor = 0.6});
   EXPECT_NEAR(peak(icy), 0.6 * peak(believed), 1e-3 * peak(believed));
   EXPECT_NEAR(slope(icy), slope(believed), 1e-4 * slope(believed));
+  EXPECT_EQ(icy.PDX1, 0.6 * believed.PDX1);
 }
 
 TEST(PlantSettings, CorneringStiffnessScalesTheSlopeAndNotThePeak) {

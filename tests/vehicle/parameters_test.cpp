@@ -29,7 +29,9 @@ TEST(Parameters, EveryOptionHasUnitDocAndAcceptsItsDefault) {
     if (entry.info.kind == OptionKind::text) bytes += sizeof(std::string);
     if (entry.info.kind == OptionKind::real) bytes += sizeof(double);
     if (entry.info.kind == OptionKind::vector) bytes += entry.info.length * sizeof(double);
-    if (entry.info.kind == OptionKind::boolean) bytes += sizeof(double);  // with its padding
+    const bool padded =
+        entry.info.kind == OptionKind::boolean || entry.info.kind == OptionKind::choice;
+    if (padded) bytes += sizeof(double);
   }
   EXPECT_EQ(bytes, sizeof(Parameters));
 }

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "slalom/world/footprint.hpp"
 #include "slalom/world/way_signature.hpp"
 #include "support/allocation_count.hpp"
 
@@ -100,7 +101,7 @@ void expect_drivable(const World& w, const Way& way, const WaySearch& search = {
   EXPECT_NEAR(way.front().y, w.start[vehicle::Y], 1e-4);
   EXPECT_NEAR(way.front().v, w.start[vehicle::UX], 1e-5);
   const auto& goal = w.environment.goal;
-  EXPECT_LT(goal.outside(way.back().x, way.back().y), 0);
+  EXPECT_LT(goal.outside({way.back().x, way.back().y}, way.back().t, nullptr), 0);
   const double dx = way.back().x - goal.x, dy = way.back().y - goal.y;
   EXPECT_LE(std::fabs(dx * std::cos(goal.psi) + dy * std::sin(goal.psi)), 0.5 * goal.sigma + 1e-4);
   EXPECT_LE(std::fabs(dy * std::cos(goal.psi) - dx * std::sin(goal.psi)), 0.6 * goal.sigma + 1e-4);
@@ -310,6 +311,52 @@ TEST(WayFinder, FindsWaysThatPassDifferently) {
   const auto slower = ways_of(narrow, w, 2, false);
   ASSERT_EQ(slower.size(), 2u) << "a way that is no good does not stand for those like it";
   EXPECT_GT(slower[1].back().t, slower[0].back().t);
+}
+
+TEST(WayFinder, TheSearchFollowsFromTheVehicle) {
+  const WaySearch as_found;
+  const auto hmmwv = way_search({});
+  EXPECT_EQ(hmmwv.v_max, as_found.v_max);
+  EXPECT_EQ(hmmwv.braking, as_found.braking);
+  EXPECT_EQ(hmmwv.lateral_acceleration, as_found.lateral_acceleration);
+  EXPECT_EQ(hmmwv.curvature, as_found.curvature);
+  EXPECT_EQ(hmmwv.curvature_rate, as_found.curvature_rate);
+
+  vehicle::Parameters car;
+  car.ux_max = 50;
+  car.ax_min[3] *= 2;
+  car.sr_max_deg *= 4;
+  car.KZYR /= 1.2;
+  const auto nimble = way_search(car);
+  EXPECT_EQ(nimble.v_max, 49);
+  EXPECT_NEAR(nimble.braking, 2 * as_found.braking, 1e-12);
+  EXPECT_NEAR(nimble.curvature_rate, 4 * as_found.curvature_rate, 1e-12);
+  EXPECT_NEAR(nimble.lateral_acceleration, 1.2 * as_found.lateral_acceleration, 1e-12);
+}
+
+TEST(WayFinder, KeepsTheBodyOnTheRoadThroughABendThatGoesBack) {
+  std::vector<RoadPoint> line;
+  for (double x = 0; x < 60; x += 10) line.push_back({x, 0, 3, 3});
+  for (double angle = -1.5; angle < 1.6; angle += 0.3)
+    line.push_back({60 + 20 * std::cos(angle), 20 + 20 * std::sin(angle), 3, 3});
+  for (double x = 50; x >= 0; x -= 10) line.push_back({x, 40, 3, 3});
+  Environment environment;
+  environment.road =
+      std::make_shared<Road>(line, false, std::vector<std::vector<Point>>{}, "hairpin");
+  environment.goal.s = environment.road->length() - 10;
+  environment.goal = placed(environment.goal, environment.road.get());
+  vehicle::Parameters car;
+  car.footprint = vehicle::FootprintKind::rectangle;
+  WayFinder finder(environment, car);
+  WaySearch search;
+  const auto way = finder.find({5, 0, 0, 0, 0, 0, 10, 0}, 0, {}, search);
+  ASSERT_TRUE(way);
+  // The body's axis is off the way's direction by the front wheels' steering.
+  for (const WayPoint& p : *way) {
+    const vehicle::State state{p.x, p.y, 0, 0, p.heading - (car.la + car.lb) * p.kappa, 0, p.v, 0};
+    EXPECT_GT(Footprint(car).edge_distance(*environment.road, state), 0) << p.t;
+  }
+  EXPECT_GE(environment.road->project({way->back().x, way->back().y}).s, environment.goal.s);
 }
 
 }  // namespace

@@ -11,10 +11,11 @@ namespace slalom::io {
 
 /// A scenario as the command line asks for it.
 struct ScenarioRequest {
-  std::string name_or_file;            ///< built-in name (E_A, E_A-figure, E_B, E_C) or a path
-  std::optional<std::string> planner;  ///< built-in planner name or file; overrides the file's
-  std::optional<double> tex;           ///< [s]
-  std::vector<std::string> overrides;  ///< "key.path=value", applied last, in order
+  std::string name_or_file;                 ///< built-in name (E_A, E_A-figure, E_B, E_C) or a path
+  std::optional<std::string> planner;       ///< built-in planner name or file; overrides the file's
+  std::optional<double> tex;                ///< [s]
+  std::vector<std::string> overrides;       ///< "key.path=value", applied last, in order
+  std::optional<std::string> vehicle = {};  ///< likewise a built-in vehicle's name or a file
 };
 
 /// Reads, overrides and checks a scenario. Throws InvalidValue with file:line:column (or
@@ -27,8 +28,8 @@ sim::Scenario load_scenario(const ScenarioRequest& request, std::vector<std::str
 
 /// The same for the text of a scenario file that came from `source`.
 sim::Scenario parse_scenario(const std::string& text, const std::string& source);
-/// Likewise, with a request's planner, tex and overrides; its name_or_file says where the text came
-/// from.
+/// Likewise, with a request's planner, vehicle, tex and overrides; its name_or_file says where the
+/// text came from.
 sim::Scenario parse_scenario(const std::string& text, const ScenarioRequest& request);
 
 /// One obstacle by the keys of a scenario file, a map as YAML or JSON; `source` names it in

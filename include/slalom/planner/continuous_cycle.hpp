@@ -15,7 +15,7 @@ struct ContinuousCycle {
 };
 
 /// The OCP of section 3 of docs/formulation.md for `request`, to be solved by any scheme, mesh and
-/// solver; settings of these are not looked at.
+/// solver; settings of these are not looked at. What moves by a trajectory goes on straight.
 ContinuousCycle continuous_cycle(const Task& task, const Request& request);
 
 }  // namespace slalom::planner

@@ -22,13 +22,17 @@ enum class ObstacleConstraint { hard, soft };
 /// The obstacles that a plan avoids.
 enum class ObstacleChoice { all, in_reach, nearest };
 
+/// How a planner takes obstacles to move that move by a trajectory: along it; on from where they
+/// are when it plans, straight at their velocity; or at their speed and turn rate.
+enum class Prediction { known, constant_velocity, constant_turn };
+
 /// What becomes of a plan that goes through an obstacle between its nodes: nothing; it says so; it
 /// is solved again on finer meshes.
 enum class BetweenNodes { ignore, report, refine };
 
-/// How a planner plans: the paper's OCP over a receding horizon, or whole ways to the goal of which
-/// none is driven before it is verified.
-enum class Method { receding_horizon, verified };
+/// How a planner plans: the paper's OCP over a receding horizon; whole ways to the goal of which
+/// none is driven before it is verified; or the fastest motion along a road without obstacles.
+enum class Method { receding_horizon, verified, along_road };
 
 /// The obstacles that a verifying planner is told of: all, or those within L_range.
 enum class Known { all, range };
@@ -53,6 +57,8 @@ struct Settings {
   double obstacle_group_gap = 0;  ///< nearer ones become one ellipse [m]; 0: none
   ObstacleConstraint obstacle_constraint = ObstacleConstraint::hard;
   double w_obstacle = 1000;  ///< of `soft`: weight of the rows' excess (l1) [1/s]
+  Prediction prediction = Prediction::known;
+  double cover_excess = 0.2;  ///< by which discs stick out of the bodies that they cover [m]
   BetweenNodes between_nodes = BetweenNodes::report;
   double passage_depth = 0.5;  ///< a plan may go into a margin between its nodes [m]
   bool retry_sides = false;    ///< try again from the left and the right before there is no plan
@@ -81,6 +87,8 @@ struct Settings {
   double L_range = 50, kappa = 5;     ///< LiDAR range and its relaxation [m]
   double sm_start = 2.5, sm_end = 4;  ///< safety margin at the first and last node [m]
 
+  double road_margin = 0.1;  ///< that a plan along a road keeps from its edges [m]
+
   // Tolerances of the slacked conditions.
   std::array<double, 8> X0_tol = {0.5, 0.5, 0.5, 0.005, 0.5, 0.025, 0.5, 0.5};
   double XF_tol = 5;  ///< [m]
@@ -97,6 +105,7 @@ struct Settings {
   double verified_clearance = 2.15;  ///< from obstacles' edges, at all times [m]
   double verified_wheel_load = 400;  ///< [N]
   double kept_clearance = 2.05;      ///< by its rest, where belief was wrong [m]
+  double edge_clearance = 0.05;      ///< from the road's edges; its rest keeps 0 [m]
   double kept_wheel_load = 200;      ///< [N]
   double standing_horizon = 60;      ///< for which standing must be clear of obstacles [s]
   double arrival_margin = 0.3;       ///< of the OCP's obstacles beyond verified_clearance [m]

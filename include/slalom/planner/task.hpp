@@ -17,4 +17,8 @@ struct Task : world::Environment {
 /// predicted state.
 bool goal_in_range(const Task& task, const vehicle::State& X0p);
 
+/// How far it is from a state to the goal [m]: along the road, to its end where the goal is a time;
+/// straight where there is no road.
+double way_left(const Task& task, const vehicle::State& state);
+
 }  // namespace slalom::planner

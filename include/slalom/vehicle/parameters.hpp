@@ -10,7 +10,10 @@ namespace slalom::vehicle {
 /// What of a vehicle keeps off obstacles: the front axle's centre, or the body's rectangle.
 enum class FootprintKind { point, rectangle };
 
-/// Parameters of the 3DoF vehicle: body, load transfer, pure-slip Pacejka tyre and limits.
+/// Whether an axle's longitudinal force takes from its lateral one.
+enum class TyreKind { pure_slip, combined_slip };
+
+/// Parameters of the 3DoF vehicle: body, load transfer, Pacejka tyre and limits.
 /// SI units; the defaults are the HMMWV's. A file or option sets them by the same names.
 struct Parameters {
   std::string name = "hmmwv";
@@ -34,7 +37,8 @@ struct Parameters {
   double KZYR = 1076;   ///< lateral transfer, rear [N/(m/s^2)]
   double KZYF = 675;    ///< lateral transfer, front [N/(m/s^2)]
 
-  // Lateral tyre force (Pacejka, pure slip); section 2 of docs/formulation.md.
+  // Lateral tyre force (Pacejka); section 2 of docs/formulation.md.
+  TyreKind tyre = TyreKind::pure_slip;
   double FZ0 = 35000;  ///< nominal load [N]
   double PCY1 = 1.5874;
   double PDY1 = 0.73957, PDY2 = -0.075004;
@@ -47,6 +51,9 @@ struct Parameters {
   double F_offset_rear = 259.95925391136984;  ///< makes Fyr(0) = 0 at static load [N]
   /// Off: PH, PV, PE3 and F_offset are taken as zero, so that left and right mirror each other.
   bool tyre_asymmetry = true;
+  double PDX1 = 0.73957;     ///< longitudinal friction; of combined slip and friction_share
+  double drive_front = 0.5;  ///< the front axle's share of the driving force ...
+  double brake_front = 0.5;  ///< ... and of the braking force
 
   // Limits.
   double psi_max = 6.283185307179586;  ///< |psi| [rad]
@@ -61,11 +68,18 @@ struct Parameters {
   std::array<double, 4> ax_min = {-0.000138537090018958, 0.00684702729623608, -0.120391102052425,
                                   -3.55886697370079};
 
+  double power = 0;           ///< of the drive [W]; 0 limits nothing
+  double friction_share = 0;  ///< of an axle's friction that ax may take; 0 limits nothing
+
   double sa_max() const;  ///< [rad]
   double sr_max() const;  ///< [rad/s]
-  /// Limits of longitudinal acceleration [m/s^2] at `speed` = ux [m/s].
+  /// Limits of longitudinal acceleration [m/s^2] at `speed` = ux [m/s]: the cubics, and within them
+  /// those of power and friction where stated.
   double ax_max_at(double speed) const;
   double ax_min_at(double speed) const;
+  /// Cornering stiffness of an axle [N/rad] at load Fz [N]: the slope of Pacejka's formula at zero
+  /// slip (H. Pacejka, Tire and Vehicle Dynamics, 2012, Eqn. 4.E25), positive here.
+  double cornering_stiffness(double Fz) const;
 };
 
 /// The registered options of Parameters, in file order, with unit, range, meaning and source.

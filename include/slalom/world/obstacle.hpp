@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct Obstacle {
   std::shared_ptr<const Trajectory> trajectory = {};
   double margin_start = 0;  ///< by which predictions take it for larger [m]
   double margin_rate = 0;   ///< and by how much more for each second ahead [m/s]
+  double predicted_at = 0;  ///< absolute time from which the seconds ahead count [s]
 
   double x_at(double t) const { return trajectory ? trajectory->at(t).x : x + vx * t; }
   double y_at(double t) const { return trajectory ? trajectory->at(t).y : y + vy * t; }
@@ -39,6 +41,12 @@ struct Obstacle {
   std::vector<Point> corners_at(double t) const;
   /// What no point of the body is faster than from t0 to t1 [m/s].
   double fastest(double t0, double t1) const;
+  /// By how much a prediction takes it for larger at t [m].
+  double margin(double t) const {
+    return margin_start + margin_rate * std::max(t - predicted_at, 0.0);
+  }
+  /// Radius about its point of reference of a circle that covers it [m], without margins.
+  double reach() const { return std::max(a, b) + rounding; }
   /// The body larger by `margin` [m]: an ellipse's semi-axes are longer, a polygon is so far off.
   Obstacle grown(double margin) const;
 };

@@ -71,6 +71,8 @@ class Road {
   static constexpr double kSag = 0.002;  ///< [m]
   /// What an edge's width changes by at the most along the edge [m/m].
   double steepest() const { return steepest_; }
+  /// What the distance to an edge bends by at the most along a straight line on the road [1/m].
+  double sharpest() const { return sharpest_; }
 
   /// Points along an edge, at most `step` [m] of the line apart: for drawing.
   std::vector<Point> edge(bool left, double step) const;
@@ -124,7 +126,7 @@ class Road {
   std::vector<RoadPoint> points_;
   std::vector<std::vector<Point>> lanes_;
   bool closed_;
-  double length_ = 0, narrowest_ = 0, steepest_ = 0;
+  double length_ = 0, narrowest_ = 0, steepest_ = 0, sharpest_ = 0;
   std::vector<Segment> segments_;
   std::vector<double> right_slope_, left_slope_;  ///< at the points [m/m]
   std::vector<Piece> pieces_;

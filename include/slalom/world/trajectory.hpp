@@ -108,9 +108,30 @@ class OffsetTrajectory final : public Trajectory {
   Rates fastest(double t0, double t1) const override;
   bool present(double t0, double t1) const override { return base_->present(t0, t1); }
 
+  const std::shared_ptr<const Trajectory>& base() const { return base_; }
+  Point offset() const { return offset_; }
+
  private:
   std::shared_ptr<const Trajectory> base_;
   Point offset_;
+};
+
+/// The motion `base`, all of it moved by a vector of the world.
+class MovedTrajectory final : public Trajectory {
+ public:
+  MovedTrajectory(std::shared_ptr<const Trajectory> base, Point by)
+      : base_(std::move(base)), by_(by) {}
+
+  Pose at(double t) const override;
+  Rates fastest(double t0, double t1) const override { return base_->fastest(t0, t1); }
+  bool present(double t0, double t1) const override { return base_->present(t0, t1); }
+
+  const std::shared_ptr<const Trajectory>& base() const { return base_; }
+  Point by() const { return by_; }
+
+ private:
+  std::shared_ptr<const Trajectory> base_;
+  Point by_;
 };
 
 /// From a pose at t0 [s] on at its velocity and turn rate: straight on, or along a circle.
@@ -122,6 +143,9 @@ class TurningTrajectory final : public Trajectory {
   Rates fastest(double, double) const override {
     return {std::hypot(pose_.vx, pose_.vy), std::fabs(pose_.omega)};
   }
+
+  double t0() const { return t0_; }
+  const Pose& pose() const { return pose_; }
 
  private:
   double t0_;

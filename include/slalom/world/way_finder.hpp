@@ -21,11 +21,12 @@ struct WayPoint {
 /// Points about 0.05 s apart, from the start into the goal; never fewer than one.
 using Way = std::vector<WayPoint>;
 
-/// The search of WayFinder, and what the vehicle in it does.
+/// The search of WayFinder, and what the vehicle in it does; the defaults are for the HMMWV.
 struct WaySearch {
   double dt = 0.4;                    ///< of a move [s]
   double clearance = 0.8;             ///< kept from the obstacles [m]
   double inset = 0.5;                 ///< kept from the region's sides [m]
+  double edge = 0.1;                  ///< kept from the road's edges [m]
   double v_min = 1.5, v_max = 28;     ///< [m/s]
   double lateral_acceleration = 3.2;  ///< most [m/s^2]
   double curvature = 0.15;            ///< most [1/m]
@@ -41,20 +42,27 @@ struct WaySearch {
   int max_places = 150'000;  ///< looked at before the search gives up
 };
 
-/// Finds ways to the goal among obstacles of constant velocity: hybrid A* (D. Dolgov, S. Thrun, M.
+/// The search with the limits of another vehicle, by its agility and top speed.
+WaySearch way_search(const vehicle::Parameters& vehicle);
+
+/// Finds ways to the goal among obstacles: hybrid A* (D. Dolgov, S. Thrun, M.
 /// Montemerlo and J. Diebel, "Path planning for autonomous vehicles in unknown semi-structured
 /// environments", Int. J. Robotics Research 29(5), 2010) over place, heading, speed, curvature and
 /// time. A move holds one rate of curvature and one acceleration; of the places in a cell the first
 /// alone is gone on from. The rank of a place is its time and the time from there along the
 /// shortest path around what stands. The same questions have the same answers, to the bit.
 ///
-/// Keeps its memory: a find() that is no larger than one before allocates nothing but its answer.
+/// Keeps its memory: a find() among plain obstacles that is no larger than one before allocates
+/// nothing but its answer.
 class WayFinder {
  public:
   static constexpr int kAskedEvery = 256;
 
-  /// Ways lead to the goal of `environment` within its region; its obstacles are not used.
-  WayFinder(const Environment& environment, const vehicle::Parameters& vehicle);
+  /// Ways lead to the goal of `environment` within its region; its obstacles are not used. Discs
+  /// that stick out by `cover_excess` [m] stand in for obstacles that are not plain and for the
+  /// vehicle's body.
+  WayFinder(const Environment& environment, const vehicle::Parameters& vehicle,
+            double cover_excess = 0.2);
   ~WayFinder();
   WayFinder(WayFinder&&) noexcept;
   WayFinder& operator=(WayFinder&&) noexcept;
@@ -63,6 +71,9 @@ class WayFinder {
   /// which are grown by the drive's margin already -- at every tenth of a move, and ends within
   /// half the goal's sigma along its direction and 0.6 sigma across. nullopt when the search finds
   /// none within max_places or before out_of_budget(), asked every kAskedEvery places, says so.
+  ///
+  /// Obstacles with a trajectory go straight from where they are at the beginning of a move to
+  /// where they are at its end, with the margin they have there.
   ///
   /// A start that keeps too little distance may leave. An obstacle that has it within the clearance
   /// counts without clearance; one that contains it counts by an ellipse of the same shape half as

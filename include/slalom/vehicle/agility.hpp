@@ -1,0 +1,18 @@
+#pragma once
+
+#include "slalom/vehicle/parameters.hpp"
+
+namespace slalom::vehicle {
+
+/// What a vehicle can do, as multiples of what the HMMWV can, for which the planners' own limits
+/// were found: each of these times the limit is another vehicle's. All are exactly 1 of the HMMWV.
+struct Agility {
+  double braking = 1;         ///< by ax_min at standstill
+  double lateral = 1;         ///< acceleration at which a tyre slides or a wheel is at Fz_min
+  double curvature = 1;       ///< by sa_max and the axles' distance
+  double curvature_rate = 1;  ///< by sr_max and the axles' distance
+};
+
+Agility agility(const Parameters& parameters);
+
+}  // namespace slalom::vehicle

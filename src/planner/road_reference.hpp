@@ -1,0 +1,20 @@
+#pragma once
+
+#include "motion.hpp"
+#include "slalom/vehicle/parameters.hpp"
+#include "slalom/world/road.hpp"
+
+namespace slalom::planner {
+
+/// From X0 at t0 [s] along a road at the offset from its line that X0 has, or as far from its edges
+/// as the body needs, for `duration` [s], braking by `deceleration` [m/s^2] until the vehicle
+/// creeps: in steady cornering, as reference_of() has it.
+Motion road_reference(const world::Road& road, const vehicle::State& X0, double t0, double duration,
+                      double deceleration, const vehicle::Parameters& vehicle);
+
+/// `motion`, and then on for `beyond` [s], braking: along the road, or straight where there is
+/// none.
+Motion braked_on(Motion motion, const vehicle::Parameters& vehicle, const world::Road* road,
+                 double beyond);
+
+}  // namespace slalom::planner

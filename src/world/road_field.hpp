@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "slalom/world/road.hpp"
+
+namespace slalom::world {
+
+/// A road as a search sees it, which asks for far more places than the road itself could be asked
+/// for: distances to its edges and places along it on a square grid about the corridor.
+class RoadField {
+ public:
+  explicit RoadField(const Road& road);
+
+  /// How far a place is within the nearer edge [m]; linear between the grid's points, and far
+  /// outside where there is no grid. In a curve of radius R, kCell^2 / 4 R off at the most.
+  double edge_distance(double x, double y) const;
+  /// Along the road [m], by the nearest point of the grid; of a place on the road.
+  double along(double x, double y) const;
+
+  static constexpr double kCell = 0.5;  ///< [m]
+
+ private:
+  static constexpr int kSide = 16;  ///< cells of a block along x and y
+  static constexpr int kPoints =
+      kSide + 1;  ///< its points; those of its sides are its neighbours' too
+  static constexpr float kOff = -1e3F;
+
+  struct Spot {
+    const float* block = nullptr;  ///< the first of its points; nullptr off the grid
+    double i = 0, j = 0;           ///< within the block [cells]
+  };
+  Spot spot(double x, double y) const;
+  void place(const Road& road);
+  void fill(const Road& road);
+
+  double x0_ = 0, y0_ = 0;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::int32_t> block_;  ///< by column and row, the number of its block or -1
+  std::vector<float> edge_, along_;  ///< block by block, row by row
+};
+
+}  // namespace slalom::world
