@@ -129,7 +129,7 @@ def test_goals_of_other_kinds(tmp_path, version):
     time = "<time><intervalStart>30</intervalStart><intervalEnd>40</intervalEnd></time>"
     lane = goal_of(f'<goalState><position><lanelet ref="4"/></position>{time}</goalState>').goal
     assert 100 <= lane["x"] - lane["length"] / 2 and lane["x"] + lane["length"] / 2 <= 202 and lane["length"] > 80
-    assert 2 <= lane["y"] - lane["width"] / 2 + 0.03 and lane["y"] + lane["width"] / 2 <= 6.03 and lane["width"] > 3
+    assert 2 <= lane["y"] - lane["width"] / 2 + 0.03 and lane["y"] + lane["width"] / 2 <= 6.03 and lane["width"] > 2.5
     scene = goal_of(f"<goalState>{time}</goalState>")
     assert scene.goal == {"time": pytest.approx(4)} and scene.points and not scene.limits
     scene = goal_of("<goalState>" + time.replace(">40<", ">90<") + "</goalState>")  # the lanes end 180 m ahead

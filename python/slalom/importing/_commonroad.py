@@ -273,8 +273,13 @@ def _as_far_as_possible(
         return {"time": time}, None
     _must_start_on_a_lane(way)
     first = min(way.starts, key=lambda lane: way.starts[lane])
-    ahead = way.speed * time + ACCELERATION / 2 * time**2 + BEYOND
+    ahead = _reached(way.speed, time) + BEYOND
     return {"time": time}, way.road([way.lanes[first]], ahead, None)
+
+
+def _reached(speed: float, time: float) -> float:
+    """How far a vehicle may come [m]."""
+    return speed * time + ACCELERATION / 2 * time**2
 
 
 def _must_start_on_a_lane(way: _Way) -> None:
@@ -305,8 +310,9 @@ def _within_the_map(
     if "time" not in goal:
         return {}
     s = project(road.line, np.array([start["x"], start["y"]]))[0]
-    speed = (road.length - s - car.front_overhang - AT_THE_END) / goal["time"]
-    if speed >= car.ux_max or speed <= start["ux"]:
+    time, room = goal["time"], road.length - s - car.front_overhang - AT_THE_END
+    speed = room / time
+    if room > _reached(start["ux"], time) or speed >= car.ux_max or speed <= start["ux"]:
         return {}
     way.notes.append(f"vehicle: at most {speed:.1f} m/s, for the lanes end {road.length - s:.0f} m ahead")
     return {"ux_max": speed}
