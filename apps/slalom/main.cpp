@@ -63,6 +63,7 @@ int run_app(int argc, char** argv) {
   app::Command run;
   app::add_simulate(cli, run);
   app::add_plan(cli, run);
+  app::add_lap(cli, run);
   app::add_reproduce(cli, run);
   app::add_sweep(cli, run);
   app::add_merge(cli, run);
@@ -70,6 +71,8 @@ int run_app(int argc, char** argv) {
   app::add_replay(cli, run);
   app::add_compare(cli, run);
   app::add_make_scenarios(cli, run);
+  app::add_import(cli, run);
+  app::add_export(cli, run);
   app::add_check(cli, run);
   app::add_list(cli, run);
   app::add_problems(cli, run);

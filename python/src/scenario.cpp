@@ -183,6 +183,9 @@ void bind_class(nb::module_& module) {
       .def_ro("region", &Scenario::region)
       .def_prop_ro(
           "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
+      .def_prop_ro(
+          "road", [](const Scenario& s) { return s.road.get(); }, nb::rv_policy::reference_internal,
+          nb::sig("def road(self) -> Road | None"), "To stay on; None without one.")
       .def("keys", &keys, "Keys of all values, as `set=` takes them.")
       .def("__getitem__", &value, "key"_a,
            "A value by its key, such as \"planner.w_t\", \"start.ux\" or \"obstacles.lorry.b\".")
@@ -227,6 +230,7 @@ Scenario scenario_of(const ScenarioChoice& choice, const Changes& changes) {
 
 void bind_scenario(nb::module_& module) {
   bind_parts(module);
+  bind_road(module);
   bind_obstacle(module);
   bind_class(module);
   module.def(

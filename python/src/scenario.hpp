@@ -31,4 +31,6 @@ struct Changes {
 /// Throws InvalidValue for what is no scenario.
 sim::Scenario scenario_of(const ScenarioChoice& choice, const Changes& changes);
 
+void bind_road(nb::module_& module);
+
 }  // namespace slalom::python

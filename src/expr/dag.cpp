@@ -1,5 +1,6 @@
 #include "dag.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -56,6 +57,14 @@ Dag::Id Dag::apply(Op op, Id a, Id b, Id c) {
   if (op == Op::select) return simplify_select(a, b, c);
   if (op == Op::square && vertices_[a].op == Op::neg) a = vertices_[a].arg[0];
   return insert(op, a, n > 1 ? b : 0, n > 2 ? c : 0, 0);
+}
+
+Dag::Id Dag::lookup(const std::shared_ptr<const Steps>& steps, Id a) {
+  if (is_constant(a)) return constant(steps->at(vertices_[a].value));
+  const auto known = std::find(steps_.begin(), steps_.end(), steps);
+  const auto index = static_cast<double>(known - steps_.begin());
+  if (known == steps_.end()) steps_.push_back(steps);
+  return insert(Op::lookup, a, 0, 0, index);
 }
 
 Dag::Id Dag::simplify_select(Id condition, Id yes, Id no) {
@@ -197,7 +206,8 @@ std::vector<Dag::Id> Dag::import(const std::vector<Expr>& outputs,
       std::array<Id, 3> arg{};
       for (std::size_t i = 0; i < node->args().size(); ++i)
         arg[i] = image.at(node->args()[i].node());
-      id = apply(node->op(), arg[0], arg[1], arg[2]);
+      id =
+          node->steps() ? lookup(node->steps(), arg[0]) : apply(node->op(), arg[0], arg[1], arg[2]);
     }
     image.emplace(node, id);
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -19,12 +20,13 @@ class Dag {
   struct Vertex {
     Op op;
     std::array<Id, 3> arg;
-    double value;  ///< of a constant; index of an input (Op::symbol)
+    double value;  ///< of a constant; index of an input (Op::symbol), or of steps (Op::lookup)
   };
 
   Id constant(double value);
   Id input(std::size_t index);
   Id apply(Op op, Id a, Id b = 0, Id c = 0);
+  Id lookup(const std::shared_ptr<const Steps>& steps, Id a);
 
   Id add(Id a, Id b) { return apply(Op::add, a, b); }
   Id sub(Id a, Id b) { return apply(Op::sub, a, b); }
@@ -34,6 +36,10 @@ class Dag {
 
   const Vertex& operator[](Id id) const { return vertices_[id]; }
   std::size_t size() const { return vertices_.size(); }
+  /// The step function of a lookup.
+  const std::shared_ptr<const Steps>& steps(Id id) const {
+    return steps_[static_cast<std::size_t>(vertices_[id].value)];
+  }
   bool is_constant(Id id) const { return vertices_[id].op == Op::constant; }
   bool is(Id id, double value) const { return is_constant(id) && vertices_[id].value == value; }
 
@@ -62,6 +68,7 @@ class Dag {
     std::size_t operator()(const Key& key) const;
   };
   std::vector<Vertex> vertices_;
+  std::vector<std::shared_ptr<const Steps>> steps_;
   std::unordered_map<Key, Id, KeyHash> index_;
   int mask_depth_ = 0;
 };

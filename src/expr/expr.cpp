@@ -1,5 +1,6 @@
 #include "slalom/expr/expr.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <unordered_map>
@@ -11,8 +12,13 @@
 
 namespace slalom::expr {
 
-Node::Node(Op op, double value, std::string name, std::vector<Expr> args)
-    : op_(op), value_(value), name_(std::move(name)), args_(std::move(args)) {}
+Node::Node(Op op, double value, std::string name, std::vector<Expr> args,
+           std::shared_ptr<const Steps> steps)
+    : op_(op),
+      value_(value),
+      name_(std::move(name)),
+      args_(std::move(args)),
+      steps_(std::move(steps)) {}
 
 Node::~Node() {
   // Children that die with this node are collected and released one by one: no recursion.
@@ -71,6 +77,16 @@ Expr Expr::apply(Op op, const Expr& a, const Expr& b, const Expr& c) {
   if (a.is_constant() && b.is_constant() && c.is_constant())
     return Expr(evaluate(op, a.value(), b.value(), c.value()));
   return Expr(std::make_shared<Node>(op, 0.0, "", std::vector<Expr>{a, b, c}));
+}
+
+double Steps::at(double x) const {
+  const auto next = std::lower_bound(begins.begin() + 1, begins.end(), x);
+  return values[static_cast<std::size_t>(next - begins.begin()) - 1];
+}
+
+Expr Expr::apply(std::shared_ptr<const Steps> steps, const Expr& a) {
+  if (a.is_constant()) return Expr(steps->at(a.value()));
+  return Expr(std::make_shared<Node>(Op::lookup, 0.0, "", std::vector<Expr>{a}, std::move(steps)));
 }
 
 Expr& Expr::operator+=(const Expr& other) {
@@ -203,6 +219,8 @@ double evaluate(Op op, double a, double b, double c) {
       return std::fabs(a);
     case Op::sign:
       return std::isnan(a) ? a : static_cast<double>((a > 0) - (a < 0));
+    case Op::lookup:  // of a step function: Steps::at
+      break;
     case Op::add:
       return a + b;
     case Op::sub:
@@ -222,12 +240,12 @@ double evaluate(Op op, double a, double b, double c) {
     case Op::select:
       return a > 0 ? b : c;
   }
-  return 0;
+  return std::nan("");
 }
 
 std::size_t arity(Op op) {
   if (op <= Op::symbol) return 0;
-  if (op <= Op::sign) return 1;
+  if (op <= Op::lookup) return 1;
   return op == Op::select ? 3 : 2;
 }
 
@@ -274,7 +292,8 @@ std::vector<Expr> substitute(const std::vector<Expr>& outputs, const std::vector
     const auto& args = node->args();
     switch (args.size()) {
       case 1:
-        image.emplace(node, Expr::apply(node->op(), image.at(args[0].node())));
+        image.emplace(node, node->steps() ? Expr::apply(node->steps(), image.at(args[0].node()))
+                                          : Expr::apply(node->op(), image.at(args[0].node())));
         break;
       case 2:
         image.emplace(node,

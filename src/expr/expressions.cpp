@@ -24,6 +24,8 @@ std::vector<Expr> expressions(const Dag& dag, const std::vector<Dag::Id>& ids,
       image[id] = Expr(value);
     else if (op == Op::symbol)
       image[id] = inputs.at(static_cast<std::size_t>(value));
+    else if (op == Op::lookup)
+      image[id] = Expr::apply(dag.steps(id), *image[arg[0]]);
     else if (arity(op) == 1)
       image[id] = Expr::apply(op, *image[arg[0]]);
     else if (arity(op) == 2)

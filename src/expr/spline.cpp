@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 #include "op.hpp"
 #include "slalom/base/error.hpp"
@@ -44,6 +48,10 @@ Vector curvatures(const Vector& x, const Vector& y) {
   return m;
 }
 
+/// From so many pieces on they are looked up instead of chosen between: a few choices are faster,
+/// for they need no branches.
+constexpr std::size_t kManyPieces = 64;
+
 /// list[k] for the piece k that x lies in: pieces begin at `begins`. The choice has derivative 0,
 /// so that the derivative is that of the piece.
 Expr pick(const Expr& x, const Vector& begins, const std::vector<Expr>& list, std::size_t first,
@@ -52,6 +60,16 @@ Expr pick(const Expr& x, const Vector& begins, const std::vector<Expr>& list, st
   const std::size_t middle = (first + last + 1) / 2;
   return select(x - begins[middle], pick(x, begins, list, middle, last),
                 pick(x, begins, list, first, middle - 1));
+}
+
+Expr pick(const Expr& x, const Vector& begins, const std::vector<Expr>& list) {
+  const bool constant =
+      std::all_of(list.begin(), list.end(), [](const Expr& e) { return e.is_constant(); });
+  if (!constant || list.size() < kManyPieces) return pick(x, begins, list, 0, list.size() - 1);
+  auto steps = std::make_shared<Steps>();
+  steps->begins = begins;
+  for (const Expr& value : list) steps->values.push_back(value.value());
+  return Expr::apply(std::move(steps), x);
 }
 
 /// The spline of these values and second derivatives at the knots.
@@ -79,9 +97,7 @@ Expr assemble(const Expr& at_x, const Vector& knots, const std::vector<Expr>& va
     add(knots[i], i, begin, m[i], (m[i + 1] - m[i]) / h);
     if (i + 1 == last) add(knots[last], last, chord + h * (m[i] + 2 * m[i + 1]) / 6, 0, 0);
   }
-  const auto chosen = [&](const std::vector<Expr>& list) {
-    return pick(x, begins, list, 0, list.size() - 1);
-  };
+  const auto chosen = [&](const std::vector<Expr>& list) { return pick(x, begins, list); };
   const Expr d = x - chosen(at);
   const Expr spline =
       chosen(value) + d * (chosen(slope) + d * (chosen(second) + d * chosen(third)));
@@ -121,6 +137,30 @@ std::vector<Expr> room_in_tables(const std::vector<Expr>& outputs) {
     if (node->op() == Op::select && node->args()[1].same(node->args()[2]))
       rooms.push_back(node->args()[0]);
   return rooms;
+}
+
+std::vector<Expr> without_lookups(const std::vector<Expr>& outputs) {
+  std::unordered_map<const Node*, Expr> image;
+  const auto of = [&](const Expr& arg) {
+    const auto found = image.find(arg.node());
+    return found != image.end() ? found->second : arg;
+  };
+  for (const Node* node : topological_order(outputs)) {
+    const auto& args = node->args();
+    if (const auto& steps = node->steps()) {
+      const std::vector<Expr> values(steps->values.begin(), steps->values.end());
+      image.emplace(node, pick(of(args[0]), steps->begins, values, 0, values.size() - 1));
+    } else if (std::any_of(args.begin(), args.end(),
+                           [&](const Expr& arg) { return image.contains(arg.node()); })) {
+      image.emplace(node, args.size() == 1 ? Expr::apply(node->op(), of(args[0]))
+                          : args.size() == 2
+                              ? Expr::apply(node->op(), of(args[0]), of(args[1]))
+                              : Expr::apply(node->op(), of(args[0]), of(args[1]), of(args[2])));
+    }
+  }
+  std::vector<Expr> result;
+  for (const Expr& output : outputs) result.push_back(of(output));
+  return result;
 }
 
 }  // namespace slalom::expr

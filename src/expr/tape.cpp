@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "op.hpp"
+#include "slalom/base/error.hpp"
 #include "slalom/base/kernels.hpp"
 
 namespace slalom::expr {
@@ -134,6 +135,15 @@ class Selection {
   std::vector<Dag::Id> reciprocal_;
 };
 
+std::uint16_t add_steps(Tape& tape, const std::shared_ptr<const Steps>& steps) {
+  const auto known = std::find(tape.steps.begin(), tape.steps.end(), steps);
+  const auto index = known - tape.steps.begin();
+  if (index > std::numeric_limits<std::uint16_t>::max())
+    throw Error("function: more step functions than an instruction can name");
+  if (known == tape.steps.end()) tape.steps.push_back(steps);
+  return static_cast<std::uint16_t>(index);
+}
+
 }  // namespace
 
 Tape compile(const Dag& dag, const std::vector<Dag::Id>& results, const Given& given,
@@ -165,7 +175,9 @@ Tape compile(const Dag& dag, const std::vector<Dag::Id>& results, const Given& g
   for (Dag::Id id = 0; id < dag.size(); ++id) {
     if (!selection.is_step(id)) continue;
     const auto [code, args, arg] = selection[id];
-    Instruction step{code, 0, row[arg[0]], args > 1 ? row[arg[1]] : 0, args > 2 ? row[arg[2]] : 0};
+    Instruction step{
+        code, 0, 0, row[arg[0]], args > 1 ? row[arg[1]] : 0, args > 2 ? row[arg[2]] : 0};
+    if (code == code_of(Op::lookup)) step.steps = add_steps(tape, dag.steps(id));
     for (std::size_t i = 0; i < args; ++i) {
       const bool repeated = (i > 0 && arg[i] == arg[0]) || (i > 1 && arg[i] == arg[1]);
       if (!repeated && last_reader[arg[i]] == id && selection.is_step(arg[i]))

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,7 @@ inline constexpr Code kMinusProduct = code_of(Op::select) + 3;  ///< c - a b
 /// One operation on whole rows of lanes.
 struct Instruction {
   Code code;
+  std::uint16_t steps;        ///< which step function a lookup has
   std::uint32_t to, a, b, c;  ///< rows
 };
 
@@ -43,6 +45,7 @@ struct Tape {
   };
   std::vector<Load> inputs;
   std::vector<Fill> constants;
+  std::vector<std::shared_ptr<const Steps>> steps;
   std::vector<Instruction> code;
   std::vector<Output> outputs;        ///< row of each result
   std::vector<std::uint32_t> copied;  ///< those that are not direct

@@ -87,6 +87,9 @@ void run_width(const Tape& tape, double* const* rows) {
       case code_of(Op::sign):
         map1<V, Width>(to, a, V::sign);
         break;
+      case code_of(Op::lookup):
+        for (std::size_t i = 0; i < Width; ++i) to[i] = tape.steps[step.steps]->at(a[i]);
+        break;
       case code_of(Op::add):
         map2<V, Width>(to, a, b, [](T x, T y) { return x + y; });
         break;

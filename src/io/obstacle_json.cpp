@@ -75,15 +75,14 @@ std::shared_ptr<const Trajectory> trajectory(const JsonReader& reader, int bases
     std::vector<world::TrajectoryRow> rows;
     for (const auto& row : reader.at("table").table(4))
       rows.push_back({row[0], row[1], row[2], row[3]});
-    return std::make_shared<world::TableTrajectory>(
-        std::move(rows), beyond_end(reader.at("before")), beyond_end(reader.at("after")),
-        reader.where());
+    return std::make_shared<world::TableTrajectory>(std::move(rows),
+                                                    beyond_end(reader.at("before")),
+                                                    beyond_end(reader.at("after")), reader.where());
   }
   if (reader.has("path"))
-    return std::make_shared<world::PathTrajectory>(points(reader.at("path")),
-                                                   reader.at("speed").real(),
-                                                   reader.at("acceleration").real(),
-                                                   reader.where());
+    return std::make_shared<world::PathTrajectory>(
+        points(reader.at("path")), reader.at("speed").real(), reader.at("acceleration").real(),
+        reader.where());
   if (reader.has("turning")) {
     const auto n = numbers(reader.at("turning"), 7, "t0, x, y, psi, vx, vy, omega");
     return std::make_shared<world::TurningTrajectory>(

@@ -215,9 +215,11 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
       estimate.largest = error;
       estimate.worst = k;
     }
-    std::fill(running.begin() + static_cast<std::ptrdiff_t>(problem.states().size()), running.end(),
-              0.0);
-    if (!running.empty()) running = integrator.across(k, running);
+    if (!running.empty()) {  // empty once the integration along the horizon has failed
+      std::fill(running.begin() + static_cast<std::ptrdiff_t>(problem.states().size()),
+                running.end(), 0.0);
+      running = integrator.across(k, running);
+    }
     const Vector states(running.begin(),
                         running.begin() + static_cast<std::ptrdiff_t>(
                                               running.empty() ? 0 : problem.states().size()));

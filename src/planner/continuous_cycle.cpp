@@ -11,11 +11,9 @@ ContinuousCycle continuous_cycle(const Task& task, const Request& request) {
   const bool in_range = goal_in_range(task, request.X0p);
   Settings straight = task.planner;
   straight.prediction = Prediction::constant_velocity;
-  const world::Footprint footprint(task.vehicle);
-  const auto pairs =
-      pairs_of(covered(task.planner, footprint, believed(straight, task.obstacles, request.t0)),
-               footprint.covering_discs(task.planner.cover_excess));
-  TrajectoryProblem stated(task, pairs, in_range);
+  const auto obstacles = covered(task.planner, world::Footprint(task.vehicle),
+                                 believed(straight, task.obstacles, request.t0));
+  TrajectoryProblem stated(task, obstacles, in_range);
   stated.update(request);
   ocp::Trajectory straight_on = Guess(task)(request, in_range, nullptr);
   stated.map().to_planner(straight_on);

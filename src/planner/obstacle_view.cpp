@@ -66,12 +66,4 @@ std::vector<Obstacle> covered(const Settings& settings, const world::Footprint& 
   return discs;
 }
 
-std::vector<Pair> pairs_of(const std::vector<Obstacle>& discs,
-                           const std::vector<world::Disc>& vehicle) {
-  std::vector<Pair> pairs;
-  for (const auto& o : discs)
-    for (const auto& disc : vehicle) pairs.push_back({o.grown(disc.radius), disc.ahead});
-  return pairs;
-}
-
 }  // namespace slalom::planner

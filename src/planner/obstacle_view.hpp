@@ -31,14 +31,4 @@ inline constexpr std::array<double, 6> kNowhere = {1e5, 1e5, 1e3, 1e3, 0, 0};
 std::vector<world::Obstacle> covered(const Settings& settings, const world::Footprint& footprint,
                                      const std::vector<world::Obstacle>& obstacles);
 
-/// What a row at a node keeps apart: an obstacle, as covered() leaves it, and the centre of a disc
-/// of the vehicle.
-struct Pair {
-  world::Obstacle obstacle;  ///< larger by the radius of the vehicle's disc
-  double ahead = 0;          ///< of that disc's centre, from the front axle's on [m]
-};
-/// Every one of `discs` with every disc of the vehicle.
-std::vector<Pair> pairs_of(const std::vector<world::Obstacle>& discs,
-                           const std::vector<world::Disc>& vehicle);
-
 }  // namespace slalom::planner

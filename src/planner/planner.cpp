@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "line_planner.hpp"
 #include "local_frame.hpp"
 #include "planning_method.hpp"
 #include "receding_horizon.hpp"
@@ -15,6 +16,8 @@ Planner::Planner(const Task& task)
   const Task local = frame_->to_local(task);
   if (task.planner.method == Method::verified)
     method_ = std::make_unique<VerifiedPlanner>(local);
+  else if (task.planner.method == Method::along_road)
+    method_ = std::make_unique<LinePlanner>(local);
   else
     method_ = std::make_unique<RecedingHorizon>(local);
 }

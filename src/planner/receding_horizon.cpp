@@ -108,10 +108,8 @@ RecedingHorizon::RecedingHorizon(const Task& task)
     : task_(with_groups(task)),
       settings_(task_.planner),
       footprint_(task_.vehicle),
-      vehicle_(footprint_.covering_discs(settings_.cover_excess)),
       known_(believed(settings_, task_.obstacles, 0)),
       chosen_(choose_obstacles(settings_, {}, known_, footprint_)),
-      pairs_(pairs_of(chosen_, vehicle_)),
       guess_(task_),
       solver_(nlp::make_solver(to_string(settings_.solver))) {
   prepare();
@@ -143,10 +141,10 @@ void RecedingHorizon::record(const Recorder& recorder) {
 /// The form for the goal in or out of range and for as many obstacles as are chosen, transcribed
 /// when it is first wanted.
 RecedingHorizon::Form& RecedingHorizon::form(bool in_range, int intervals) {
-  const FormKey key{in_range, pairs_.size(), intervals};
+  const FormKey key{in_range, chosen_.size(), intervals};
   const auto found = forms_.find(key);
   if (found != forms_.end()) return found->second;
-  return forms_.try_emplace(key, TrajectoryProblem(task_, pairs_, in_range), settings_, intervals)
+  return forms_.try_emplace(key, TrajectoryProblem(task_, chosen_, in_range), settings_, intervals)
       .first->second;
 }
 
@@ -161,15 +159,14 @@ void RecedingHorizon::choose(const Request& request) {
                request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
                request.t0);
   chosen_ = choose_obstacles(settings_, request, known_, footprint_);
-  pairs_ = pairs_of(chosen_, vehicle_);
   for (auto& [key, form] : forms_)
-    if (std::get<1>(key) == pairs_.size()) form.problem.set_obstacles(pairs_, {request.t0});
+    if (std::get<1>(key) == chosen_.size()) form.problem.set_obstacles(chosen_, {request.t0});
 }
 
 /// Gives rows of obstacles whose numbers vary those of the times at which the start of the solve is
 /// at the points of the mesh.
 void RecedingHorizon::place_obstacles(const Request& request, Form& form) const {
-  form.problem.set_obstacles(pairs_,
+  form.problem.set_obstacles(chosen_,
                              obstacle_times(settings_, request, form.transcription, start_.x));
   form.transcription.update(form.problem.problem());
 }

@@ -36,7 +36,7 @@ class RecedingHorizon final : public PlanningMethod {
     Form(TrajectoryProblem p, const Settings& settings, int intervals);
     void update(const Request& request);
   };
-  /// Whether the goal is in range, and the numbers of pairs and of mesh intervals.
+  /// Whether the goal is in range, and the numbers of obstacles and of mesh intervals.
   using FormKey = std::tuple<bool, std::size_t, int>;
   /// One solve of a cycle.
   struct Attempt {
@@ -70,12 +70,10 @@ class RecedingHorizon final : public PlanningMethod {
   const Task task_;  ///< its obstacles grouped
   const Settings& settings_;
   const world::Footprint footprint_;
-  const std::vector<world::Disc> vehicle_;  ///< the discs that cover it
-  std::vector<world::Obstacle> known_;      ///< as believed in this cycle
-  std::vector<world::Obstacle> chosen_;     ///< of these, as discs
-  std::vector<Pair> pairs_;                 ///< of these with those of the vehicle
-  std::vector<world::Obstacle> of_last_;    ///< of the last plan, whose multipliers are there
-  bool as_made_ = false;                    ///< none measured in the last cycle, and none too far
+  std::vector<world::Obstacle> known_;    ///< as believed in this cycle
+  std::vector<world::Obstacle> chosen_;   ///< of these, as discs
+  std::vector<world::Obstacle> of_last_;  ///< of the last plan, whose multipliers are there
+  bool as_made_ = false;                  ///< none measured in the last cycle, and none too far
   std::map<FormKey, Form> forms_;
   Guess guess_;
   std::optional<Recorder> recorder_;

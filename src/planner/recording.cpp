@@ -44,16 +44,15 @@ Replayed replay(const Recording& recording, const Task& task) {
   Task known = LocalFrame(task.goal).to_local(task);
   if (recording.obstacles) known.obstacles = *recording.obstacles;
   const world::Footprint footprint(known.vehicle);
-  const auto pairs = pairs_of(
-      choose_obstacles(settings, request,
-                       believed(settings, group_obstacles(settings, known.obstacles), request.t0),
-                       footprint),
-      footprint.covering_discs(settings.cover_excess));
-  TrajectoryProblem problem(known, pairs, recording.goal_in_range);
+  const auto chosen = choose_obstacles(
+      settings, request, believed(settings, group_obstacles(settings, known.obstacles), request.t0),
+      footprint);
+  TrajectoryProblem problem(known, chosen, recording.goal_in_range);
   problem.update(request);
   ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
                                    scheme_of(settings));
-  problem.set_obstacles(pairs, obstacle_times(settings, request, transcription, recording.start.x));
+  problem.set_obstacles(chosen,
+                        obstacle_times(settings, request, transcription, recording.start.x));
   transcription.update(problem.problem());
   nlp::Options options = recording.options;
   options.time_limit = std::numeric_limits<double>::infinity();

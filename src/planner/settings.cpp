@@ -24,10 +24,11 @@ const std::vector<std::string>& solver_names() {
 void add_what_tells_planners_apart(Table& table) {
   using S = Settings;
   table.text("name", &S::name, "Name of the planner, shown in reports.")
-      .choice("method", &S::method, {"receding_horizon", "verified"},
+      .choice("method", &S::method, {"receding_horizon", "verified", "along_road"},
               "receding_horizon: the paper's OCP, from cycle to cycle. verified: whole ways to the "
               "goal, found by a search in place and time, of which none is driven before the plant "
-              "as it is believed in has driven it; see docs/verified-planner.md.")
+              "as it is believed in has driven it; see docs/verified-planner.md. along_road: the "
+              "fastest motion over the next L_range metres of a road without obstacles.")
       .real("w_t", &S::w_t, Range::non_negative(), "1/s",
             "Weight of the final time tf in the cost (paper Eqn. 5, first term): 0 for P_A, 100 "
             "for P_B, P_C and P_D.",
@@ -70,10 +71,10 @@ void add_what_tells_planners_apart(Table& table) {
           "not there yet is not known of. Obstacles without either go straight on anyway.")
       .real(
           "cover_excess", &S::cover_excess, Range::positive(), "m",
-          "By how much the discs that stand in for a box, a polygon, a turned ellipse or the "
-          "vehicle's body may stick out of it in the OCP and the search, where the body's width "
-          "allows with 16 discs: half as much takes 1.4 times as many rows. What judges plans and "
-          "drives has the exact shapes.")
+          "By how much the discs that stand in for a box, a polygon or a turned ellipse may stick "
+          "out of it in the OCP and the search, where 16 discs do; half as much takes 1.4 times as "
+          "many rows. In the search discs stand in for the vehicle's body too. What judges plans "
+          "and drives has the exact shapes.")
       .choice(
           "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
           "Rows of obstacles hold at nodes alone, as in the paper. A plan that between them goes "
@@ -157,6 +158,10 @@ void add_horizon(Table& table) {
             kTable)
       .real("kappa", &S::kappa, Range::non_negative(), "m",
             "Relaxation of the LiDAR's range (paper Eqn. 8, 19, 20): 5, and 10 in E_C.", kTable)
+      .real(
+          "road_margin", &S::road_margin, Range::non_negative(), "m",
+          "What a plan along a road keeps the body from the road's edges by, for they are kept at "
+          "the nodes of its mesh and the plant's path between.")
       .real("sm_start", &S::sm_start, Range::non_negative(), "m",
             "Margin by which obstacles grow at the first node (sm_1 in paper Eqn. 7).", kTable)
       .real("sm_end", &S::sm_end, Range::non_negative(), "m",

@@ -9,11 +9,11 @@ namespace slalom::planner {
 
 /// The vehicle's body to a row of an OCP: the distance from a place to its rectangle made smooth.
 /// One row does for a disc of an obstacle, where discs of the vehicle would take several, and it is
-/// closer to the body (docs/obstacles.md has both in figures).
+/// closer to the body (docs/keeping-off.md has both in figures).
 ///
 /// With the place (u, v) in the rectangle's middle, l and w its half sides and e the smoothing, of
-/// f(z, h) = (q + sqrt(q^2 + e^2)) / 2, q = sqrt(z^2 + e^2) - h, which is above max(|z| - h, 0), the
-/// distance is sqrt(f(u, l)^2 + f(v, w)^2).
+/// f(z, h) = (q + sqrt(q^2 + e^2)) / 2, q = sqrt(z^2 + e^2) - h, which is above max(|z| - h, 0),
+/// the distance is sqrt(f(u, l)^2 + f(v, w)^2).
 class SmoothBox {
  public:
   /// Of a footprint that is not a point.

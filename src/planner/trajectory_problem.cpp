@@ -37,15 +37,16 @@ std::vector<double> obstacle_times(const Settings& settings, const Request& requ
   return times;
 }
 
-TrajectoryProblem::TrajectoryProblem(const Task& task, const std::vector<Pair>& pairs,
+TrajectoryProblem::TrajectoryProblem(const Task& task,
+                                     const std::vector<world::Obstacle>& obstacles,
                                      bool goal_in_range)
     : settings_(task.planner),
       vehicle_(task.vehicle),
       goal_(task.goal),
-      footprint_(task.vehicle),
       goal_in_range_(goal_in_range),
       map_(task.vehicle, task.planner.model),
       problem_("trajectory") {
+  if (const world::Footprint footprint(vehicle_); !footprint.is_point()) box_.emplace(footprint);
   const Model& model = map_.model();
   add_variables(model, task.region);
   add_dynamics(model);
@@ -53,7 +54,7 @@ TrajectoryProblem::TrajectoryProblem(const Task& task, const std::vector<Pair>& 
   add_initial_state(model);
   add_vehicle_limits(model);
   add_obstacles();
-  set_obstacles(pairs, {0});
+  set_obstacles(obstacles, {0});
   add_lidar_region();
   add_goal();
 }
@@ -175,35 +176,31 @@ void TrajectoryProblem::add_obstacles() {
   const Expr t = settings_.moving_avoidance ? t_start_ + problem_.time() : t_planning_;
   const Expr x = xo + vx * t, y = yo + vy * t;
   const Expr sm = settings_.sm_start + (settings_.sm_end - settings_.sm_start) * problem_.tau();
-  std::vector<Expr> symbols = {xo, yo, a, b, vx, vy};
-  Expr X_at = X_[X], Y_at = X_[Y];
-  if (!footprint_.is_point()) {  // the centre of one of the vehicle's discs
-    const Expr ahead = Expr::symbol("ahead");
-    symbols.push_back(ahead);
-    X_at += ahead * cos(X_[PSI]);
-    Y_at += ahead * sin(X_[PSI]);
-  }
-  const Expr outside = square((X_at - x) / (a + sm)) + square((Y_at - y) / (b + sm));
-  obstacle_rows_ = problem_.path_family("obstacle", symbols, outside - 1, Bounds::at_least(0),
-                                        Points::after_first);
+  // A point keeps off the ellipse; a body keeps the smooth distance a from the centre, for which a
+  // margin on top is on the safe side.
+  const Expr outside =
+      box_ ? box_->square_of_distance(x - X_[X], y - X_[Y], X_[PSI]) / square(a + sm)
+           : square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
+  obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
+                                        Bounds::at_least(0), Points::after_first);
   if (settings_.obstacle_constraint == ObstacleConstraint::soft)
     problem_.soften(obstacle_rows_, {ocp::Norm::l1, settings_.w_obstacle, 0});
 }
 
-void TrajectoryProblem::set_obstacles(const std::vector<Pair>& pairs,
+void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstacles,
                                       const std::vector<double>& times) {
   const bool held = times.size() == 1;
   std::vector<std::string> names;
   std::vector<std::vector<double>> numbers;
-  for (const auto& pair : pairs) {
-    names.push_back(pair.obstacle.name);
+  for (const auto& o : obstacles) {
+    names.push_back(o.name);
     auto& row = numbers.emplace_back();
     const auto add = [&](double t) {
-      const auto at = numbers_at(pair.obstacle, t);
+      auto at = numbers_at(o, t);
+      if (box_) at[2] = box_->smooth_radius(at[2]);
       row.insert(row.end(), at.begin(), at.end());
-      if (!footprint_.is_point()) row.push_back(pair.ahead);
     };
-    if (!varies(pair.obstacle)) {
+    if (!varies(o)) {
       add(0);
     } else if (held) {
       add(times[0]);

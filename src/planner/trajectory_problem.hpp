@@ -13,6 +13,7 @@
 #include "slalom/planner/planner.hpp"
 #include "slalom/planner/task.hpp"
 #include "slalom/vehicle/model.hpp"
+#include "smooth_box.hpp"
 
 namespace slalom::planner {
 
@@ -30,12 +31,14 @@ std::vector<double> obstacle_times(const Settings& settings, const Request& requ
 /// absent from it, not switched to zero.
 class TrajectoryProblem {
  public:
-  /// The task's obstacles are not used.
-  TrajectoryProblem(const Task& task, const std::vector<Pair>& pairs, bool goal_in_range);
+  /// Among obstacles as covered() leaves them; the task's are not used.
+  TrajectoryProblem(const Task& task, const std::vector<world::Obstacle>& obstacles,
+                    bool goal_in_range);
 
   /// Puts others, as many, in the place of those the problem has. What varies has the numbers of
   /// obstacle_times(); of one time for all it is held as it is then.
-  void set_obstacles(const std::vector<Pair>& pairs, const std::vector<double>& times);
+  void set_obstacles(const std::vector<world::Obstacle>& obstacles,
+                     const std::vector<double>& times);
   /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
   void update(const Request& request);
 
@@ -57,11 +60,11 @@ class TrajectoryProblem {
   const Settings settings_;
   const vehicle::Parameters vehicle_;
   const world::Goal goal_;
-  const world::Footprint footprint_;
   const bool goal_in_range_;
   const ModelMap map_;
 
   ocp::Problem problem_;
+  std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
   ocp::ConstraintId obstacle_rows_{};
   std::array<Expr, vehicle::kStates> X_;    ///< states, and what the model derives from them
   std::array<Expr, vehicle::kControls> U_;  ///< controls; zero where the model has none

@@ -163,11 +163,11 @@ Json scenario_data(const sim::Scenario& scenario, double until) {
       {"front_overhang", v.front_overhang},
       {"footprint", v.footprint == vehicle::FootprintKind::point ? "point" : "rectangle"},
       {"length", v.length},
+      {"ax_limits", acceleration_limits(v)},
       {"ux_max", v.ux_max},
       {"sa_max", v.sa_max()},
       {"sr_max", v.sr_max()},
-      {"Fz_min", v.Fz_min},
-      {"ax_limits", acceleration_limits(v)}};
+      {"Fz_min", v.Fz_min}};
   json["loop"] = {{"tex", scenario.loop.tex},
                   {"sm_crash", scenario.loop.sm_crash},
                   {"Fz_failure", scenario.loop.Fz_failure}};

@@ -133,8 +133,8 @@ std::vector<world::Point> goal_shape(const sim::Scenario& scenario) {
   const auto box = [&](double psi, double length, double width) {
     const world::Pose pose{goal.x, goal.y, psi};
     std::vector<world::Point> corners;
-    for (const auto& p : world::Polygon::rectangle(length, width).corners())
-      corners.push_back(pose.to_world(p));
+    const auto rectangle = world::Polygon::rectangle(length, width);
+    for (const auto& p : rectangle.corners()) corners.push_back(pose.to_world(p));
     return corners;
   };
   switch (goal.kind()) {

@@ -114,7 +114,7 @@ void no_way(const Scenario& s, std::vector<std::string>& found) {
       (verifies(s) ? s.planner.verified_clearance : s.planner.sm_start) + body_width(s) / 2;
   search.v_max = std::min(search.v_max, s.vehicle.ux_max);
   search.t_max = s.loop.timeout;
-  if (world::path_exists(s, s.start, search)) return;
+  if (world::path_exists(s, s.vehicle, s.start, search)) return;
   found.push_back(fmt::format(
       "no way from start to goal was found that keeps {:g} m off all obstacles within {:g} s (a "
       "search that may miss one)",

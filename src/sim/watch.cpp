@@ -21,6 +21,9 @@ constexpr double kTimeTolerance = 1e-10;
 /// Of a distance with several minima, lows less deep than half of this may be missed [m], and
 /// others are found to within kLow [m].
 constexpr double kGraze = 1e-4, kLow = 1e-3;
+/// After so many looks in a stretch, the others are evenly apart and as many at most: whatever the
+/// speeds, a stretch is soon judged.
+constexpr int kMostLooks = 1000;
 /// Share of a stretch over which one-sided differences of wheel loads are taken.
 constexpr double kDifference = 1e-3;
 
@@ -69,9 +72,11 @@ std::optional<double> first_entry(const F& f, double length, double f0, double f
 template <class F>
 std::optional<double> first_touch(const F& f, double from, double f_from, double to, double rate) {
   double value = f_from;
+  int looks = 0;
   if (value < 0) return from;
   for (double t = from; t < to;) {
-    const double next = std::min(to, t + std::max(value, kGraze) / rate);
+    const double least_step = ++looks > kMostLooks ? (to - from) / kMostLooks : 0;
+    const double next = std::min(to, t + std::max(std::max(value, kGraze) / rate, least_step));
     const double then = f(next);
     if (then < 0)
       return t + crossing([&](double after) { return f(t + after); }, value, next - t, then);
@@ -83,12 +88,13 @@ std::optional<double> first_touch(const F& f, double from, double f_from, double
 
 /// Lowers `low` to the least of `f` between two times, to within kLow, if `rate` allows any there.
 template <class F>
-void look_between(const F& f, double t0, double f0, double t1, double f1, double rate, Low& low) {
-  if ((f0 + f1 - rate * (t1 - t0)) / 2 >= low.value - kLow) return;
+void look_between(const F& f, double t0, double f0, double t1, double f1, double rate,
+                  double least_step, Low& low) {
+  if ((f0 + f1 - rate * (t1 - t0)) / 2 >= low.value - kLow || t1 - t0 <= least_step) return;
   const double t = (t0 + t1) / 2, value = f(t);
   if (value < low.value) low = {t, value};
-  look_between(f, t0, f0, t, value, rate, low);
-  look_between(f, t, value, t1, f1, rate, low);
+  look_between(f, t0, f0, t, value, rate, least_step, low);
+  look_between(f, t, value, t1, f1, rate, least_step, low);
 }
 
 /// Upper bound on the speed [m/s] of any point of the footprint over a stretch; the margins cover
@@ -126,10 +132,9 @@ std::optional<Presence> presence(const world::Obstacle& obstacle, const Stretch&
   if (!obstacle.present(s.t0, s.t1)) return std::nullopt;
   // Narrows down where `there` begins to hold, from `out`, where it does not, to `in`.
   const auto edge = [](double out, double in, const auto& there) {
-    while (std::fabs(in - out) > kTimeTolerance) {
-      const double t = (out + in) / 2;
+    for (double t = (out + in) / 2; std::fabs(in - out) > kTimeTolerance && t != in && t != out;
+         t = (out + in) / 2)
       (there(t) ? in : out) = t;
-    }
     return in;
   };
   Presence part{s.t0, s.t1};
@@ -232,7 +237,7 @@ struct Watch::Approach {
     if (inside.value < low.value) low = {from + inside.t, inside.value};
     if (is_convex()) return low;
     Low lower{low.t, std::min(low.value, level)};
-    look_between(*this, from, d0, to, d1, rate, lower);
+    look_between(*this, from, d0, to, d1, rate, (to - from) / kMostLooks, lower);
     return lower.value < low.value && lower.value < level ? lower : low;
   }
 };

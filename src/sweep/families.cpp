@@ -60,7 +60,8 @@ Scenario make_scenario(const std::string& family, const Draw& draw) {
                static_cast<std::uint32_t>(draw.index), static_cast<std::uint32_t>(attempt)});
     auto scenario = empty_scene(fmt::format("{}-{:04}", family, draw.index), maker->family.about);
     maker->fill(scenario, draw.difficulty, dice);
-    if (start_is_clear(scenario) && world::path_exists(scenario, scenario.start)) return scenario;
+    if (start_is_clear(scenario) && world::path_exists(scenario, scenario.vehicle, scenario.start))
+      return scenario;
   }
   throw Error(fmt::format("none of {} draws of {} at difficulty {} had a way from start to goal",
                           kMostDraws, family, draw.difficulty));

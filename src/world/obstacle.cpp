@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <utility>
 
-#include "covering.hpp"
 #include "slalom/world/ellipse.hpp"
 
 namespace slalom::world {
@@ -17,6 +17,37 @@ namespace {
 double distance_in_body(const Obstacle& o, Point p) {
   if (!o.outline) return signed_distance_to_ellipse(p.x, p.y, o.a, o.b);
   return o.outline->distance(p) - o.rounding;
+}
+
+struct Circle {
+  Point centre;
+  double radius;
+};
+
+/// Circles that cover a rectangle about the origin, its long side along x. A row of one radius
+/// along the middle sticks out of sides and ends by `excess` where a circle does so; what it leaves
+/// of a corner is a square, covered by cells.
+std::vector<Circle> circles_over(double length, double width, double excess) {
+  const double half = width / 2, whole = std::hypot(length / 2, half);
+  if (whole - half <= excess) return {{{}, whole}};
+  const double radius = half + excess, reach = std::sqrt(radius * radius - half * half);
+  const double between = length - width;  // the centres of the first and the last
+  const double steps = std::ceil(between / (2 * reach) - 1e-9);
+  std::vector<Circle> circles;
+  for (double k = 0; k <= steps; ++k)
+    circles.push_back({{steps > 0 ? between * (k / steps - 0.5) : 0, 0}, radius});
+  const double corner = half - reach;
+  const double cells = std::ceil(corner * (std::numbers::sqrt2 - 1) / 2 / excess - 1e-9);
+  const double cell = corner / cells;
+  for (double i = 0; i < cells; ++i)
+    for (double j = 0; j < cells; ++j) {
+      const double in_x = (i + 0.5) * cell, in_y = (j + 0.5) * cell;  // from the corner
+      if (std::hypot(half - i * cell, half - j * cell) > radius)
+        for (const double x : {length / 2 - in_x, in_x - length / 2})
+          for (const double y : {half - in_y, in_y - half})
+            circles.push_back({{x, y}, cell / std::numbers::sqrt2});
+    }
+  return circles;
 }
 
 /// Least signed distance to a convex body along the segment, along which it is convex.
@@ -121,9 +152,11 @@ std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess) {
   const bool along_x = right - left >= high - low;
   const double length = std::max(right - left, high - low);
   const double width = std::min(right - left, high - low);
+  auto circles = circles_over(length, width, excess);
+  for (; circles.size() > kMostDiscs; circles = circles_over(length, width, excess)) excess *= 1.2;
   std::vector<Obstacle> result;
-  for (const auto& [ahead, radius] : discs_along(length, width, excess)) {
-    const Point at = middle + (along_x ? Point{ahead, 0} : Point{0, ahead});
+  for (const auto& [centre, radius] : circles) {
+    const Point at = middle + (along_x ? centre : Point{-centre.y, centre.x});
     Obstacle disc = obstacle;
     disc.outline = nullptr;
     disc.a = disc.b = radius + obstacle.rounding;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cell_set.hpp"
+#include "slalom/world/footprint.hpp"
 
 namespace slalom::world {
 namespace {
@@ -23,6 +24,19 @@ struct Place {
   double x = 0, y = 0, psi = 0, v = 0, kappa = 0, t = 0;
 };
 
+/// By how much discs may stick out of what they stand in for [m].
+constexpr double kCoverExcess = 0.1;
+
+/// Where a disc is at the parts of moves, and whether it is there.
+struct Track {
+  struct Moment {
+    double x, y;
+    bool there;
+  };
+  double radius;
+  std::vector<Moment> moments;
+};
+
 /// A place to go on from; `rank` is the time it would bring us to the goal at, at best.
 struct Open {
   double rank = 0;
@@ -35,9 +49,21 @@ struct Open {
 
 class Search {
  public:
-  Search(const Environment& environment, const PathSearch& search)
-      : goal_(environment.goal), region_(environment.region), p_(search) {
-    for (const auto& o : environment.obstacles) obstacles_.push_back(o.grown(p_.clearance));
+  Search(const Environment& environment, const vehicle::Parameters& vehicle,
+         const PathSearch& search)
+      : goal_(environment.goal),
+        region_(environment.region),
+        wheelbase_(vehicle.la + vehicle.lb),
+        body_(Footprint(vehicle).covering_discs(kCoverExcess)),
+        p_(search) {
+    const double larger = p_.clearance + body_.front().radius;
+    for (const auto& o : environment.obstacles) {
+      if (o.is_plain()) {
+        obstacles_.push_back(o.grown(larger));
+        continue;
+      }
+      for (const auto& disc : covering_discs(o, kCoverExcess)) add_track(disc, disc.a + larger);
+    }
   }
 
   bool run(const vehicle::State& X) {
@@ -63,13 +89,36 @@ class Search {
     state[vehicle::UX] = p.v;
     return goal_.reached(state, p.t, nullptr);
   }
+  void add_track(const Obstacle& disc, double radius) {
+    const double h = p_.dt / kParts;
+    Track track{radius, {}};
+    for (double k = 0; k * h <= p_.t_max + p_.dt; ++k)
+      track.moments.push_back(
+          {disc.x_at(k * h), disc.y_at(k * h), disc.present(k * h - h, k * h + h)});
+    tracks_.push_back(std::move(track));
+  }
+
   bool free(const Place& p) const {
     if (!region_.contains(p.x, p.y)) return false;
-    return std::none_of(obstacles_.begin(), obstacles_.end(), [&](const auto& o) {
-      if (!o.is_plain()) return o.present(p.t, p.t) && distance(o, p.x, p.y, p.t) < 0;
-      const double dx = (p.x - o.x_at(p.t)) / o.a, dy = (p.y - o.y_at(p.t)) / o.b;
-      return dx * dx + dy * dy < 1;
+    if (body_.size() == 1 && body_[0].ahead == 0) return clear(p.x, p.y, p.t);
+    // The front wheels roll where the way leads; the body's axis is off that by their steering.
+    const double psi = p.psi - wheelbase_ * p.kappa, c = std::cos(psi), s = std::sin(psi);
+    return std::all_of(body_.begin(), body_.end(), [&](const Disc& disc) {
+      return clear(p.x + disc.ahead * c, p.y + disc.ahead * s, p.t);
     });
+  }
+
+  bool clear(double x, double y, double t) const {
+    const auto part = static_cast<std::size_t>(std::lround(t / p_.dt * kParts));
+    return std::none_of(obstacles_.begin(), obstacles_.end(),
+                        [&](const auto& o) {
+                          const double dx = (x - o.x_at(t)) / o.a, dy = (y - o.y_at(t)) / o.b;
+                          return dx * dx + dy * dy < 1;
+                        }) &&
+           std::none_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+             const auto& at = track.moments[std::min(part, track.moments.size() - 1)];
+             return at.there && std::hypot(x - at.x, y - at.y) < track.radius;
+           });
   }
 
   /// The place after dt; false where the vehicle cannot, or something is in the way.
@@ -117,17 +166,20 @@ class Search {
 
   const Goal goal_;
   const Region region_;
+  const double wheelbase_;
+  const std::vector<Disc> body_;  ///< of one radius
   const PathSearch p_;
-  std::vector<Obstacle> obstacles_;  ///< grown
+  std::vector<Obstacle> obstacles_;  ///< plain ones, grown
+  std::vector<Track> tracks_;        ///< of the discs of others, grown
   std::priority_queue<Open> open_;
   CellSet seen_;
 };
 
 }  // namespace
 
-bool path_exists(const Environment& environment, const vehicle::State& start,
-                 const PathSearch& search) {
-  return Search(environment, search).run(start);
+bool path_exists(const Environment& environment, const vehicle::Parameters& vehicle,
+                 const vehicle::State& start, const PathSearch& search) {
+  return Search(environment, vehicle, search).run(start);
 }
 
 }  // namespace slalom::world

@@ -138,6 +138,34 @@ TEST(Spline, HoldsBeyondItsEndsWhereAskedTo) {
   EXPECT_DOUBLE_EQ(at(1).first, 2);
 }
 
+TEST(Spline, ATableOfManyKnotsIsLookedUpWithTheSameAnswers) {
+  std::vector<double> knots, values;
+  for (int k = 0; k < 200; ++k) {
+    knots.push_back(k + 0.3 * std::sin(k));
+    values.push_back(std::cos(0.7 * k));
+  }
+  const Expr x = Expr::symbol("x"), y = Expr::symbol("y");
+  const std::vector<Expr> outputs{cubic_spline(x * y, knots, values),
+                                  y * cubic_spline(y, knots, values)};
+  const Function looked_up({x, y}, {}, outputs), chosen({x, y}, {}, without_lookups(outputs));
+  EXPECT_LT(20 * looked_up.instructions({.values = true}), chosen.instructions({.values = true}));
+  for (const double at : {-3.0, 0.0, knots[1], 7.2, knots[150], 150.1, 198.0, 230.0}) {
+    const std::vector<double> point{2, at}, weights{0.3, 1.7};
+    const auto results = [&](const Function& f) {
+      std::vector<double> v(2), j(f.jacobian_pattern().size()), h(f.hessian_pattern().size());
+      f.evaluate(1, point, {}, weights, {.values = true, .jacobian = true, .hessian = true}, v, j,
+                 h);
+      v.insert(v.end(), j.begin(), j.end());
+      v.insert(v.end(), h.begin(), h.end());
+      return v;
+    };
+    const auto one = results(looked_up), other = results(chosen);
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t i = 0; i < one.size(); ++i)
+      EXPECT_NEAR(one[i], other[i], 1e-12 * (1 + std::fabs(other[i]))) << at << " " << i;
+  }
+}
+
 TEST(Spline, TablesInAGraphSayHowMuchRoomTheyHave) {
   const Expr x = Expr::symbol("x"), y = Expr::symbol("y");
   const Expr one = cubic_spline(x * x, {1, 2}, std::vector{0.0, 1.0});

@@ -219,6 +219,25 @@ TEST(BadObstacle, Paths) {
             "my.yaml:5:45: found speed = -1, expected a number >= 0");
 }
 
+TEST(BadObstacle, WhatATableOrAPolygonSaysIsNotSetOnTheCommandLine) {
+  const auto set = [](const std::string& assignment) -> std::string {
+    try {
+      (void)parse_scenario(kHead + kAll, {"my.yaml", {}, {}, {assignment}});
+    } catch (const InvalidValue& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(set("obstacles.car.a=3"),
+            "--set obstacles.car.a: found obstacle car a = 3, expected none, for the polygon says "
+            "it");
+  EXPECT_EQ(set("obstacles.traffic.x=3"),
+            "--set obstacles.traffic.x: found obstacle traffic x = 3, expected none, for the table "
+            "or path says it");
+  EXPECT_EQ(set("obstacles.car.x=6"), "accepted");
+  EXPECT_EQ(set("obstacles.walker.r=0.5"), "accepted");
+}
+
 /// The message for a table in a file beside the scenario, both without their folder.
 std::string refusal_of_file(const std::string& csv) {
   TemporaryFolder folder;

@@ -58,11 +58,13 @@ TEST(FamilyPoints, EachPointHasItsOwnNumbers) {
 TEST(FamilyPoints, AsManyAsTheMeshHas) {
   Walls w;
   w.problem.set_members(w.walls, {"wall"}, {{1, 1, 2, 2}});
-  EXPECT_EQ(refusal([&] { Transcription(w.problem, Mesh::uniform(2), trapezoidal()); }),
-            "walls: family wall[wall]: found numbers for 2 points, expected one for each symbol, or "
-            "for each of the mesh's 3 points");
+  EXPECT_EQ(
+      refusal([&] { Transcription(w.problem, Mesh::uniform(2), trapezoidal()); }),
+      "walls: family wall[wall]: found numbers for 2 points, expected one for each symbol, or "
+      "for each of the mesh's 3 points");
   w.problem.set_members(w.walls, {"wall"}, {{1, 1, 2, 2, 3, 3}});
-  EXPECT_EQ(refusal([&] { Transcription(w.problem, Mesh::uniform(2), trapezoidal()); }), "accepted");
+  EXPECT_EQ(refusal([&] { Transcription(w.problem, Mesh::uniform(2), trapezoidal()); }),
+            "accepted");
 }
 
 TEST(FamilyPoints, AreNotKnownBetweenPoints) {

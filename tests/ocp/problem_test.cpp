@@ -206,8 +206,9 @@ TEST(ProblemErrors, Families) {
   EXPECT_EQ(refusal([&] {
               p.set_members(family, {"one"}, {{1, 2, 3}});
             }),
-            where + "found a member with 3 numbers, expected 2, one a symbol, or so many for "
-                    "each point");
+            where +
+                "found a member with 3 numbers, expected 2, one a symbol, or so many for "
+                "each point");
   EXPECT_EQ(refusal([&] {
               p.set_members(family, {"one"}, {{1, kNaN}});
             }),

@@ -48,8 +48,8 @@ Task street() {
   return task;
 }
 
-/// Drives the plans of cycles .2 s long on the plant. The least distance of the body from any shape.
-/// Where belief is the truth, every plan is verified.
+/// Drives the plans of cycles .2 s long on the plant. The least distance of the body from any
+/// shape. Where belief is the truth, every plan is verified.
 double driven(const Task& truth, const Task& believed, int cycles) {
   const bool right = believed.planner.prediction == Prediction::known;
   const Plant plant(truth.vehicle, 1e-9, 0.02);

@@ -83,8 +83,8 @@ TEST_F(Bodies, WhatIsAbsentIsNotInTheWay) {
   const std::vector<world::TrajectoryRow> across = {{3, 0, 40, 0}, {6, 0.5, 40, 0}};
   const auto beside = box(0, 0, 4, 2, 0);
   // The vehicle is there at 3 s.
-  EXPECT_FALSE(judge({along(beside, across, BeyondEnd::stands, BeyondEnd::stands)})
-                   .certificate.verified);
+  EXPECT_FALSE(
+      judge({along(beside, across, BeyondEnd::stands, BeyondEnd::stands)}).certificate.verified);
   auto late = across;
   for (auto& row : late) row.t += 0.5;
   EXPECT_FALSE(
@@ -166,8 +166,9 @@ TEST(Believed, ATrajectoryIsKnownOrGoesOnAsItMovesNow) {
 }
 
 TEST(Believed, ARowsNumbersAreThoseOfItsMoment) {
-  auto o = along({.name = "walker", .a = 0.4, .b = 0.4},
-                 {{0, 0, 0, 0}, {1, 2, 0, 0}, {2, 2, 3, 1.5}}, BeyondEnd::stands, BeyondEnd::absent);
+  auto o =
+      along({.name = "walker", .a = 0.4, .b = 0.4}, {{0, 0, 0, 0}, {1, 2, 0, 0}, {2, 2, 3, 1.5}},
+            BeyondEnd::stands, BeyondEnd::absent);
   o.margin_start = 0.1;
   o.margin_rate = 0.2;
   const double t = 1.3;

@@ -52,11 +52,13 @@ TEST(ObstacleChoice, NearestCountsFromTheEdgeAtTheStartOfThePlanAndKeepsTheOrder
   request.t_start = 9.5;  // b stands at 300 - 30 * 9.5 = 15
   EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 2), request, kRow, kPoint)),
             (Names{"b", "d"}));
-  EXPECT_EQ(choose_obstacles(choosing(ObstacleChoice::nearest, 9), request, kRow, kPoint).size(), 4u);
+  EXPECT_EQ(choose_obstacles(choosing(ObstacleChoice::nearest, 9), request, kRow, kPoint).size(),
+            4u);
   const std::vector<world::Obstacle> long_one = {{"far", 0, 10, 1, 1, 0, 0},
                                                  {"long", 40, 0, 38, 1, 0, 0}};
-  EXPECT_EQ(names(choose_obstacles(choosing(ObstacleChoice::nearest, 1), request, long_one, kPoint)),
-            (Names{"long"}));
+  EXPECT_EQ(
+      names(choose_obstacles(choosing(ObstacleChoice::nearest, 1), request, long_one, kPoint)),
+      (Names{"long"}));
 }
 
 TEST(Groups, ChainsOfOneVelocityBecomeOneEllipse) {

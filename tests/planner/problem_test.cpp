@@ -15,7 +15,7 @@ namespace slalom::planner {
 namespace {
 
 TrajectoryProblem problem_of(const Scene& scene, bool in_range) {
-  TrajectoryProblem problem(scene, pairs_of(scene.obstacles, {{}}), in_range);
+  TrajectoryProblem problem(scene, scene.obstacles, in_range);
   problem.update(scene.first);
   return problem;
 }

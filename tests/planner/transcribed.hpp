@@ -13,7 +13,7 @@ namespace slalom::planner {
 class TranscribedScene {
  public:
   explicit TranscribedScene(Scene s, bool in_range = false)
-      : scene(std::move(s)), problem_(scene, pairs_of(scene.obstacles, {{}}), in_range) {
+      : scene(std::move(s)), problem_(scene, scene.obstacles, in_range) {
     problem_.update(scene.first);
     nlp = std::make_unique<ocp::Transcription>(
         problem_.problem(), ocp::Mesh::uniform(scene.planner.N), ocp::trapezoidal());

@@ -169,6 +169,13 @@ TEST(Watch, AContactInOneOfTwoDashesWithinAStretchIsFound) {
   EXPECT_NEAR(missed.least_clearance, least, 1e-3);
 }
 
+TEST(Watch, AnObstacleOfAbsurdSpeedIsWatchedInGoodTime) {
+  Criteria criteria;
+  criteria.obstacles = {by_table(testing::circle("leaps", 0, 0, 1),
+                                 {{1, 1e6, 9}, {1.01, -1e6, 9}, {1.5, 1e300, 0}, {1.6, 50, 9}})};
+  EXPECT_NO_THROW((void)watched(criteria));
+}
+
 TEST(Watch, WhatAppearsUponTheVehicleIsACrashAtThatMoment) {
   Criteria criteria;
   const auto there = [](double from, double to, double y) {

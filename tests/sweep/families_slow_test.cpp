@@ -42,7 +42,7 @@ TEST(Families, HaveAWayAndAStartThatMayBeDrivenAtEveryDifficulty) {
       SCOPED_TRACE(family.name);
       const auto scenario = make_scenario(family.name, {1, 1, difficulty});
       EXPECT_NO_THROW(sim::check(scenario, "made"));
-      EXPECT_TRUE(world::path_exists(scenario, scenario.start));
+      EXPECT_TRUE(world::path_exists(scenario, scenario.vehicle, scenario.start));
       EXPECT_FALSE(scenario.obstacles.empty());
     }
 }

@@ -313,6 +313,27 @@ TEST(WayFinder, FindsWaysThatPassDifferently) {
   EXPECT_GT(slower[1].back().t, slower[0].back().t);
 }
 
+TEST(WayFinder, TheSearchFollowsFromTheVehicle) {
+  const WaySearch as_found;
+  const auto hmmwv = way_search({});
+  EXPECT_EQ(hmmwv.v_max, as_found.v_max);
+  EXPECT_EQ(hmmwv.braking, as_found.braking);
+  EXPECT_EQ(hmmwv.lateral_acceleration, as_found.lateral_acceleration);
+  EXPECT_EQ(hmmwv.curvature, as_found.curvature);
+  EXPECT_EQ(hmmwv.curvature_rate, as_found.curvature_rate);
+
+  vehicle::Parameters car;
+  car.ux_max = 50;
+  car.ax_min[3] *= 2;
+  car.sr_max_deg *= 4;
+  car.KZYR /= 1.2;
+  const auto nimble = way_search(car);
+  EXPECT_EQ(nimble.v_max, 49);
+  EXPECT_NEAR(nimble.braking, 2 * as_found.braking, 1e-12);
+  EXPECT_NEAR(nimble.curvature_rate, 4 * as_found.curvature_rate, 1e-12);
+  EXPECT_NEAR(nimble.lateral_acceleration, 1.2 * as_found.lateral_acceleration, 1e-12);
+}
+
 TEST(WayFinder, KeepsTheBodyOnTheRoadThroughABendThatGoesBack) {
   std::vector<RoadPoint> line;
   for (double x = 0; x < 60; x += 10) line.push_back({x, 0, 3, 3});
@@ -336,27 +357,6 @@ TEST(WayFinder, KeepsTheBodyOnTheRoadThroughABendThatGoesBack) {
     EXPECT_GT(Footprint(car).edge_distance(*environment.road, state), 0) << p.t;
   }
   EXPECT_GE(environment.road->project({way->back().x, way->back().y}).s, environment.goal.s);
-}
-
-TEST(WayFinder, TheSearchFollowsFromTheVehicle) {
-  const WaySearch as_found;
-  const auto hmmwv = way_search({});
-  EXPECT_EQ(hmmwv.v_max, as_found.v_max);
-  EXPECT_EQ(hmmwv.braking, as_found.braking);
-  EXPECT_EQ(hmmwv.lateral_acceleration, as_found.lateral_acceleration);
-  EXPECT_EQ(hmmwv.curvature, as_found.curvature);
-  EXPECT_EQ(hmmwv.curvature_rate, as_found.curvature_rate);
-
-  vehicle::Parameters car;
-  car.ux_max = 50;
-  car.ax_min[3] *= 2;
-  car.sr_max_deg *= 4;
-  car.KZYR /= 1.2;
-  const auto nimble = way_search(car);
-  EXPECT_EQ(nimble.v_max, 49);
-  EXPECT_NEAR(nimble.braking, 2 * as_found.braking, 1e-12);
-  EXPECT_NEAR(nimble.curvature_rate, 4 * as_found.curvature_rate, 1e-12);
-  EXPECT_NEAR(nimble.lateral_acceleration, 1.2 * as_found.lateral_acceleration, 1e-12);
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ enum class Op : std::uint8_t {
   tanh,
   abs,
   sign,
+  lookup,  ///< the value of a step function, which the node has, at a
   add,
   sub,
   mul,
@@ -39,6 +40,14 @@ enum class Op : std::uint8_t {
 };
 
 class Node;
+
+/// A step function: values[k] where x lies in (begins[k], begins[k + 1]], values[0] before, and the
+/// last value after. As many begins, which rise, as values.
+struct Steps {
+  std::vector<double> begins, values;
+
+  double at(double x) const;
+};
 
 /// A scalar expression: an immutable, shared graph of elementary operations, built by operators.
 /// Copying shares the graph; building is thread-safe as long as each thread has its own Expr.
@@ -67,6 +76,8 @@ class Expr {
   static Expr apply(Op op, const Expr& a);
   static Expr apply(Op op, const Expr& a, const Expr& b);
   static Expr apply(Op op, const Expr& a, const Expr& b, const Expr& c);
+  /// The step function at `a`; its derivative is 0. Takes as long whatever the number of steps.
+  static Expr apply(std::shared_ptr<const Steps> steps, const Expr& a);
 
  private:
   friend class Node;
@@ -110,7 +121,8 @@ Expr select(const Expr& condition, const Expr& if_positive, const Expr& otherwis
 /// A node of the graph, over which differentiation and compilation walk.
 class Node {
  public:
-  Node(Op op, double value, std::string name, std::vector<Expr> args);
+  Node(Op op, double value, std::string name, std::vector<Expr> args,
+       std::shared_ptr<const Steps> steps = {});
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
   ~Node();  ///< iterative: a sum of a million terms must not overflow the stack
@@ -119,12 +131,14 @@ class Node {
   double value() const { return value_; }
   const std::string& name() const { return name_; }
   const std::vector<Expr>& args() const { return args_; }
+  const std::shared_ptr<const Steps>& steps() const { return steps_; }  ///< of a lookup
 
  private:
   Op op_;
   double value_;
   std::string name_;
   std::vector<Expr> args_;
+  std::shared_ptr<const Steps> steps_;
 };
 
 /// Replaces symbols by expressions throughout `outputs`.

@@ -27,4 +27,7 @@ Expr cubic_spline(const Expr& x, const std::vector<double>& knots, const std::ve
 /// [unit of x]: negative beyond them.
 std::vector<Expr> room_in_tables(const std::vector<Expr>& outputs);
 
+/// The same functions without Op::lookup, by choices between values: for what knows no tables.
+std::vector<Expr> without_lookups(const std::vector<Expr>& outputs);
+
 }  // namespace slalom::expr

@@ -30,9 +30,9 @@ enum class Prediction { known, constant_velocity, constant_turn };
 /// is solved again on finer meshes.
 enum class BetweenNodes { ignore, report, refine };
 
-/// How a planner plans: the paper's OCP over a receding horizon, or whole ways to the goal of which
-/// none is driven before it is verified.
-enum class Method { receding_horizon, verified };
+/// How a planner plans: the paper's OCP over a receding horizon; whole ways to the goal of which
+/// none is driven before it is verified; or the fastest motion along a road without obstacles.
+enum class Method { receding_horizon, verified, along_road };
 
 /// The obstacles that a verifying planner is told of: all, or those within L_range.
 enum class Known { all, range };
@@ -86,6 +86,8 @@ struct Settings {
   double tf_min = 0.1, tf_max = 10;   ///< [s]
   double L_range = 50, kappa = 5;     ///< LiDAR range and its relaxation [m]
   double sm_start = 2.5, sm_end = 4;  ///< safety margin at the first and last node [m]
+
+  double road_margin = 0.1;  ///< that a plan along a road keeps from its edges [m]
 
   // Tolerances of the slacked conditions.
   std::array<double, 8> X0_tol = {0.5, 0.5, 0.5, 0.005, 0.5, 0.025, 0.5, 0.5};

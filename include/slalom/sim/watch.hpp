@@ -52,8 +52,9 @@ struct Event {
 /// allow it to matter. Distances of a body, and to obstacles that move by a trajectory, may have
 /// several: they are looked at as often as the speeds allow a contact, or a lower one, between. A
 /// graze between two samples is therefore not missed, but for one of a body or with a trajectory
-/// that is less than .05 mm deep; least distances of these are known to 1 mm. An obstacle that is
-/// absent is not there; one that appears upon the vehicle is a crash at that moment.
+/// that is less than .05 mm deep, or, at absurd speeds, shorter than 20 us; least distances of
+/// these are known to 1 mm. An obstacle that is absent is not there; one that appears upon the
+/// vehicle is a crash at that moment.
 class Watch {
  public:
   /// `dynamics`, of the vehicle that drives, outlive it.

@@ -29,7 +29,8 @@ class Footprint {
   /// How far its farthest point is from the front axle's centre [m].
   double reach() const { return reach_; }
 
-  /// Discs that cover it as covering_discs of an obstacle do; a point's is of radius 0.
+  /// Discs of one radius that cover it and stick out of its sides by at most `excess` [m], but for
+  /// no more than kMostDiscs; of its ends they stick out by more. A point's is of radius 0.
   std::vector<Disc> covering_discs(double excess) const;
 
   /// Distance between the footprint of a vehicle in this state and the obstacle at t [s]; negative

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "graph.hpp"
+#include "slalom/expr/spline.hpp"
 
 namespace slalom::nlp {
 namespace {
@@ -54,7 +55,7 @@ class Writer {
       index_.emplace(formulas.variables[i].node(), i);
     std::vector<Expr> all = formulas.rows;
     all.push_back(formulas.objective);
-    formulas_ = expr::simplified(all);
+    formulas_ = expr::simplified(expr::without_lookups(all));
     in_rows_.assign(index_.size(), 0);
     in_objective_.assign(index_.size(), 0);
     for (std::size_t r = 0; r < formulas.rows.size(); ++r)

@@ -1,0 +1,216 @@
+#include "line_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "slalom/base/timer.hpp"
+#include "slalom/nlp/check.hpp"
+#include "slalom/ocp/scheme.hpp"
+
+namespace slalom::planner {
+namespace {
+
+using namespace vehicle;
+
+/// Shares of lateral acceleration and braking that plans end by, and that guesses go by.
+constexpr double kLateralShare = 0.85, kBrakingShare = 0.7, kCalm = 0.6;
+/// The slowest at which plans end [m/s]: where the road does, they end creeping.
+constexpr double kCreep = 0.6;
+/// Price of going beyond a limit (LineSettings::w_excess), some times what limits are worth [s/m]:
+/// a vehicle at its limits finds itself a little beyond them when it plans anew.
+constexpr double kExcess = 1;
+/// And of being faster at the end than the profile, for each metre a second [s/(m/s)].
+constexpr double kEndSpeed = 1;
+/// The direction in which plans end, relative to the road's, at the most [rad].
+constexpr double kEndCourse = 0.1;
+/// What is not solved is tried again farther from all limits, at so many times the barrier floor.
+constexpr double kCalmFloor = 20;
+/// Between the points of a guess [m].
+constexpr double kStep = 2;
+/// A guess accelerates so [m/s^2].
+constexpr double kDriving = 1;
+/// The last interval of the mesh is so many times the first.
+constexpr double kGrowth = 2;
+
+ocp::Mesh growing_mesh(int intervals) {
+  std::vector<double> tau{0};
+  for (int k = 0; k < intervals; ++k)
+    tau.push_back(tau.back() + std::pow(kGrowth, k / std::max(1., intervals - 1.)));
+  const double whole = tau.back();
+  for (double& t : tau) t /= whole;
+  return ocp::Mesh(tau);
+}
+
+}  // namespace
+
+LinePlanner::LinePlanner(const Task& task)
+    : task_(task),
+      settings_(task_.planner),
+      profile_(*task_.road, task_.vehicle, kLateralShare, kBrakingShare),
+      calm_(*task_.road, task_.vehicle, kCalm, kCalm),
+      line_(*task_.road, task_.vehicle, settings_.L_range,
+            {.margin = settings_.road_margin, .w_t = settings_.w_t, .w_excess = kExcess}),
+      solver_(nlp::make_solver(to_string(settings_.solver))) {
+  check(settings_, "planner " + settings_.name);
+  auto& problem = line_.problem();
+  const auto& states = line_.states();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    x0_[i] = problem.parameter("initial_" + states[i].name(), 0);
+    problem.boundary("initial " + states[i].name(), problem.initial(states[i]) - x0_[i],
+                     ocp::Bounds::equal(0));
+  }
+  end_speed_ = problem.parameter("end_speed", task_.vehicle.ux_max);
+  const auto end = problem.boundary(
+      "speed at the end", end_speed_ - problem.final(states[LineProblem::FIRST_OF_VEHICLE + 3]),
+      ocp::Bounds::at_least(0));
+  problem.soften(end, {ocp::Norm::l1, settings_.w_t * kEndSpeed, 0});
+  // And it goes along the road there, about.
+  const auto at_end = [&](std::size_t i) { return problem.final(states[i]); };
+  constexpr std::size_t first = LineProblem::FIRST_OF_VEHICLE;
+  problem.boundary("course at the end",
+                   at_end(LineProblem::XI) +
+                       (at_end(first) + task_.vehicle.la * at_end(first + 1)) / at_end(first + 3),
+                   {-kEndCourse, kEndCourse});
+  transcription_.emplace(problem, growing_mesh(settings_.N), ocp::hermite_simpson());
+}
+
+void LinePlanner::update(double start, const LineProblem::LineState& x0) {
+  auto& problem = line_.problem();
+  for (std::size_t i = 0; i < x0.size(); ++i) problem.set_parameter(x0_[i], x0[i]);
+  problem.set_parameter(line_.start(), start);
+  problem.set_parameter(end_speed_, std::max(profile_.at(start + line_.length()), kCreep));
+  transcription_->update(problem);
+}
+
+/// From the state to the middle of the road, as fast as the calm profile allows.
+ocp::Trajectory LinePlanner::guess(double start, const LineProblem::LineState& x0) const {
+  const Parameters& p = task_.vehicle;
+  constexpr std::size_t first = LineProblem::FIRST_OF_VEHICLE;
+  const double length = line_.length();
+  const auto count = static_cast<std::size_t>(std::ceil(length / kStep));
+  const double step = length / static_cast<double>(count);
+  ocp::Trajectory guess;
+  guess.tf = length;
+  double v = std::max(x0[first + 3], kCreep);
+  for (std::size_t k = 0; k <= count; ++k) {
+    const double s = start + step * static_cast<double>(k);
+    const double kappa = task_.road->at(s).curvature, r = v * kappa;
+    const double wanted = std::max(calm_.at(s + step), kCreep);
+    const double least = v * v + 2 * step * p.ax_min_at(v) * kCalm;
+    const double next =
+        std::sqrt(std::clamp(wanted * wanted, std::max(least, kCreep * kCreep),
+                             std::max(v * v + 2 * step * kDriving, kCreep * kCreep)));
+    const double sa = std::clamp(std::atan((p.la + p.lb) * kappa), -p.sa_max(), p.sa_max());
+    const double fades = std::exp(-step * static_cast<double>(k) / (length / 4));
+    guess.tau.push_back(static_cast<double>(k) / static_cast<double>(count));
+    guess.states.push_back({x0[0] * fades, -std::atan2((p.la + p.lb) * r, v), p.lb * r, r, sa, v,
+                            (next * next - v * v) / (2 * step)});
+    guess.controls.push_back({0, 0});
+    v = next;
+  }
+  guess.states[0].assign(x0.begin(), x0.end());
+  return guess;
+}
+
+/// The last plan from here on, and where it ends as the guess goes on.
+ocp::Trajectory LinePlanner::shifted(double start, const LineProblem::LineState& x0) const {
+  const ocp::Trajectory& old = last_->trajectory;
+  ocp::Trajectory result = guess(start, x0);
+  const double driven = start - last_->start;
+  std::size_t at = 0;
+  for (std::size_t k = 1; k < result.tau.size(); ++k) {
+    const double s = driven + result.time(k);
+    if (s > old.time(old.tau.size() - 1)) {  // it keeps the last offset and speed
+      result.states[k] = old.states.back();
+      continue;
+    }
+    while (at + 2 < old.tau.size() && old.time(at + 1) < s) ++at;
+    const double gap = old.time(at + 1) - old.time(at);
+    const double share = std::clamp((s - old.time(at)) / gap, 0., 1.);
+    for (std::size_t i = 0; i < result.states[k].size(); ++i)
+      result.states[k][i] = old.states[at][i] + share * (old.states[at + 1][i] - old.states[at][i]);
+    for (std::size_t i = 0; i < result.controls[k].size(); ++i)
+      result.controls[k][i] =
+          old.controls[at][i] + share * (old.controls[at + 1][i] - old.controls[at][i]);
+  }
+  return result;
+}
+
+Plan LinePlanner::plan(const Request& request) {
+  const Timer timer;
+  const world::Point here{request.X0p[X], request.X0p[Y]};
+  const double start = (s_ ? task_.road->project(here, *s_) : task_.road->project(here)).s;
+  s_ = start;
+  auto x0 = line_.to_line(start, request.X0p);
+  update(start, x0);
+  // The road's s goes around with each lap.
+  if (last_ && task_.road->closed() && start < last_->start - task_.road->length() / 2)
+    last_->start -= task_.road->length();
+  const bool warm = last_.has_value() && start >= last_->start - kStep &&
+                    start < last_->start + line_.length() / 2;
+  Plan plan;
+  if (warm) plan = attempt(request, timer, {start, shifted(start, x0), !start_.y.empty(), 1});
+  for (const double calm : {1., kCalmFloor})
+    if (!plan.report.solved) plan = attempt(request, timer, {start, guess(start, x0), false, calm});
+  plan.report.planning_cpu_s = timer.cpu();
+  return plan;
+}
+
+/// Solves once.
+Plan LinePlanner::attempt(const Request& request, const Timer& timer, const Attempt& attempt) {
+  start_.x = transcription_->point(attempt.guess);
+  nlp::Options options;
+  options.floor = settings_.floor * attempt.floor_times;
+  options.tol = settings_.tol;
+  options.max_iterations = settings_.max_iterations;
+  options.warm_start = attempt.multipliers;
+  options.time_limit = std::max(0., request.time_limit - timer.cpu());
+  if (request.interrupted) {
+    options.stop = [](void* data) { return (*static_cast<const std::function<bool()>*>(data))(); };
+    options.stop_data = const_cast<std::function<bool()>*>(&request.interrupted);
+  }
+  solver_->solve(*transcription_, start_, options, answer_);
+  return read(request, attempt.start, options);
+}
+
+Plan LinePlanner::read(const Request& request, double start, const nlp::Options& options) {
+  auto trajectory = transcription_->trajectory(answer_.point.x);
+  auto motion = line_.to_world(trajectory, start, request.t_start, request.X0p[PSI]);
+  Plan plan;
+  plan.t_start = request.t_start;
+  for (const double t : motion.t) plan.t.push_back(t - request.t_start);
+  plan.tf = plan.t.back();
+  plan.states = std::move(motion.states);
+  plan.controls = std::move(motion.controls);
+  const auto residuals = nlp::check(*transcription_, answer_.point, options);
+  SolveReport& report = plan.report;
+  const bool claimed = answer_.status == nlp::Status::solved;
+  report.solved = claimed && residuals.solved(options);
+  report.status =
+      claimed && !report.solved ? PlanStatus::not_confirmed : plan_status(answer_.status);
+  report.best_iterate = !report.solved && residuals.violation <= request.best_iterate_tol;
+  report.backend = answer_.backend;
+  report.iterations = answer_.iterations;
+  report.cpu_s = answer_.cpu_s;
+  report.wall_s = answer_.wall_s;
+  report.cost = residuals.objective;
+  report.cost_terms = transcription_->cost_terms(answer_.point.x);
+  report.worst_violation = residuals.violation;
+  report.worst_constraint = residuals.worst_constraint;
+  report.stationarity = residuals.stationarity;
+  report.complementarity = residuals.complementarity;
+  if (report.solved || report.best_iterate) {
+    last_ = Last{start, std::move(trajectory)};
+    std::swap(start_.y, answer_.point.y);
+    std::swap(start_.zl, answer_.point.zl);
+    std::swap(start_.zu, answer_.point.zu);
+  } else {
+    last_.reset();
+    start_ = {};
+  }
+  return plan;
+}
+
+}  // namespace slalom::planner

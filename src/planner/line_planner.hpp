@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "line_problem.hpp"
+#include "planning_method.hpp"
+#include "slalom/base/timer.hpp"
+#include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/transcription.hpp"
+
+namespace slalom::planner {
+
+/// Plans the fastest motion along the road over the next L_range metres of it, from which the
+/// vehicle can drive on: at its end it is no faster than a SpeedProfile. Knows no obstacles.
+class LinePlanner final : public PlanningMethod {
+ public:
+  explicit LinePlanner(const Task& task);
+
+  Plan plan(const Request& request) override;
+  void reset() override { last_.reset(); }
+  void record(const Recorder&) override {}
+
+ private:
+  /// A plan from which the next solve starts.
+  struct Last {
+    double start;                ///< of the line [m]
+    ocp::Trajectory trajectory;  ///< along it
+  };
+
+  /// One solve of a cycle: from which guess, with the last plan's multipliers or without, and at
+  /// how many times the barrier floor.
+  struct Attempt {
+    double start;
+    ocp::Trajectory guess;
+    bool multipliers;
+    double floor_times;
+  };
+
+  void update(double start, const LineProblem::LineState& x0);
+  ocp::Trajectory guess(double start, const LineProblem::LineState& x0) const;
+  ocp::Trajectory shifted(double start, const LineProblem::LineState& x0) const;
+  Plan attempt(const Request& request, const Timer& timer, const Attempt& attempt);
+  Plan read(const Request& request, double start, const nlp::Options& options);
+
+  const Task task_;
+  const Settings& settings_;
+  const SpeedProfile profile_;  ///< that plans end by
+  const SpeedProfile calm_;     ///< that guesses go by
+  LineProblem line_;
+  std::array<ocp::Expr, LineProblem::kLineStates> x0_;
+  ocp::Expr end_speed_;
+  std::optional<ocp::Transcription> transcription_;
+  std::unique_ptr<nlp::Solver> solver_;
+  nlp::Start start_;
+  nlp::Answer answer_;
+  std::optional<double> s_;  ///< of the last cycle [m]
+  std::optional<Last> last_;
+};
+
+}  // namespace slalom::planner

@@ -1,0 +1,114 @@
+// Ways among shapes, tables and for a vehicle with a body.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "slalom/world/footprint.hpp"
+#include "slalom/world/way_finder.hpp"
+#include "slalom/world/way_signature.hpp"
+
+namespace slalom::world {
+namespace {
+
+Obstacle box(double x, double y, double length, double width, double psi) {
+  Obstacle o{"box", x, y};
+  o.outline = std::make_shared<Polygon>(Polygon::rectangle(length, width));
+  o.a = o.b = o.outline->reach();
+  o.psi = psi;
+  return o;
+}
+
+/// Northwards at 10 m/s with a body, in a street 16 m wide.
+struct Street : ::testing::Test {
+  Environment environment;
+  vehicle::Parameters vehicle;
+  vehicle::State start{0, 0, 0, 0, std::numbers::pi / 2, 0, 10, 0};
+
+  Street() {
+    vehicle.footprint = vehicle::FootprintKind::rectangle;
+    environment.goal = {0, 120, std::numbers::pi / 2, 8};
+    environment.region.x_min = -8;
+    environment.region.x_max = 8;
+  }
+  std::optional<Way> find() const {
+    std::optional<Way> found;
+    WayFinder(environment, vehicle)
+        .find_ways(start, 0, environment.obstacles, {}, 1, [&](const Way& way) {
+          found = way;
+          return true;
+        });
+    return found;
+  }
+  /// Of the body as it follows the way without slip, by the exact shapes.
+  double clearance(const Way& way) const {
+    const Footprint footprint(vehicle);
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& p : way) {
+      vehicle::State x{};
+      x[vehicle::X] = p.x;
+      x[vehicle::Y] = p.y;
+      x[vehicle::PSI] = p.heading - std::asin((vehicle.la + vehicle.lb) * p.kappa);
+      for (const auto& o : environment.obstacles)
+        if (o.present(p.t, p.t)) least = std::min(least, footprint.distance(o, x, p.t));
+    }
+    return least;
+  }
+};
+
+TEST_F(Street, ABodyFindsItsWayPastBoxes) {
+  environment.obstacles = {box(-3, 40, 9, 2, 0.3), box(4, 75, 8, 2, -0.2)};
+  const auto way = find();
+  ASSERT_TRUE(way);
+  EXPECT_GT(clearance(*way), 0.8 - 0.1) << "a tenth of a move apart it may be nearer";
+  EXPECT_LT(clearance(*way), 2.5);
+}
+
+TEST_F(Street, ACarThatTurnsIsWhereItsTableSays) {
+  auto car = box(0, 0, 12, 2, 0);
+  // Comes along the left side, and stands across the way for a while when the vehicle would come.
+  car.trajectory = std::make_shared<TableTrajectory>(std::vector<TrajectoryRow>{{0, -6, 80, -1.57},
+                                                                                {3, -6, 60, -1.57},
+                                                                                {5, 0, 52, 0},
+                                                                                {8, 0, 52, 0},
+                                                                                {10, 10, 52, 0},
+                                                                                {12, 30, 52, 0}},
+                                                     BeyondEnd::stands, BeyondEnd::absent, "car");
+  environment.obstacles = {car};
+  const auto way = find();
+  ASSERT_TRUE(way);
+  EXPECT_GT(clearance(*way), 0.6) << "a table is taken to go straight within a move";
+  // As if it went straight on for good, the way is another.
+  environment.obstacles[0].trajectory = nullptr;
+  environment.obstacles[0].x = -6;
+  environment.obstacles[0].y = 80;
+  environment.obstacles[0].psi = -1.57;
+  environment.obstacles[0].vy = -20 / 3.;
+  const auto other = find();
+  ASSERT_TRUE(other);
+  environment.obstacles = {car};
+  EXPECT_LT(clearance(*other), 0.6) << "or the table is not in the way";
+}
+
+TEST_F(Street, WhatIsAbsentIsNotPassed) {
+  auto wall = box(0, 0, 30, 2, 0);
+  const std::vector<TrajectoryRow> rows = {{0, 0, 50, 0}, {2, 0, 50, 0}};
+  wall.trajectory =
+      std::make_shared<TableTrajectory>(rows, BeyondEnd::stands, BeyondEnd::absent, "wall");
+  environment.obstacles = {wall};
+  const auto way = find();
+  ASSERT_TRUE(way);
+  EXPECT_LT(way->back().t, 12) << "straight through";
+  EXPECT_GT(signature(*way, environment.obstacles)[0].nearest, 20) << "while it is there";
+  wall.trajectory =
+      std::make_shared<TableTrajectory>(rows, BeyondEnd::stands, BeyondEnd::stands, "wall");
+  environment.obstacles = {wall};
+  EXPECT_FALSE(WayFinder(environment, vehicle)
+                   .find(start, 0, environment.obstacles, {.t_max = 20, .max_places = 20000}));
+}
+
+}  // namespace
+}  // namespace slalom::world

@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+"""Judges drives, exported as CommonRoad solutions, by the CommonRoad scenarios alone: nothing of Slalom is used.
+
+For each scenario NAME.xml of one folder and drive NAME/solution.xml of another, a row of a Markdown table says
+whether the vehicle's rectangle touches an obstacle or leaves the lanelets at any time step, how near it comes to
+an obstacle, and when the goal is reached. Obstacles that begin where the vehicle does are recorded drives of it:
+they are left out, and named under "without". Collision and road are judged by shapely, and again by
+commonroad-drivability-checker where it is installed; a row says so where the two differ. The checker needs the
+commonroad-io before 2026:
+
+    python3 -m venv judge; judge/bin/pip install commonroad-drivability-checker 'commonroad-io<2026'
+
+usage: commonroad_check.py SCENARIOS DRIVES      two folders, or NAME.xml and solution.xml
+Exits with 1 if there is a drive that collides or leaves the road, with 2 for files that cannot be judged.
+"""
+
+import argparse
+import json
+import logging
+import math
+import pathlib
+import sys
+import warnings
+
+# What gaps between neighbouring lanelets may have [m]: their edges are rounded in the files.
+SEAM = 0.01
+HEAD = (
+    "| scenario | drive ended as | at [s] | collision | off the road | least distance [m] | goal reached | without | judges |\n"
+    "|---|---|---|---|---|---|---|---|---|"
+)
+
+
+def shape_of(occupancy):
+    """The shapely geometry of an occupancy, of commonroad-io before and from 2026 on."""
+    from shapely.ops import unary_union
+
+    shape = getattr(occupancy, "shape", occupancy)
+    parts = getattr(shape, "shapes", None)
+    return unary_union([part.shapely_object for part in parts]) if parts else shape.shapely_object
+
+
+def rectangle(state, length, width):
+    import shapely
+    from shapely import affinity
+
+    box = shapely.box(-length / 2, -width / 2, length / 2, width / 2)
+    turned = affinity.rotate(box, state.orientation, origin=(0, 0), use_radians=True)
+    return affinity.translate(turned, *state.position)
+
+
+def by_shapely(scenario, states, length, width):
+    """The first time steps of a collision and off the road, None without, and the least distance [m]."""
+    import shapely
+
+    road = shapely.union_all([shape_of(lanelet.polygon).buffer(SEAM) for lanelet in scenario.lanelet_network.lanelets])
+    collision, off, least = None, None, float("inf")
+    for state in states:
+        body = rectangle(state, length, width)
+        if off is None and not road.covers(body):
+            off = state.time_step
+        for obstacle in scenario.obstacles:
+            occupancy = obstacle.occupancy_at_time(state.time_step)
+            if occupancy is None:
+                continue
+            distance = body.distance(shape_of(occupancy))
+            least = min(least, distance)
+            if collision is None and distance == 0:
+                collision = state.time_step
+    return collision, off, least
+
+
+def by_checker(scenario, states, length, width):
+    """The same first time steps by commonroad-drivability-checker; None where it is not installed."""
+    try:
+        from commonroad_dc import pycrcc
+        from commonroad_dc.boundary import boundary
+        from commonroad_dc.collision.collision_detection.pycrcc_collision_dispatch import create_collision_checker
+        from commonroad_dc.collision.trajectory_queries import trajectory_queries
+    except ImportError:
+        return None
+    body = pycrcc.TimeVariantCollisionObject(states[0].time_step)
+    for state in states:
+        body.append_obstacle(pycrcc.RectOBB(length / 2, width / 2, state.orientation, *map(float, state.position)))
+    checker = create_collision_checker(scenario)
+    collision = next(
+        (s.time_step for s in states if checker.time_slice(s.time_step).collide(body.obstacle_at_time(s.time_step))),
+        None,
+    )
+    road = boundary.create_road_polygons(scenario, method="lane_polygons", buffer=SEAM, resample=False)
+    off = trajectory_queries.trajectories_enclosure_polygons_static([body], road)[0]
+    return collision, (None if off < 0 else off)
+
+
+def without_the_vehicle(scenario, initial):
+    """Leaves out obstacles that begin where the vehicle does: recorded drives of it. Returns their ids."""
+    same = []
+    for obstacle in list(scenario.dynamic_obstacles):
+        state = obstacle.initial_state
+        if state.time_step == initial.time_step and not getattr(state, "is_uncertain_position", False):
+            gap = ((state.position - initial.position) ** 2).sum() ** 0.5
+            if gap < 0.5 and abs(math.remainder(state.orientation - initial.orientation, 2 * math.pi)) < 0.2:
+                scenario.remove_obstacle(obstacle)
+                same.append(obstacle.obstacle_id)
+    return same
+
+
+def judged(xml, solution_file):
+    """What a row says of one drive."""
+    from commonroad.common.file_reader import CommonRoadFileReader
+    from commonroad.common.solution import CommonRoadSolutionReader, vehicle_parameters
+
+    scenario, problems = CommonRoadFileReader(str(xml)).open()
+    part = CommonRoadSolutionReader.open(str(solution_file)).planning_problem_solutions[0]
+    problem = problems.planning_problem_dict[part.planning_problem_id]
+    car = vehicle_parameters[part.vehicle_type]
+    states = part.trajectory.state_list
+    without = without_the_vehicle(scenario, problem.initial_state)
+    collision, off, least = by_shapely(scenario, states, car.l, car.w)
+    again = by_checker(scenario, states, car.l, car.w)
+    if again is None:
+        judges = "shapely"
+    elif (again[0] is None, again[1] is None) == (collision is None, off is None):
+        judges = "both"
+    else:
+        judges = f"differ: the checker has collision {again[0]}, off the road {again[1]}"
+        collision = again[0] if collision is None else collision
+        off = again[1] if off is None else off
+    starts_off = by_shapely(scenario, states[:1], 0.01, 0.01)[1] is not None
+    if starts_off:
+        off = None
+    reached = "none asked" if not problem.goal.state_list else "no"
+    if problem.goal.state_list:
+        step = next((s.time_step for s in states if problem.goal.is_reached(s)), None)
+        reached = "no" if step is None else f"{step * scenario.dt:.2f} s"
+    return {
+        "end": states[-1].time_step * scenario.dt,
+        "collision": collision,
+        "off": off,
+        "least": least,
+        "reached": reached,
+        "without": ", ".join(map(str, without)),
+        "starts_off": starts_off,
+        "judges": judges,
+        "dt": scenario.dt,
+    }
+
+
+def pairs(scenarios, drives):
+    """Name, scenario, solution and summary of each drive."""
+    if scenarios.is_file():
+        yield scenarios.stem, scenarios, drives, drives.parent / "summary.json"
+        return
+    for xml in sorted(scenarios.glob("*.xml")):
+        if (drives / xml.stem / "solution.xml").exists():
+            yield xml.stem, xml, drives / xml.stem / "solution.xml", drives / xml.stem / "summary.json"
+
+
+def row(name, summary, verdict):
+    ended = json.loads(summary.read_text())["outcome"] if summary.exists() else ""
+    when = [
+        ("no" if verdict[key] is None else f"from {verdict[key] * verdict['dt']:.2f} s") for key in ("collision", "off")
+    ]
+    when[1] = "starts off it" if verdict["starts_off"] else when[1]
+    cells = [
+        name,
+        ended,
+        f"{verdict['end']:.2f}",
+        *when,
+        f"{verdict['least']:.2f}",
+        verdict["reached"],
+        verdict["without"],
+    ]
+    return f"| {' | '.join(cells)} | {verdict['judges']} |"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("scenarios", type=pathlib.Path)
+    parser.add_argument("drives", type=pathlib.Path)
+    arguments = parser.parse_args()
+    logging.disable(logging.CRITICAL)
+    warnings.simplefilter("ignore")
+    found = list(pairs(arguments.scenarios, arguments.drives))
+    if not found:
+        print(f"{arguments.drives}: found no NAME/solution.xml of a scenario of {arguments.scenarios}", file=sys.stderr)
+        return 2
+    print(HEAD)
+    good = 0
+    for name, xml, solution, summary in found:
+        try:
+            verdict = judged(xml, solution)
+        except Exception as error:  # the packages' messages are of all kinds
+            print(f"{solution}: cannot be judged: {type(error).__name__}: {error}", file=sys.stderr)
+            return 2
+        good += verdict["collision"] is None and verdict["off"] is None
+        print(row(name, summary, verdict))
+    print(f"\n{good} of {len(found)} drives touch nothing and stay on the road.")
+    return 0 if good == len(found) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
