@@ -18,6 +18,20 @@ class Verified(unittest.TestCase):
                              (other.folder / "plant.csv").read_bytes())
             self.assertEqual(one.summary["rungs"], other.summary["rungs"])
 
+    def test_it_drives_the_scenarios_on_roads(self):
+        names = ("parked-row", "double-lane-change", "overtaking")
+        untimed = UNTIMED[2:]
+        with scratch() as folder:
+            for name, drive in simulate_all(folder, {n: (n, *untimed) for n in names}).items():
+                with self.subTest(name):
+                    self.assertEqual(drive.outcome, "goal", drive.ended())
+                    self.assertGreater(drive.summary["least_clearance_m"], 0)
+                    self.assertGreater(drive.summary["least_edge_distance_m"], 0)
+                    resolved = drive.folder / "resolved.yaml"
+                    again = simulate_all(folder, {name + "-again": (resolved,)})[name + "-again"]
+                    self.assertEqual((drive.folder / "plant.csv").read_bytes(),
+                                     (again.folder / "plant.csv").read_bytes())
+
 
 if __name__ == "__main__":
     unittest.main()
