@@ -157,9 +157,19 @@ def pairs(scenarios, drives):
 
 def row(name, summary, verdict):
     ended = json.loads(summary.read_text())["outcome"] if summary.exists() else ""
-    when = [("no" if verdict[key] is None else f"from {verdict[key] * verdict['dt']:.2f} s") for key in ("collision", "off")]
+    when = [
+        ("no" if verdict[key] is None else f"from {verdict[key] * verdict['dt']:.2f} s") for key in ("collision", "off")
+    ]
     when[1] = "starts off it" if verdict["starts_off"] else when[1]
-    cells = [name, ended, f"{verdict['end']:.2f}", *when, f"{verdict['least']:.2f}", verdict["reached"], verdict["without"]]
+    cells = [
+        name,
+        ended,
+        f"{verdict['end']:.2f}",
+        *when,
+        f"{verdict['least']:.2f}",
+        verdict["reached"],
+        verdict["without"],
+    ]
     return f"| {' | '.join(cells)} | {verdict['judges']} |"
 
 

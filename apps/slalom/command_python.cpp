@@ -88,7 +88,9 @@ void add_import(CLI::App& app, Command& run) {
       ->type_name("WHEN");
   command->add_option("--speed", "Of track: speed at the start [m/s]; by default 15")
       ->type_name("U");
-  command->add_option("--laps", "Of track: how many; by default 1")->type_name("N");
+  command->add_option("--time", "Of track: as far as possible in so long [s]; by default 60")
+      ->type_name("S");
+  command->add_option("--laps", "Of track: so many laps instead")->type_name("N");
   command->footer(
       std::string("By the Python package, which SLALOM_PYTHON or python3 has.\n"
                   "Example: slalom import commonroad DEU_Test-1_1_T-1.xml --out test.yaml\n\n") +

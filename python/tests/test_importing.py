@@ -29,7 +29,7 @@ def written(folder, text, name="small.xml"):
 
 def test_a_track(tmp_path):
     scene = importing.track(written(tmp_path, scenes.track(), "ring.csv"))
-    assert scene.closed and len(scene.points) == 60 and scene.goal == {"laps": 1}
+    assert scene.closed and len(scene.points) == 60 and scene.goal == {"time": 60}
     assert scene.points[0] == [40, 0, 3, 4]
     assert scene.start["psi"] == pytest.approx(np.pi / 2) and scene.start["y"] == 0
     scene.write(tmp_path / "ring.yaml")
@@ -81,7 +81,7 @@ def test_a_scene(tmp_path, version):
     # The goal lies in the left lane: its rectangle moves to the front axle, too.
     assert scene.goal["x"] == pytest.approx(150 + car.centre * np.cos(scene.goal["psi"]), abs=1e-3)
     assert scene.goal["psi"] == pytest.approx(0, abs=1e-9) and scene.goal["psi_tolerance"] == pytest.approx(0.2)
-    assert (scene.goal["length"], scene.goal["width"]) == (10, 2)
+    assert scene.goal["length"] == 10 and scene.goal["width"] == pytest.approx(2 - 2 * car.centre * np.sin(0.2))
     assert [scene.goal[k] for k in ("ux_min", "ux_max", "t_min", "t_max")] == pytest.approx([5, 20, 5, 10])
     # The road: both lanes of this way, not the third.
     x, y, right, left = np.array(scene.points).T
@@ -129,9 +129,11 @@ def test_goals_of_other_kinds(tmp_path, version):
     time = "<time><intervalStart>30</intervalStart><intervalEnd>40</intervalEnd></time>"
     lane = goal_of(f'<goalState><position><lanelet ref="4"/></position>{time}</goalState>').goal
     assert 100 <= lane["x"] - lane["length"] / 2 and lane["x"] + lane["length"] / 2 <= 202 and lane["length"] > 80
-    assert 2 <= lane["y"] - lane["width"] / 2 + 0.03 and lane["y"] + lane["width"] / 2 <= 6.03 and lane["width"] > 3
+    assert 2 <= lane["y"] - lane["width"] / 2 + 0.03 and lane["y"] + lane["width"] / 2 <= 6.03 and lane["width"] > 2.5
     scene = goal_of(f"<goalState>{time}</goalState>")
-    assert scene.goal == {"time": pytest.approx(4)} and scene.points
+    assert scene.goal == {"time": pytest.approx(4)} and scene.points and not scene.limits
+    scene = goal_of("<goalState>" + time.replace(">40<", ">90<") + "</goalState>")  # the lanes end 180 m ahead
+    assert 9 * scene.limits["ux_max"] == pytest.approx(200 - scene.start["x"] - scene.vehicle.front_overhang - 2, abs=0.1)
     scene = goal_of("")
     assert scene.goal == {"time": pytest.approx(2)} and any("there is none; as far as possible" in n for n in scene.notes)
     two = scenes.GOAL.replace("<x>150</x>", "<x>120</x>") + scenes.GOAL

@@ -1,7 +1,6 @@
 """Drives in other formats: `mcap` for Foxglove, `rerun`, and `commonroad_solution` for CommonRoad's checkers.
 
-import slalom.exporting
-slalom.exporting.mcap("drives/E_C", "E_C.mcap")
+For example, `exporting.mcap("drives/E_C", "E_C.mcap")`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Scenarios of other formats as scenario files: `commonroad` and `track` make a scene, its `write` the file.
 
-import slalom.importing
-slalom.importing.track("Monza.csv").write("Monza.yaml")
+For example, `importing.track("Monza.csv").write("Monza.yaml")`.
 """
 
 from __future__ import annotations

@@ -40,14 +40,19 @@ def parser(program: str) -> argparse.ArgumentParser:
         "stands in the way",
     )
     made.add_argument("--speed", type=float, default=15.0, metavar="U", help="of track: speed at the start [m/s]")
-    made.add_argument("--laps", type=int, default=1, metavar="N", help="of track: how many")
+    made.add_argument(
+        "--time", type=float, default=60.0, metavar="S", help="of track: as far as possible in so long [s]"
+    )
+    made.add_argument("--laps", type=int, metavar="N", help="of track: so many laps instead")
     return made
 
 
 def scene_of(arguments: argparse.Namespace) -> Scene:
     """What the arguments ask for."""
     if arguments.format == "track":
-        return track(arguments.file, vehicle=arguments.vehicle, speed=arguments.speed, laps=arguments.laps)
+        return track(
+            arguments.file, vehicle=arguments.vehicle, speed=arguments.speed, time=arguments.time, laps=arguments.laps
+        )
     return commonroad(arguments.file, vehicle=arguments.vehicle, problem=arguments.problem, oncoming=arguments.oncoming)
 
 

@@ -22,10 +22,10 @@ ACCELERATION = 4.0
 """By which the road's length for a goal of time alone is reckoned [m/s^2]."""
 BEHIND, BEYOND = 15.0, 60.0
 """How much road is kept behind the vehicle and beyond the goal [m]."""
-CLOSE = {"verified_clearance": 0.2, "kept_clearance": 0.1, "arrival_margin": 0.1}
-"""How near to bodies a plan may come [m]: between lanes there is no room for the paper's 2 m."""
 TEX = 0.1
 """Execution horizon [s]: a scene may leave a second to act, and tells the traffic in such steps."""
+AT_THE_END = 2.0
+"""How far the body stays from the end of the lanes [m]."""
 TURNED_AWAY = 10.0
 """What it costs to start in a lane of another direction [m/rad]."""
 
@@ -50,6 +50,7 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
         goal, road = _goal_and_road(way, chosen, clock, obstacles)
         notes.append(f"road: lanes of the other way beside it are added, since {blocked[0]}")
         blocked = _in_the_way(road, obstacles, car)
+    limits = _within_the_map(road, goal, start, car, way) if road else {}
     notes += way.notes + [f"road: {each}" for each in blocked]
     t_max = goal.get("time", goal.get("t_max"))
     return Scene(
@@ -66,8 +67,9 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
         points=road.points() if road else [],
         lanes=road.lane_lines() if road else [],
         obstacles=obstacles,
-        planner={"base": "P_E", "prediction": "known", **CLOSE},
+        planner={"base": "P_E_road", "prediction": "known"},
         loop={"tex": TEX},
+        limits=limits,
         notes=notes,
     )
 
@@ -271,8 +273,13 @@ def _as_far_as_possible(
         return {"time": time}, None
     _must_start_on_a_lane(way)
     first = min(way.starts, key=lambda lane: way.starts[lane])
-    ahead = way.speed * time + ACCELERATION / 2 * time**2 + BEYOND
+    ahead = _reached(way.speed, time) + BEYOND
     return {"time": time}, way.road([way.lanes[first]], ahead, None)
+
+
+def _reached(speed: float, time: float) -> float:
+    """How far a vehicle may come [m]."""
+    return speed * time + ACCELERATION / 2 * time**2
 
 
 def _must_start_on_a_lane(way: _Way) -> None:
@@ -294,6 +301,21 @@ def _must_start_on_a_lane(way: _Way) -> None:
 def _some(ids: Any) -> str:
     ids = [str(i) for i in ids]
     return ", ".join(ids[:4]) + (f" and {len(ids) - 4} others" if len(ids) > 4 else "")
+
+
+def _within_the_map(
+    road: Road, goal: dict[str, float], start: dict[str, float], car: Vehicle, way: _Way
+) -> dict[str, float]:
+    """A greatest speed by which a goal of time does not lead beyond the end of the lanes."""
+    if "time" not in goal:
+        return {}
+    s = project(road.line, np.array([start["x"], start["y"]]))[0]
+    time, room = goal["time"], road.length - s - car.front_overhang - AT_THE_END
+    speed = room / time
+    if room > _reached(start["ux"], time) or speed >= car.ux_max or speed <= start["ux"]:
+        return {}
+    way.notes.append(f"vehicle: at most {speed:.1f} m/s, for the lanes end {road.length - s:.0f} m ahead")
+    return {"ux_max": speed}
 
 
 def _in_the_way(road: Road | None, obstacles: list[dict[str, Any]], car: Vehicle) -> list[str]:

@@ -14,6 +14,8 @@ from ._road import Road
 
 PLACES_ALONG = 16
 """Of how many places along the road a rectangle may begin or end."""
+HEADING = 0.2
+"""[rad]"""
 FARTHEST_ACROSS = 10.0
 """How far to a side a rectangle may reach [m]."""
 
@@ -89,9 +91,11 @@ def heading(goal: Wanted, box: dict[str, float], notes: list[str]) -> dict[str, 
 
 
 def ahead(box: dict[str, float], distance: float) -> dict[str, float]:
-    """The rectangle for what lies `distance` ahead of the vehicle's centre."""
+    """The rectangle for what lies `distance` ahead of the vehicle's centre: so much narrower that the centre is
+    in the goal's, too, while the vehicle is turned against it by at most HEADING, or a quarter of the width."""
     return {
         **box,
+        "width": box["width"] - min(2 * distance * float(np.sin(HEADING)), box["width"] / 4),
         "x": box["x"] + distance * float(np.cos(box["psi"])),
         "y": box["y"] + distance * float(np.sin(box["psi"])),
     }

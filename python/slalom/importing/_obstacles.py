@@ -30,9 +30,7 @@ class Clock:
         return (time_step - self.first) * self.step
 
 
-def obstacles_of(
-    scenario: Any, clock: Clock, place: Array, psi: float, notes: list[str]
-) -> list[dict[str, Any]]:
+def obstacles_of(scenario: Any, clock: Clock, place: Array, psi: float, notes: list[str]) -> list[dict[str, Any]]:
     """All obstacles of a scenario of commonroad-io but the vehicle itself, which starts at `place` in the
     direction `psi`; what is not carried over is added to `notes`."""
     made = []

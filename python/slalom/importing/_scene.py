@@ -26,6 +26,7 @@ class Vehicle:
     front_overhang: float
     """From the front axle on to the front of the body."""
     ux_min: float
+    ux_max: float
 
     @property
     def centre(self) -> float:
@@ -37,7 +38,7 @@ class Vehicle:
         """A built-in vehicle or one of a file. Raises InvalidValue for what is none."""
         plain = {"vehicle": name, "start": {"x": 0, "y": 0}, "goal": {"x": 0, "y": 100}}
         scenario = slalom.load_scenario(plain)
-        keys = ("length", "width", "la", "front_overhang", "ux_min")
+        keys = ("length", "width", "la", "front_overhang", "ux_min", "ux_max")
         return cls(name, *(float(scenario["vehicle." + key]) for key in keys))
 
 
@@ -60,6 +61,8 @@ class Scene:
     obstacles: list[dict[str, Any]] = field(default_factory=list)
     planner: dict[str, Any] = field(default_factory=dict)
     loop: dict[str, Any] = field(default_factory=dict)
+    limits: dict[str, float] = field(default_factory=dict)
+    """Keys of the vehicle that are not its own."""
     notes: list[str] = field(default_factory=list)
     """What could not be carried over, by name, and what was decided, a sentence each."""
 
@@ -70,7 +73,7 @@ class Scene:
             lines += ["# Not as in the source:", *(f"# - {note}" for note in self.notes)]
         lines += [
             f"name: {_text(self.name)}",
-            f"vehicle: {{base: {_text(self.vehicle.name)}, footprint: rectangle}}",
+            f"vehicle: {_flow({'base': self.vehicle.name, 'footprint': 'rectangle', **self.limits})}",
             f"planner: {_flow(self.planner)}",
             f"start: {_flow(self.start)}",
             f"goal: {_flow(self.goal)}",

@@ -18,8 +18,16 @@ MOST_OF_RADIUS, FAR_TOO_MUCH = 0.9, 1.5
 """How much of a bend's radius the road may be wide inside it, and beyond which share the file is refused."""
 
 
-def track(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", speed: float = 15.0, laps: int = 1) -> Scene:
-    """A race track as a scenario: `laps` of a closed road, from its first point on along it at `speed` [m/s].
+def track(
+    file: str | os.PathLike[str],
+    *,
+    vehicle: str = "bmw_320i",
+    speed: float = 15.0,
+    time: float = 60.0,
+    laps: int | None = None,
+) -> Scene:
+    """A race track as a scenario: from its first point on along it at `speed` [m/s], as far as possible in `time`
+    [s], or so many `laps`.
 
     Raises BadFile with file and line, and InvalidValue for a vehicle that is none.
     """
@@ -40,11 +48,11 @@ def track(file: str | os.PathLike[str], *, vehicle: str = "bmw_320i", speed: flo
         source=[f"Imported from the race track {pathlib.Path(file).name}: {len(line)} points, {total:.0f} m"],
         vehicle=car,
         start={"x": float(line[0, 0]), "y": float(line[0, 1]), "psi": psi, "ux": max(speed, car.ux_min)},
-        goal={"laps": laps},
-        timeout=float(np.ceil(laps * total / 5)),
+        goal={"time": time} if laps is None else {"laps": laps},
+        timeout=time + 1 if laps is None else float(np.ceil(laps * total / 5)),
         points=rows.tolist(),
         closed=True,
-        planner={"base": "P_E", "prediction": "known"},
+        planner={"base": "P_E_road"},
         notes=notes,
     )
 
