@@ -169,7 +169,8 @@ class ClosedLoop {
   End arrival() const {
     const double since = watch_.goal_time().value_or(t_);
     if (scenario_.goal.kind() == world::GoalKind::time)
-      return {Outcome::goal, fmt::format("{:.6g} m along the road by {:.6g} s", watch_.progress(), t_)};
+      return {Outcome::goal,
+              fmt::format("{:.6g} m along the road by {:.6g} s", watch_.progress(), t_)};
     return {Outcome::goal, fmt::format("{} at {:.6g} s, arrived at the check at {:.6g} s",
                                        scenario_.goal.kind() == world::GoalKind::square
                                            ? "entered the goal's square"

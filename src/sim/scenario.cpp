@@ -160,8 +160,7 @@ void check_road(const Scenario& s, const std::string& where) {
                        fmt::format("({:.6g}, {:.6g}), {:.6g} m off the road", s.goal.x, s.goal.y,
                                    -s.road->edge_distance(world::Point{s.goal.x, s.goal.y})),
                        "a goal on the road", {"goal", "road"});
-  if (s.goal.kind() == world::GoalKind::laps &&
-      s.planner.method != planner::Method::along_road)
+  if (s.goal.kind() == world::GoalKind::laps && s.planner.method != planner::Method::along_road)
     throw InvalidValue(where + ": goal",
                        fmt::format("laps = {:.6g} by planner {}", s.goal.laps, s.planner.name),
                        "planner P_L, or another of method along_road", {"goal.laps", "planner"});
