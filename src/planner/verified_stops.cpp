@@ -112,9 +112,10 @@ void VerifiedPlanner::stop(Cycle& cycle) {
     if (stop_late(cycle, cycle.rest->proposal)) return;
     stops.push_back({"stop along the rest", {}, cycle.rest->motion()});
   }
+  const double can = agility(task_.vehicle).braking;
   if (task_.road) {
     // As far as the gentlest stop goes, and on.
-    const double enough = X0p[UX] / kStops.back() + 1;
+    const double enough = X0p[UX] / (can * kStops.back()) + 1;
     stops.push_back({"stop along the road",
                      {},
                      road_reference(*task_.road, X0p, t0, enough, 0, task_.vehicle)});
@@ -124,7 +125,6 @@ void VerifiedPlanner::stop(Cycle& cycle) {
       {"stop after a swerve to the left", {}, swerve_reference(X0p, t0, 1, task_.vehicle)});
   stops.push_back(
       {"stop after a swerve to the right", {}, swerve_reference(X0p, t0, -1, task_.vehicle)});
-  const double can = agility(task_.vehicle).braking;
   for (const Stop& stop : stops)
     for (const double deceleration : kStops)
       if (stop_along(cycle, stop, can * deceleration, {})) return;

@@ -8,6 +8,22 @@ from program import ProgramTest, run
 FAST = ("--set", "loop.timeout=2", "--quiet")
 
 
+# Bodies that turn, far from the origin of the frame that plans are made in.
+TURN = """name: turn
+vehicle: {base: hmmwv, footprint: rectangle}
+planner: {base: %s, prediction: %s, sm_start: 0.5, sm_end: 1, verified_clearance: 0.5, kept_clearance: 0.3}
+start: {x: 8200, y: -4100, psi_deg: 90, ux: 15}
+goal: {x: 8200, y: -3900, psi_deg: 90, sigma: 5}
+region: {x_min: 8188, x_max: 8212}
+obstacles:
+  - {name: rock, x: 8202, y: -4070, polygon: [[-1, -1], [2, 0], [0, 1.5]], margin_start: 0.1, margin_rate: 0.05}
+  - {name: car, length: 4.5, width: 1.8, table: [[0, 8194, -4040, -1.57], [1, 8194, -4048, -1.57],
+     [2, 8195, -4056, -1], [3, 8200, -4060, 0], [4, 8203, -4060, 0]], before: absent}
+  - {name: walker, r: 0.4, path: [[8205, -4000], [8195, -4000]], speed: 1.2}
+loop: {sm_crash: 0}
+"""
+
+
 class Replay(ProgramTest):
     def record(self, *arguments, solver="interior_point"):
         """Drives 2 s of E_B; the recorded files, by name."""
@@ -77,9 +93,7 @@ class Replay(ProgramTest):
         files = sorted(folder.glob("cycle-*.json"))
         self.assertGreaterEqual(len(files), 4)
         for path in files:
-            result = run("replay", path, "--json")
-            self.assertEqual(result.code, 0, result.out + result.err)
-            self.assertTrue(json.loads(result.out)["same"])
+            self.assert_same(path)
         recorded = json.loads(files[1].read_text())
         self.assertEqual(recorded["format"], "slalom recorded plan 1")
         # A plan that was moved by a centimetre keeps something else.
@@ -91,6 +105,31 @@ class Replay(ProgramTest):
         recorded["controls"].pop()
         self.assert_refused(run("replay", self.write("short.json", json.dumps(recorded))), 2,
                             "controls", "as t has")
+
+    def test_bodies_that_turn(self):
+        for planner in ("P_D", "P_E"):
+            for prediction in ("known", "constant_velocity", "constant_turn"):
+                with self.subTest(planner=planner, prediction=prediction):
+                    folder = self.folder / f"{planner}-{prediction}"
+                    scene = self.write("turn.yaml", TURN % (planner, prediction))
+                    result = run("simulate", scene, *FAST, "--record-failures", folder, "--record-slow",
+                                 "0")
+                    self.assertIn(result.code, (0, 1), result.err)
+                    files = sorted(folder.glob("cycle-*.json"))
+                    self.assertTrue(files)
+                    for path in files:
+                        self.assert_same(path)
+                    if planner == "P_E":
+                        bodies = json.loads(files[-1].read_text())["obstacles"]
+                        self.assertEqual(len(bodies[0]["polygon"]), 3)
+                        moved = {"known": "moved", "constant_turn": "turning"}.get(prediction)
+                        if moved:
+                            self.assertIn(moved, bodies[-1]["trajectory"])
+
+    def assert_same(self, path):
+        result = run("replay", path, "--json")
+        self.assertEqual(result.code, 0, result.out + result.err)
+        self.assertTrue(json.loads(result.out)["same"])
 
     def test_bad_files(self):
         whole = json.loads(self.record("--record-slow", "0")["cycle-1.json"].read_text())

@@ -43,6 +43,7 @@ TEST(Expr, ConstantsFoldToTheReferenceValue) {
 
 TEST(Expr, FunctionsAndOperatorsBuildTheirOperation) {
   const Expr a = Expr::symbol("a"), b = Expr::symbol("b"), c = Expr::symbol("c");
+  const auto steps = std::make_shared<Steps>(Steps{{0, 1}, {2, 3}});
   const std::vector<std::pair<Expr, Op>> built = {{-a, Op::neg},
                                                   {square(a), Op::square},
                                                   {sqrt(a), Op::sqrt},
@@ -59,6 +60,7 @@ TEST(Expr, FunctionsAndOperatorsBuildTheirOperation) {
                                                   {tanh(a), Op::tanh},
                                                   {abs(a), Op::abs},
                                                   {sign(a), Op::sign},
+                                                  {Expr::apply(steps, a), Op::lookup},
                                                   {a + b, Op::add},
                                                   {a - b, Op::sub},
                                                   {a * b, Op::mul},

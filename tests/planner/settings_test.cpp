@@ -79,7 +79,7 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
                            "search_places",
                            "improvement_places"})
     EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 67u);
+  EXPECT_EQ(names.size(), 69u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {

@@ -171,21 +171,6 @@ TEST(CoveringDiscs, CoverAnObstacleWhereverItGoes) {
       }
 }
 
-TEST(CoveringDiscs, StickOutOfABoxesLongSidesByTheExcessAtMost) {
-  for (const double excess : {0.05, 0.1, 0.3, 1.}) {
-    const auto box = outlined(Polygon::rectangle(4.5, 1.8), 0.3);
-    const Pose pose = box.pose_at(0);
-    std::size_t count = 0;
-    for (const auto& disc : covering_discs(box, excess)) {
-      const Point centre = pose.to_body({disc.x, disc.y});
-      EXPECT_LE(std::fabs(centre.y) + disc.a, 0.9 + excess + 1e-9);
-      EXPECT_LE(std::fabs(centre.x) + disc.a, 2.25 + 0.9 + 1e-9) << "beyond an end: half the width";
-      ++count;
-    }
-    EXPECT_LT(count, std::size_t{kMostDiscs});
-  }
-}
-
 TEST(CoveringDiscs, OfTheVehicleCoverItsFootprint) {
   const auto car = body();
   for (const double excess : {0.05, 0.2, 0.5}) {

@@ -62,10 +62,10 @@ double distance(const Obstacle& obstacle, double x, double y, double t);
 /// obstacle at absolute time t [s]; negative where they overlap.
 double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, double t);
 
-/// Circles in a row that cover the body at all times; the body itself where it is plain. Named as
-/// it is. They cover the rectangle about a polygon or a turned ellipse, and stick out of its long
-/// sides by at most `excess` [m], but for no more than kMostDiscs of them, and beyond its ends by
-/// less than half its width.
+/// Circles that cover the body at all times; the body itself where it is plain. Named as it is.
+/// They cover the rectangle about a polygon or a turned ellipse by a row along its middle and cells
+/// in what that leaves of its corners, and stick out of it by at most `excess` [m], but for no more
+/// than kMostDiscs of them.
 std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess);
 constexpr int kMostDiscs = 16;
 
