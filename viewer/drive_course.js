@@ -38,8 +38,9 @@
     }));
     ctx.fillStyle = colour.road;
     if (!scene.roads.length) for (const { x0, x1, y0, y1 } of sides) ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
-    roads(view);
+    surfaces(view);
     grid(view);
+    roadLines(view);
     ctx.lineWidth = 1.5;
     for (const { r, x0, x1, y0, y1 } of sides) {
       ctx.strokeStyle = colour[r.ink];
@@ -107,15 +108,22 @@
     for (const [x, y] of places) view.ctx.lineTo(view.x(x), view.y(y));
   }
 
-  function roads(view) {
+  function surfaces(view) {
+    const { ctx, colour, scene } = view;
+    ctx.fillStyle = colour.road;
+    for (const { left, right } of scene.roads) {
+      through(view, [...left, ...right.slice().reverse()]);
+      ctx.fill();
+    }
+  }
+
+  /** Edges, lanes and the reference line. */
+  function roadLines(view) {
     const { ctx, colour, scene } = view;
     for (const { left, right, middle, lanes, ink } of scene.roads) {
-      through(view, [...left, ...right.slice().reverse()]);
-      ctx.fillStyle = colour.road;
-      ctx.fill();
+      ctx.strokeStyle = colour[ink];
       const line = (places, width, alpha, dash) => {
         through(view, places);
-        ctx.strokeStyle = colour[ink];
         ctx.lineWidth = width;
         ctx.globalAlpha = alpha;
         ctx.setLineDash(dash);
