@@ -36,6 +36,13 @@ def test_a_track(tmp_path):
     assert slalom.load_scenario(tmp_path / "ring.yaml").name == "ring"
 
 
+def test_laps_of_a_track_are_driven(tmp_path):
+    scene = importing.track(written(tmp_path, scenes.track(), "ring.csv"), laps=1)
+    scene.write(tmp_path / "ring.yaml")
+    drive = slalom.simulate(tmp_path / "ring.yaml")
+    assert drive.outcome == "goal" and 0 < drive.goal_time < 40
+
+
 def without_line(text, number):
     lines = text.splitlines()
     return "\n".join(lines[:number] + lines[number + 1:])

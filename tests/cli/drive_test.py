@@ -16,6 +16,30 @@ def read_table(path):
         return list(csv.DictReader(file))
 
 
+class Laps(ProgramTest):
+    def test_two_laps_in_closed_loop_are_near_the_optimum(self):
+        out = self.folder / "laps"
+        drive = run("simulate", "circuit", "--out", out)
+        self.assertEqual(drive.code, 0, drive.err)
+        summary = json.loads((out / "summary.json").read_text())
+        first, second = summary["lap_ends_s"]
+        self.assertEqual(summary["goal_time_s"], second)
+        self.assertGreater(summary["least_edge_distance_m"], 0)
+        best = run("lap", "circuit", "--json", "--out", self.folder / "best")
+        self.assertEqual(best.code, 0, best.err)
+        optimum = json.loads(best.out)
+        self.assertEqual(optimum["status"], "converged")
+        self.assertLess((second - first) / optimum["time_s"], 1.03)
+        self.assertGreater((second - first) / optimum["time_s"], 1)
+        points = read_table(self.folder / "best" / "lap.csv")
+        self.assertAlmostEqual(float(points[-1]["t_s"]), optimum["time_s"], delta=0.01)
+
+    def test_what_has_no_laps_is_refused(self):
+        self.assertIn("a scenario without a road", run("lap", "E_C").err)
+        self.assertIn("planner P_L", run("check", "circuit", "--planner", "P_D").err)
+        self.assertIn("planner P_L without a road", run("check", "E_C", "--planner", "P_L").err)
+
+
 class Simulate(ProgramTest):
     def test_a_drive_leaves_its_folder(self):
         out = self.folder / "deep" / "out"

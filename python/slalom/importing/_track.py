@@ -52,7 +52,8 @@ def track(
         timeout=time + 1 if laps is None else float(np.ceil(laps * total / 5)),
         points=rows.tolist(),
         closed=True,
-        planner={"base": "P_E_road"},
+        planner={"base": "P_E_road" if laps is None else "P_L"},
+        loop={} if laps is None else {"tex": 0.1, "on_failure": "last_plan"},
         notes=notes,
     )
 
