@@ -19,7 +19,8 @@ class Verified(unittest.TestCase):
             self.assertEqual(one.summary["rungs"], other.summary["rungs"])
 
     def test_it_drives_the_scenarios_on_roads(self):
-        names = ("parked-row", "double-lane-change", "overtaking")
+        names = ("parked-row", "double-lane-change", "overtaking", "pedestrian", "door", "merge",
+                 "chicane")
         untimed = UNTIMED[2:]
         with scratch() as folder:
             for name, drive in simulate_all(folder, {n: (n, *untimed) for n in names}).items():
