@@ -69,6 +69,25 @@ def by_shapely(scenario, states, length, width):
     return collision, off, least
 
 
+def upright(scenario):
+    """The scenario's lanelets, their left bounds to the left: some files have one the other way round, whose
+    area the checker then takes for off the road."""
+    import numpy as np
+    from commonroad.scenario.lanelet import Lanelet, LaneletNetwork
+    from commonroad.scenario.scenario import Scenario
+
+    lanelets = []
+    for lanelet in scenario.lanelet_network.lanelets:
+        left, right = lanelet.left_vertices, lanelet.right_vertices
+        along, across = np.diff(lanelet.center_vertices[:2], axis=0)[0], left[0] - right[0]
+        if along[0] * across[1] - along[1] * across[0] < 0:
+            left, right = right, left
+        lanelets.append(Lanelet(left, lanelet.center_vertices, right, lanelet.lanelet_id))
+    made = Scenario(scenario.dt)
+    made.add_objects(LaneletNetwork.create_from_lanelet_list(lanelets))
+    return made
+
+
 def by_checker(scenario, states, length, width):
     """The same first time steps by commonroad-drivability-checker; None where it is not installed."""
     try:
@@ -86,7 +105,7 @@ def by_checker(scenario, states, length, width):
         (s.time_step for s in states if checker.time_slice(s.time_step).collide(body.obstacle_at_time(s.time_step))),
         None,
     )
-    road = boundary.create_road_polygons(scenario, method="lane_polygons", buffer=SEAM, resample=False)
+    road = boundary.create_road_polygons(upright(scenario), method="whole_polygon", triangulate=True)
     off = trajectory_queries.trajectories_enclosure_polygons_static([body], road)[0]
     return collision, (None if off < 0 else off)
 

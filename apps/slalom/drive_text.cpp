@@ -50,6 +50,9 @@ std::string drive_text(const sim::Scenario& scenario, const sim::Drive& drive) {
   if (std::isfinite(drive.least_edge_distance))
     text += fmt::format("  off the road's edge {:.3f} m at the least, {:.1f} m along the road\n",
                         drive.least_edge_distance, drive.progress);
+  for (std::size_t lap = 0; lap < drive.lap_ends.size(); ++lap)
+    text += fmt::format("  lap {:<15}{:.3f} s\n", lap + 1,
+                        drive.lap_ends[lap] - (lap > 0 ? drive.lap_ends[lap - 1] : 0));
 
   text += verification_text(drive);
   for (const auto& mark : sim::marks(scenario, drive))

@@ -109,6 +109,7 @@ std::string summary_json(const sim::Scenario& scenario, const sim::Drive& drive)
   if (std::isfinite(drive.least_edge_distance)) {
     summary["least_edge_distance_m"] = number(drive.least_edge_distance);
     summary["progress_m"] = number(drive.progress);
+    if (scenario.road && scenario.road->closed()) summary["lap_ends_s"] = drive.lap_ends;
   }
   summary["tex_s"] = number(scenario.loop.tex);
   summary["floor"] = number(scenario.planner.floor);

@@ -20,6 +20,10 @@ constexpr double kBeyondLine = 0.2, kLineDepth = 5;
 /// Of the ranges of what else is asked, or so much inside them where they are wide [their unit].
 constexpr double kShare = 0.25, kInside = 0.1;
 
+/// A way that ends on the road is turned no farther from its direction [rad], and turns no faster
+/// beside it [rad/s]: it goes on.
+constexpr double kEndHeading = 0.15, kEndTurn = 0.1;
+
 /// A range, smaller on each side that is there.
 Bounds inside(double lower, double upper) {
   const double by = std::min(kInside, kShare * (upper - lower));
@@ -33,6 +37,7 @@ ArrivalEnd::ArrivalEnd(ocp::Problem& problem, const Task& task, const States& st
     : goal_(task.goal), road_(task.road) {
   add_place(problem, states);
   add_conditions(problem, states, t_start);
+  if (road_ && !goal_.is_place()) add_going_on(problem, states);
   if (goal_.kind() != world::GoalKind::time) return;
   duration_ = problem.parameter("duration", 1);
   problem.boundary("time is up", problem.final_time() - *duration_, Bounds::equal(0));
@@ -75,20 +80,33 @@ void ArrivalEnd::add_conditions(ocp::Problem& problem, const States& states, con
   if (t.bounded()) problem.boundary("goal time", t_start + problem.final_time(), t);
 }
 
+void ArrivalEnd::add_going_on(ocp::Problem& problem, const States& states) {
+  end_psi_ = problem.parameter("end_psi", 0);
+  end_bend_ = problem.parameter("end_bend", 0);
+  problem.boundary("end heading", problem.final(states[PSI]) - *end_psi_,
+                   {-kEndHeading, kEndHeading});
+  problem.boundary("end turn", problem.final(states[R]) - *end_bend_ * problem.final(states[UX]),
+                   {-kEndTurn, kEndTurn});
+}
+
 double ArrivalEnd::duration(const Motion& guess) const {
   return (duration_ ? goal_.time : guess.end()) - guess.begin();
 }
 
 void ArrivalEnd::set(ocp::Problem& problem, const Motion& guess) const {
-  const State& last = guess.states.back();
-  if (turns_) {
+  const State end = duration_ ? guess.state_at(goal_.time) : guess.states.back();
+  // Of the same turn as the guess.
+  const auto near = [&](double psi) {
     constexpr double turn = 2 * std::numbers::pi;
-    problem.set_parameter(*turns_, goal_.psi + turn * std::round((last[PSI] - goal_.psi) / turn));
-  }
+    return psi + turn * std::round((end[PSI] - psi) / turn);
+  };
+  if (turns_) problem.set_parameter(*turns_, near(goal_.psi));
+  if (!end_psi_) return;
+  const auto at = road_->at(road_->project({end[X], end[Y]}).s);
+  problem.set_parameter(*end_psi_, near(at.psi));
+  problem.set_parameter(*end_bend_, at.curvature);
   if (!duration_) return;
   problem.set_parameter(*duration_, duration(guess));
-  const State end = guess.state_at(goal_.time);
-  const auto at = road_->at(road_->project({end[X], end[Y]}).s);
   problem.set_parameter(ahead_[0], std::cos(at.psi));
   problem.set_parameter(ahead_[1], std::sin(at.psi));
 }

@@ -26,11 +26,12 @@ class ArrivalEnd {
 
  private:
   void add_place(ocp::Problem& problem, const States& states) const;
+  void add_going_on(ocp::Problem& problem, const States& states);
   void add_conditions(ocp::Problem& problem, const States& states, const ocp::Expr& t_start);
 
   world::Goal goal_;
   std::shared_ptr<const world::Road> road_;
-  std::optional<ocp::Expr> duration_, turns_;  ///< parameters
+  std::optional<ocp::Expr> duration_, turns_, end_psi_, end_bend_;  ///< parameters
   std::array<ocp::Expr, 2> ahead_;  ///< the road's direction where the guess ends, of a time
 };
 

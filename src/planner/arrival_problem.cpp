@@ -64,7 +64,7 @@ ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
       problem_("arrival"),
       road_(task.road) {
   if (const world::Footprint footprint(task.vehicle); !footprint.is_point())
-    box_.emplace(footprint);
+    box_.emplace(footprint, task.planner.cover_excess);
   add_dynamics(task);
   add_obstacles();
   if (road_) corridor_.emplace(problem_, X_[X], X_[Y], X_[PSI], world::Footprint(task.vehicle));

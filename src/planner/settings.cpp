@@ -73,8 +73,9 @@ void add_what_tells_planners_apart(Table& table) {
           "cover_excess", &S::cover_excess, Range::positive(), "m",
           "By how much the discs that stand in for a box, a polygon or a turned ellipse may stick "
           "out of it in the OCP and the search, where 16 discs do; half as much takes 1.4 times as "
-          "many rows. In the search discs stand in for the vehicle's body too. What judges plans "
-          "and drives has the exact shapes.")
+          "many rows. In the search discs stand in for the vehicle's body too, and the smooth "
+          "distance from it in the OCP is as much closer. What judges plans and drives has the "
+          "exact shapes.")
       .choice(
           "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
           "Rows of obstacles hold at nodes alone, as in the paper. A plan that between them goes "

@@ -16,8 +16,9 @@ namespace slalom::planner {
 /// the distance is sqrt(f(u, l)^2 + f(v, w)^2).
 class SmoothBox {
  public:
-  /// Of a footprint that is not a point.
-  explicit SmoothBox(const world::Footprint& footprint);
+  /// Of a footprint that is not a point; smoother where the stand-ins of shapes may stick out by
+  /// more (Settings::cover_excess).
+  SmoothBox(const world::Footprint& footprint, double cover_excess);
 
   /// The square of the distance to (dx, dy) from the front axle's centre, which the vehicle's
   /// heading is psi at.
@@ -27,9 +28,8 @@ class SmoothBox {
   double smooth_radius(double radius) const;
 
  private:
-  static constexpr double kSmoothing = 0.5;  ///< e [m]
-
   double middle_, half_length_, half_width_;
+  double smoothing_;  ///< e [m]
 };
 
 }  // namespace slalom::planner

@@ -46,7 +46,8 @@ TrajectoryProblem::TrajectoryProblem(const Task& task,
       goal_in_range_(goal_in_range),
       map_(task.vehicle, task.planner.model),
       problem_("trajectory") {
-  if (const world::Footprint footprint(vehicle_); !footprint.is_point()) box_.emplace(footprint);
+  if (const world::Footprint footprint(vehicle_); !footprint.is_point())
+    box_.emplace(footprint, settings_.cover_excess);
   const Model& model = map_.model();
   add_variables(model, task.region);
   add_dynamics(model);

@@ -169,21 +169,13 @@ class ClosedLoop {
   End arrival() const {
     const double since = watch_.goal_time().value_or(t_);
     if (scenario_.goal.kind() == world::GoalKind::time)
-      return {Outcome::goal, fmt::format("{:.6g} m along the road by {:.6g} s", progress(), t_)};
+      return {Outcome::goal,
+              fmt::format("{:.6g} m along the road by {:.6g} s", watch_.progress(), t_)};
     return {Outcome::goal, fmt::format("{} at {:.6g} s, arrived at the check at {:.6g} s",
                                        scenario_.goal.kind() == world::GoalKind::square
                                            ? "entered the goal's square"
                                            : "reached the goal",
                                        since, t_)};
-  }
-
-  /// Along the road since the start [m].
-  double progress() const {
-    if (!scenario_.road) return 0;
-    const auto along = [&](const vehicle::State& state) {
-      return scenario_.road->project({state[vehicle::X], state[vehicle::Y]}).s;
-    };
-    return along(state_) - along(scenario_.start);
   }
 
   bool interrupted() const { return planning_.interrupted(); }
@@ -221,7 +213,8 @@ class ClosedLoop {
     drive_.least_clearance_obstacle = watch_.least_clearance_obstacle();
     drive_.least_wheel_load = watch_.least_wheel_load();
     drive_.least_edge_distance = watch_.least_edge_distance();
-    drive_.progress = progress();
+    drive_.progress = watch_.progress();
+    drive_.lap_ends = watch_.lap_ends();
     return std::move(drive_);
   }
 

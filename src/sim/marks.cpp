@@ -138,6 +138,7 @@ std::optional<Mark> outside(const Scenario& scenario, const Drive& drive) {
 
 std::optional<Mark> away(const Scenario& scenario, const Drive& drive) {
   const auto& goal = scenario.goal;
+  if (scenario.road) return std::nullopt;  // roads lead around
   std::vector<double> times;
   double since = 0, nearest = 0, last = INFINITY, grown = 0;
   for (const auto& sample : drive.plant) {

@@ -134,6 +134,14 @@ void check_start_clear(const Scenario& s, const std::string& where) {
 
 /// The road is wide enough for the vehicle, and start and goal are on it.
 void check_road(const Scenario& s, const std::string& where) {
+  if (s.planner.method == planner::Method::along_road) {
+    if (!s.road)
+      throw InvalidValue(where, fmt::format("planner {} without a road", s.planner.name),
+                         "a section `road`", {"planner"});
+    if (!s.obstacles.empty())
+      throw InvalidValue(where, fmt::format("planner {} among obstacles", s.planner.name),
+                         "no obstacles, of which it knows nothing, or P_E_road", {"planner"});
+  }
   if (!s.road) return;
   const world::Footprint footprint(s.vehicle);
   const double needed = footprint.is_point() ? 0 : s.vehicle.width;
@@ -152,9 +160,10 @@ void check_road(const Scenario& s, const std::string& where) {
                        fmt::format("({:.6g}, {:.6g}), {:.6g} m off the road", s.goal.x, s.goal.y,
                                    -s.road->edge_distance(world::Point{s.goal.x, s.goal.y})),
                        "a goal on the road", {"goal", "road"});
-  if (s.goal.kind() == world::GoalKind::laps)
-    throw InvalidValue(where + ": goal", fmt::format("laps = {:.6g}", s.goal.laps),
-                       "another goal: laps are not driven yet", {"goal.laps"});
+  if (s.goal.kind() == world::GoalKind::laps && s.planner.method != planner::Method::along_road)
+    throw InvalidValue(where + ": goal",
+                       fmt::format("laps = {:.6g} by planner {}", s.goal.laps, s.planner.name),
+                       "planner P_L, or another of method along_road", {"goal.laps", "planner"});
 }
 
 /// A plan ends at the goal, within the region and off every obstacle that stands.

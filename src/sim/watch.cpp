@@ -266,6 +266,7 @@ void Watch::begin(double t, const State& state) {
   note_wheel_loads(instant);
   note_goal(instant);
   note_edge(state);
+  if (road_) s_ = road_->project({state[vehicle::X], state[vehicle::Y]}).s;
 }
 
 std::optional<Event> Watch::pass(const Stretch& stretch) {
@@ -286,6 +287,7 @@ std::optional<Event> Watch::pass(const Stretch& stretch) {
   note_wheel_loads(seen);
   note_goal(seen);
   note_edge(seen.state1);
+  note_progress(seen);
   return event;
 }
 
@@ -341,6 +343,23 @@ void Watch::note_goal(const Stretch& s) {
                                  s.t1 - s.t0, outside(s.t0, s.state0), outside(s.t1, s.state1),
                                  speed_bound(dynamics_, footprint_, s));
   if (entry) goal_time_ = s.t0 + *entry;
+}
+
+void Watch::note_progress(const Stretch& s) {
+  if (!road_) return;
+  const double before = progress_, length = road_->length();
+  const double now = road_->project({s.state1[vehicle::X], s.state1[vehicle::Y]}, s_).s;
+  const double step = road_->closed() ? std::remainder(now - s_, length) : now - s_;
+  s_ = now;
+  progress_ += step;
+  if (!road_->closed()) return;
+  while (progress_ >= static_cast<double>(lap_ends_.size() + 1) * length) {
+    const double share = (static_cast<double>(lap_ends_.size() + 1) * length - before) / step;
+    lap_ends_.push_back(s.t0 + share * (s.t1 - s.t0));
+  }
+  if (goal_.kind() == world::GoalKind::laps && !goal_time_ &&
+      static_cast<double>(lap_ends_.size()) >= goal_.laps)
+    goal_time_ = lap_ends_[static_cast<std::size_t>(goal_.laps) - 1];
 }
 
 void Watch::note_edge(const State& state) {

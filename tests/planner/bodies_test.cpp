@@ -187,7 +187,7 @@ TEST(SmoothBox, IsOutsideTheBodyAndCloseToIt) {
   Parameters vehicle;
   vehicle.footprint = FootprintKind::rectangle;
   const Footprint footprint(vehicle);
-  const SmoothBox box(footprint);
+  const SmoothBox box(footprint, 0.2);
   const auto dx = ocp::Expr::symbol("dx"), dy = ocp::Expr::symbol("dy");
   const auto psi = ocp::Expr::symbol("psi");
   const expr::Function smooth({dx, dy, psi}, {}, {box.square_of_distance(dx, dy, psi)});

@@ -68,7 +68,8 @@ struct Drive {
   double least_wheel_load = 0;  ///< [N]
   /// Of the footprint from the road's edge, at samples [m]; infinite without a road.
   double least_edge_distance = std::numeric_limits<double>::infinity();
-  double progress = 0;  ///< along the road from the start to the end of the drive [m]
+  double progress = 0;           ///< along the road from the start to the end of the drive [m]
+  std::vector<double> lap_ends;  ///< when each lap of a closed road was done [s]
   std::vector<PlantSample> plant;
   std::vector<Cycle> cycles;
 };

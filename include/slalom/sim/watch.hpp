@@ -78,6 +78,9 @@ class Watch {
   double least_wheel_load() const { return least_wheel_load_; }  ///< [N]
   /// Of the footprint from the road's edge at the ends of stretches [m]; infinity without a road.
   double least_edge_distance() const { return least_edge_distance_; }
+  double progress() const { return progress_; }  ///< along the road since the start [m]
+  /// When each lap of a closed road was done [s], linear within a stretch.
+  const std::vector<double>& lap_ends() const { return lap_ends_; }
 
  private:
   struct Approach;
@@ -88,6 +91,7 @@ class Watch {
   void note_wheel_loads(const Stretch& stretch);
   void note_goal(const Stretch& stretch);
   void note_edge(const vehicle::State& state);
+  void note_progress(const Stretch& stretch);
 
   const vehicle::Dynamics& dynamics_;
   std::vector<world::Obstacle> obstacles_;  ///< grown by the margin
@@ -95,6 +99,8 @@ class Watch {
   double Fz_failure_;
   world::Footprint footprint_;
   std::shared_ptr<const world::Road> road_;
+  double s_ = 0, progress_ = 0;
+  std::vector<double> lap_ends_;
   double least_edge_distance_ = std::numeric_limits<double>::infinity();
   std::optional<double> goal_time_;
   double least_clearance_ = std::numeric_limits<double>::infinity();
