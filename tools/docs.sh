@@ -24,7 +24,7 @@ if [ ! -x "$python" ]; then
   "$python" -m pip --disable-pip-version-check install -q "$(realpath "$wheel")[docs]"
 fi
 mkdir "$work/pages"
-cp -r docs/*.md docs/*.svg docs/measured docs/schemes docs/site/* "$work/pages/"
+cp -r docs/*.md docs/*.svg docs/measured docs/scenes docs/schemes docs/site/* "$work/pages/"
 "$python" tools/cpp_reference.py --out "$work/pages/cpp" include/slalom
 "$python" -m sphinx -q -W --keep-going -b html "$work/pages" "$work/site"
 mkdir -p "$(dirname "$2")"

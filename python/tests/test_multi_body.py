@@ -1,6 +1,7 @@
 """Another vehicle than the planner believes in, as a plant: examples/multi_body_plant.py."""
 
 import importlib.util
+import os
 import pathlib
 
 import pytest
@@ -9,7 +10,8 @@ import slalom
 pytest.importorskip("scipy")
 pytest.importorskip("vehiclemodels", reason="commonroad-vehicle-models is not installed")
 
-EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "examples" / "multi_body_plant.py"
+README = pathlib.Path(os.environ.get("SLALOM_README", pathlib.Path(__file__).parents[2] / "README.md"))
+EXAMPLE = README.resolve().parent / "examples" / "multi_body_plant.py"
 
 
 @pytest.fixture(scope="module")
