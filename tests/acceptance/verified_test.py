@@ -20,7 +20,7 @@ class Verified(unittest.TestCase):
 
     def test_it_drives_the_scenarios_on_roads(self):
         names = ("parked-row", "double-lane-change", "overtaking", "pedestrian", "door", "merge",
-                 "chicane")
+                 "chicane", "turning-car")
         untimed = UNTIMED[2:]
         with scratch() as folder:
             for name, drive in simulate_all(folder, {n: (n, *untimed) for n in names}).items():

@@ -268,11 +268,13 @@ class Others(ProgramTest):
         listed = json.loads(run("list", "--json").out)
         names = {kind: [entry["name"] for entry in entries] for kind, entries in listed.items()}
         self.assertEqual(names, {"scenarios": ["E_A", "E_A-figure", "E_B", "E_C",
-                                               "E_C-no-cones", "E_C-range-50", "one-crossing",
-                                               "one-standing"],
-                                 "planners": ["P_A", "P_B", "P_C", "P_D", "P_E"],
+                                               "E_C-no-cones", "E_C-range-50", "chicane", "circuit",
+                                               "door", "double-lane-change", "merge",
+                                               "one-crossing", "one-standing", "overtaking",
+                                               "parked-row", "pedestrian", "turning-car"],
+                                 "planners": ["P_A", "P_B", "P_C", "P_D", "P_E", "P_E_road", "P_L"],
                                  "vehicles": ["bmw_320i", "ford_escort", "hmmwv", "vw_vanagon"],
-                                 "studies": ["latency", "paper", "paper-printed"]})
+                                 "studies": ["latency", "paper", "paper-printed", "prediction"]})
         text = run("list").out
         for entries in listed.values():
             for entry in entries:
