@@ -19,19 +19,28 @@ class Verified(unittest.TestCase):
             self.assertEqual(one.summary["rungs"], other.summary["rungs"])
 
     def test_it_drives_the_scenarios_on_roads(self):
-        names = ("parked-row", "double-lane-change", "overtaking", "pedestrian", "door", "merge",
-                 "chicane", "turning-car")
+        names = ("pedestrian", "door", "merge", "chicane")
+        with scratch() as folder:
+            for name, drive in simulate_all(folder, {n: (n,) for n in names}).items():
+                with self.subTest(name):
+                    self.assert_clear(drive)
+
+    def test_resolved_files_give_the_same_drives_on_roads(self):
+        names = ("parked-row", "double-lane-change", "overtaking", "turning-car")
         untimed = UNTIMED[2:]
         with scratch() as folder:
             for name, drive in simulate_all(folder, {n: (n, *untimed) for n in names}).items():
                 with self.subTest(name):
-                    self.assertEqual(drive.outcome, "goal", drive.ended())
-                    self.assertGreater(drive.summary["least_clearance_m"], 0)
-                    self.assertGreater(drive.summary["least_edge_distance_m"], 0)
+                    self.assert_clear(drive)
                     resolved = drive.folder / "resolved.yaml"
                     again = simulate_all(folder, {name + "-again": (resolved,)})[name + "-again"]
                     self.assertEqual((drive.folder / "plant.csv").read_bytes(),
                                      (again.folder / "plant.csv").read_bytes())
+
+    def assert_clear(self, drive):
+        self.assertEqual(drive.outcome, "goal", drive.ended())
+        self.assertGreater(drive.summary["least_clearance_m"], 0)
+        self.assertGreater(drive.summary["least_edge_distance_m"], 0)
 
 
 if __name__ == "__main__":
