@@ -96,8 +96,7 @@ double RoadField::edge_distance(double x, double y) const {
 double RoadField::along(double x, double y) const {
   const Spot at = spot(x, y);
   if (at.block == nullptr) return 0;
-  const auto i = static_cast<std::ptrdiff_t>(at.i + 0.5),
-             j = static_cast<std::ptrdiff_t>(at.j + 0.5);
+  const std::ptrdiff_t i = std::lround(at.i), j = std::lround(at.j);
   return static_cast<double>(
       along_[static_cast<std::size_t>(at.block - edge_.data() + j * kPoints + i)]);
 }
