@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "slalom/base/error.hpp"
 #include "slalom/base/timer.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/ocp/scheme.hpp"
@@ -18,7 +19,7 @@ using namespace vehicle;
 constexpr double kLateralShare = 0.85, kBrakingShare = 0.7, kCalm = 0.6;
 /// The slowest at which plans end [m/s]: where the road does, they end creeping.
 constexpr double kCreep = 0.6;
-/// Price of going beyond a limit (LineSettings::w_excess), some times what limits are worth [s/m]:
+/// Price of going beyond a limit (LineSettings::w_excess) [s/m], well above what limits are worth:
 /// a vehicle at its limits finds itself a little beyond them when it plans anew.
 constexpr double kExcess = 1;
 /// And of being faster at the end than the profile, for each metre a second [s/(m/s)].
@@ -43,12 +44,19 @@ ocp::Mesh growing_mesh(int intervals) {
   return ocp::Mesh(tau);
 }
 
+const world::Road& road_of(const Task& task) {
+  if (!task.road)
+    throw InvalidValue("planner " + task.planner.name, "a task without a road",
+                       "a road to drive along", {"road"});
+  return *task.road;
+}
+
 }  // namespace
 
 LinePlanner::LinePlanner(const Task& task)
     : task_(task),
       settings_(task_.planner),
-      profile_(*task_.road, task_.vehicle, kLateralShare, kBrakingShare),
+      profile_(road_of(task_), task_.vehicle, kLateralShare, kBrakingShare),
       calm_(*task_.road, task_.vehicle, kCalm, kCalm),
       line_(*task_.road, task_.vehicle, settings_.L_range,
             {.margin = settings_.road_margin, .w_t = settings_.w_t, .w_excess = kExcess}),

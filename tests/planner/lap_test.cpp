@@ -95,6 +95,12 @@ TEST(Lap, ARoadThatHasNoLapOrNoRoomIsRefused) {
   EXPECT_THROW(fastest_lap(*oval(100, 60, 0.9), body()), InvalidValue);
 }
 
+TEST(LinePlanner, WantsARoad) {
+  Task task;
+  task.planner.method = Method::along_road;
+  EXPECT_THROW(Planner{task}, InvalidValue);
+}
+
 TEST(LinePlanner, DrivesALapInClosedLoopNearlyAsFastAndOnTheRoad) {
   Task task;
   task.road = oval(110, 55, 5);
