@@ -30,10 +30,25 @@ constexpr double kMostXi = 1.2, kSlowest = 0.5;
 /// Rows of wheel loads are in kilonewtons, of one size with the others.
 constexpr double kKilo = 1e-3;
 constexpr double kGravity = 9.81;
+/// Of the slip at which the rear tyres' force is greatest: beyond it a vehicle spins, and hardly
+/// any force is lost before.
+constexpr double kSlipShare = 0.8;
+/// Rows of slip are in tenths of a radian.
+constexpr double kTenths = 10;
 
 double around(double s, double length) {
   const double rest = std::fmod(s, length);
   return rest < 0 ? rest + length : rest;
+}
+
+/// The rear axle's slip angle [rad] at which its tyres' lateral force at the static load is
+/// greatest: by the shape factor and the stiffness of the Magic Formula, without its curvature
+/// factor (docs/formulation.md, section 2).
+double peak_slip(const Parameters& p) {
+  const double stiffness =
+      std::fabs(p.PKY1) * p.FZ0 * std::sin(2 * std::atan(p.FzR0 / (p.PKY2 * p.FZ0)));
+  const double B = stiffness / (p.PCY1 * p.PDY1 * p.FzR0);
+  return std::tan(std::numbers::pi / (2 * p.PCY1)) / B;
 }
 
 /// The most lateral acceleration in a steady turn, by the tyres' friction and the least wheel load.
@@ -131,6 +146,10 @@ void LineProblem::add_limits() {
   const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
   for (std::size_t w = 0; w < kWheels; ++w)
     add_limit(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle_.Fz_min));
+  const Expr slip = (X_[V] - vehicle_.lb * X_[R]) / X_[UX];
+  const double most = kSlipShare * peak_slip(vehicle_);
+  add_limit("rear slip to the right", kTenths * (most - slip));
+  add_limit("rear slip to the left", kTenths * (most + slip));
 }
 
 void LineProblem::add_edges() {

@@ -16,8 +16,8 @@ struct LineSettings {
   double margin = 0;        ///< that the body keeps from the road's edges [m]
   double w_t = 1;           ///< of all of it [1/s]
   double w_control = 0.01;  ///< cost of a control at its limit [s/s]
-  /// Of going beyond the limits of wheel loads [kN] and the road's edges [m], in each metre of the
-  /// road, times w_t [s/m]; 0: they are hard.
+  /// Of going beyond the limits of wheel loads [kN], rear slip [.1 rad] and the road's edges [m],
+  /// in each metre of the road, times w_t [s/m]; 0: they are hard.
   double w_excess = 0;
 };
 

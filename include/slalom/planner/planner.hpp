@@ -40,8 +40,8 @@ class PlanningMethod;
 
 /// Plans one trajectory in each cycle, by the method of its settings. The paper's solves the OCP of
 /// section 3; the solve starts warm from the last plan that was solved, that was to be driven
-/// although unsolved, or whose solve was cut short (by the deadline or an interrupt). Another drives
-/// no plan that is not verified, and one drives along a road as fast as it allows
+/// although unsolved, or whose solve was cut short (by the deadline or an interrupt). Another
+/// drives no plan that is not verified, and one drives along a road as fast as it allows
 /// (Settings::method). Not thread-safe; use one planner for each thread.
 class Planner {
  public:
