@@ -9,6 +9,7 @@
 
 #include "in_terms_of.hpp"
 #include "slalom/ocp/scheme.hpp"
+#include "solving.hpp"
 
 namespace slalom::planner {
 
@@ -37,15 +38,6 @@ constexpr double kSteeringRate = 20, kJerk = 5;
 /// Share of the paper's weight of the area between the path and the line through the goal.
 constexpr double kArea = 0.02;
 
-ocp::Mesh growing_mesh(int intervals) {
-  std::vector<double> tau{0};
-  double length = 1;
-  for (int k = 0; k < intervals; ++k, length *= kGrowth) tau.push_back(tau.back() + length);
-  const double whole = tau.back();
-  for (double& t : tau) t /= whole;
-  return ocp::Mesh(tau);
-}
-
 }  // namespace
 
 ArrivalProblem::Room ArrivalProblem::room_for(const Obstacles& obstacles) {
@@ -71,7 +63,10 @@ ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
   add_cost(task);
   end_.emplace(problem_, task, X_, t_start_);
   set_obstacles({}, 0, 0);
-  transcription_.emplace(problem_, growing_mesh(task.planner.arrival_N), ocp::hermite_simpson());
+  std::vector<double> lengths;
+  for (double length = 1; std::ssize(lengths) < intervals_; length *= kGrowth)
+    lengths.push_back(length);
+  transcription_.emplace(problem_, mesh_of(lengths), ocp::hermite_simpson());
   tau_ = transcription_->trajectory(transcription_->point(transcription_->straight_guess())).tau;
 }
 

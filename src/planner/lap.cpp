@@ -6,6 +6,7 @@
 
 #include "line_problem.hpp"
 #include "slalom/base/error.hpp"
+#include "solving.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -23,10 +24,9 @@ constexpr int kIterations = 1500;
 constexpr double kStep = 2;
 
 /// In the middle of the road, as fast as the profile allows.
-ocp::Trajectory lap_guess(const world::Road& road, const SpeedProfile& profile,
-                          const Parameters& p) {
-  const auto count = static_cast<std::size_t>(std::ceil(road.length() / kStep));
-  const double step = road.length() / static_cast<double>(count);
+ocp::Trajectory lap_guess(const LineProblem& line, const SpeedProfile& profile) {
+  const auto count = static_cast<std::size_t>(std::ceil(line.length() / kStep));
+  const double step = line.length() / static_cast<double>(count);
   std::vector<double> speed;
   for (std::size_t k = 0; k < count; ++k)
     speed.push_back(0.95 * profile.at(step * static_cast<double>(k)));
@@ -36,14 +36,13 @@ ocp::Trajectory lap_guess(const world::Road& road, const SpeedProfile& profile,
     next = std::min(next, std::sqrt(v * v + 2 * kDriving * step));
   }
   ocp::Trajectory guess;
-  guess.tf = road.length();
+  guess.tf = line.length();
   for (std::size_t k = 0; k <= count; ++k) {
-    const double kappa = road.at(step * static_cast<double>(k)).curvature, v = speed[k % count];
-    const double next = speed[(k + 1) % count], r = v * kappa;
-    const double sa = std::clamp(std::atan((p.la + p.lb) * kappa), -p.sa_max(), p.sa_max());
+    const double v = speed[k % count], next = speed[(k + 1) % count];
+    const auto x =
+        line.cornering(step * static_cast<double>(k), v, (next * next - v * v) / (2 * step));
     guess.tau.push_back(static_cast<double>(k) / static_cast<double>(count));
-    guess.states.push_back({0, -std::atan2((p.la + p.lb) * r, v), p.lb * r, r, sa, v,
-                            (next * next - v * v) / (2 * step)});
+    guess.states.emplace_back(x.begin(), x.end());
     guess.controls.push_back({0, 0});
   }
   return guess;
@@ -98,16 +97,11 @@ Lap fastest_lap(const world::Road& road, const Parameters& vehicle, const LapSet
     problem.boundary("closed " + state.name(), problem.final(state) - problem.initial(state),
                      ocp::Bounds::equal(0));
   ocp::SolveSettings solve;
-  solve.guess = lap_guess(road, SpeedProfile(road, vehicle, kShare, kShare), vehicle);
+  solve.guess = lap_guess(line, SpeedProfile(road, vehicle, kShare, kShare));
   // At the tyres' limits the adaptive rule takes several times as many iterations, where it ends.
   solve.options.barrier_rule = nlp::BarrierRule::monotone;
   solve.options.max_iterations = kIterations;
-  if (settings.interrupted) {
-    solve.options.stop = [](void* asked) {
-      return (*static_cast<std::function<bool()>*>(asked))();
-    };
-    solve.options.stop_data = const_cast<std::function<bool()>*>(&settings.interrupted);
-  }
+  stop_when(settings.interrupted, solve.options);
   Lap lap;
   lap.refined = finer_and_finer(problem, road.length(), settings, std::move(solve));
   const auto& solution = lap.refined.solution;

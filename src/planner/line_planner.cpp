@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "slalom/base/error.hpp"
 #include "slalom/base/timer.hpp"
-#include "slalom/nlp/check.hpp"
 #include "slalom/ocp/scheme.hpp"
+#include "solving.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -34,15 +33,6 @@ constexpr double kStep = 2;
 constexpr double kDriving = 1;
 /// The last interval of the mesh is so many times the first.
 constexpr double kGrowth = 2;
-
-ocp::Mesh growing_mesh(int intervals) {
-  std::vector<double> tau{0};
-  for (int k = 0; k < intervals; ++k)
-    tau.push_back(tau.back() + std::pow(kGrowth, k / std::max(1., intervals - 1.)));
-  const double whole = tau.back();
-  for (double& t : tau) t /= whole;
-  return ocp::Mesh(tau);
-}
 
 const world::Road& road_of(const Task& task) {
   if (!task.road)
@@ -70,18 +60,22 @@ LinePlanner::LinePlanner(const Task& task)
                      ocp::Bounds::equal(0));
   }
   end_speed_ = problem.parameter("end_speed", task_.vehicle.ux_max);
-  const auto end = problem.boundary(
-      "speed at the end", end_speed_ - problem.final(states[LineProblem::FIRST_OF_VEHICLE + 3]),
-      ocp::Bounds::at_least(0));
+  const auto end =
+      problem.boundary("speed at the end", end_speed_ - problem.final(states[LineProblem::SPEED]),
+                       ocp::Bounds::at_least(0));
   problem.soften(end, {ocp::Norm::l1, settings_.w_t * kEndSpeed, 0});
   // And it goes along the road there, about.
   const auto at_end = [&](std::size_t i) { return problem.final(states[i]); };
   constexpr std::size_t first = LineProblem::FIRST_OF_VEHICLE;
-  problem.boundary("course at the end",
-                   at_end(LineProblem::XI) +
-                       (at_end(first) + task_.vehicle.la * at_end(first + 1)) / at_end(first + 3),
-                   {-kEndCourse, kEndCourse});
-  transcription_.emplace(problem, growing_mesh(settings_.N), ocp::hermite_simpson());
+  problem.boundary(
+      "course at the end",
+      at_end(LineProblem::XI) +
+          (at_end(first) + task_.vehicle.la * at_end(first + 1)) / at_end(LineProblem::SPEED),
+      {-kEndCourse, kEndCourse});
+  std::vector<double> lengths;
+  for (int k = 0; k < settings_.N; ++k)
+    lengths.push_back(std::pow(kGrowth, k / std::max(1., settings_.N - 1.)));
+  transcription_.emplace(problem, mesh_of(lengths), ocp::hermite_simpson());
 }
 
 void LinePlanner::update(double start, const LineProblem::LineState& x0) {
@@ -95,26 +89,24 @@ void LinePlanner::update(double start, const LineProblem::LineState& x0) {
 /// From the state to the middle of the road, as fast as the calm profile allows.
 ocp::Trajectory LinePlanner::guess(double start, const LineProblem::LineState& x0) const {
   const Parameters& p = task_.vehicle;
-  constexpr std::size_t first = LineProblem::FIRST_OF_VEHICLE;
   const double length = line_.length();
   const auto count = static_cast<std::size_t>(std::ceil(length / kStep));
   const double step = length / static_cast<double>(count);
   ocp::Trajectory guess;
   guess.tf = length;
-  double v = std::max(x0[first + 3], kCreep);
+  double v = std::max(x0[LineProblem::SPEED], kCreep);
   for (std::size_t k = 0; k <= count; ++k) {
     const double s = start + step * static_cast<double>(k);
-    const double kappa = task_.road->at(s).curvature, r = v * kappa;
     const double wanted = std::max(calm_.at(s + step), kCreep);
     const double least = v * v + 2 * step * p.ax_min_at(v) * kCalm;
     const double next =
         std::sqrt(std::clamp(wanted * wanted, std::max(least, kCreep * kCreep),
                              std::max(v * v + 2 * step * kDriving, kCreep * kCreep)));
-    const double sa = std::clamp(std::atan((p.la + p.lb) * kappa), -p.sa_max(), p.sa_max());
-    const double fades = std::exp(-step * static_cast<double>(k) / (length / 4));
     guess.tau.push_back(static_cast<double>(k) / static_cast<double>(count));
-    guess.states.push_back({x0[0] * fades, -std::atan2((p.la + p.lb) * r, v), p.lb * r, r, sa, v,
-                            (next * next - v * v) / (2 * step)});
+    auto x = line_.cornering(s, v, (next * next - v * v) / (2 * step));
+    x[LineProblem::N] =
+        x0[LineProblem::N] * std::exp(-step * static_cast<double>(k) / (length / 4));
+    guess.states.emplace_back(x.begin(), x.end());
     guess.controls.push_back({0, 0});
     v = next;
   }
@@ -169,16 +161,10 @@ Plan LinePlanner::plan(const Request& request) {
 /// Solves once.
 Plan LinePlanner::attempt(const Request& request, const Timer& timer, const Attempt& attempt) {
   start_.x = transcription_->point(attempt.guess);
-  nlp::Options options;
-  options.floor = settings_.floor * attempt.floor_times;
-  options.tol = settings_.tol;
-  options.max_iterations = settings_.max_iterations;
+  nlp::Options options = solver_options(settings_, request);
+  options.floor *= attempt.floor_times;
   options.warm_start = attempt.multipliers;
   options.time_limit = std::max(0., request.time_limit - timer.cpu());
-  if (request.interrupted) {
-    options.stop = [](void* data) { return (*static_cast<const std::function<bool()>*>(data))(); };
-    options.stop_data = const_cast<std::function<bool()>*>(&request.interrupted);
-  }
   solver_->solve(*transcription_, start_, options, answer_);
   return read(request, attempt.start, options);
 }
@@ -192,24 +178,8 @@ Plan LinePlanner::read(const Request& request, double start, const nlp::Options&
   plan.tf = plan.t.back();
   plan.states = std::move(motion.states);
   plan.controls = std::move(motion.controls);
-  const auto residuals = nlp::check(*transcription_, answer_.point, options);
-  SolveReport& report = plan.report;
-  const bool claimed = answer_.status == nlp::Status::solved;
-  report.solved = claimed && residuals.solved(options);
-  report.status =
-      claimed && !report.solved ? PlanStatus::not_confirmed : plan_status(answer_.status);
-  report.best_iterate = !report.solved && residuals.violation <= request.best_iterate_tol;
-  report.backend = answer_.backend;
-  report.iterations = answer_.iterations;
-  report.cpu_s = answer_.cpu_s;
-  report.wall_s = answer_.wall_s;
-  report.cost = residuals.objective;
-  report.cost_terms = transcription_->cost_terms(answer_.point.x);
-  report.worst_violation = residuals.violation;
-  report.worst_constraint = residuals.worst_constraint;
-  report.stationarity = residuals.stationarity;
-  report.complementarity = residuals.complementarity;
-  if (report.solved || report.best_iterate) {
+  plan.report = report_of(answer_, *transcription_, request, options);
+  if (plan.report.solved || plan.report.best_iterate) {
     last_ = Last{start, std::move(trajectory)};
     std::swap(start_.y, answer_.point.y);
     std::swap(start_.zl, answer_.point.zl);

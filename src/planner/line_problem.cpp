@@ -10,6 +10,7 @@
 #include "in_terms_of.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/expr/spline.hpp"
+#include "slalom/vehicle/agility.hpp"
 #include "slalom/vehicle/model.hpp"
 #include "slalom/world/footprint.hpp"
 
@@ -29,7 +30,6 @@ constexpr double kKnot = 2, kBeyond = 25;
 constexpr double kMostXi = 1.2, kSlowest = 0.5;
 /// Rows of wheel loads are in kilonewtons, of one size with the others.
 constexpr double kKilo = 1e-3;
-constexpr double kGravity = 9.81;
 /// Of the slip at which the rear tyres' force is greatest: beyond it a vehicle spins, and hardly
 /// any force is lost before.
 constexpr double kSlipShare = 0.8;
@@ -45,17 +45,8 @@ double around(double s, double length) {
 /// greatest: by the shape factor and the stiffness of the Magic Formula, without its curvature
 /// factor (docs/formulation.md, section 2).
 double peak_slip(const Parameters& p) {
-  const double stiffness =
-      std::fabs(p.PKY1) * p.FZ0 * std::sin(2 * std::atan(p.FzR0 / (p.PKY2 * p.FZ0)));
-  const double B = stiffness / (p.PCY1 * p.PDY1 * p.FzR0);
+  const double B = p.cornering_stiffness(p.FzR0) / (p.PCY1 * p.PDY1 * p.FzR0);
   return std::tan(std::numbers::pi / (2 * p.PCY1)) / B;
-}
-
-/// The most lateral acceleration in a steady turn, by the tyres' friction and the least wheel load.
-double most_lateral(const Parameters& p) {
-  const double front = (p.FzF0 / 2 - p.Fz_min) / std::max(p.KZYF, 1e-9);
-  const double rear = (p.FzR0 / 2 - p.Fz_min) / std::max(p.KZYR, 1e-9);
-  return std::min({front, rear, p.PDY1 * kGravity});
 }
 
 }  // namespace
@@ -170,9 +161,16 @@ void LineProblem::add_edges() {
   }
 }
 
+LineProblem::LineState LineProblem::cornering(double s, double speed, double acceleration) const {
+  const Parameters& p = vehicle_;
+  const double kappa = road_.at(s).curvature, r = speed * kappa;
+  const double sa = std::clamp(std::atan((p.la + p.lb) * kappa), -p.sa_max(), p.sa_max());
+  return {0, -std::atan2((p.la + p.lb) * r, speed), p.lb * r, r, sa, speed, acceleration};
+}
+
 double LineProblem::progress(double s, const LineState& x) const {
   const double front = x[FIRST_OF_VEHICLE] + vehicle_.la * x[FIRST_OF_VEHICLE + 1];
-  const double ux = x[FIRST_OF_VEHICLE + 3];
+  const double ux = x[SPEED];
   return (ux * std::cos(x[XI]) - front * std::sin(x[XI])) / (1 - x[N] * road_.at(s).curvature);
 }
 

@@ -33,7 +33,7 @@ struct LineSettings {
 /// as a parabola.
 class LineProblem {
  public:
-  enum Index : std::size_t { N, XI, FIRST_OF_VEHICLE };
+  enum Index : std::size_t { N, XI, FIRST_OF_VEHICLE, SPEED = FIRST_OF_VEHICLE + 3 };
   /// The vehicle's states from FIRST_OF_VEHICLE on.
   static constexpr std::array kOfVehicle = {vehicle::V, vehicle::R, vehicle::SA, vehicle::UX,
                                             vehicle::AX};
@@ -52,6 +52,9 @@ class LineProblem {
   const std::array<ocp::Expr, kLineStates>& states() const { return x_; }
   const ocp::Expr& start() const { return start_; }
 
+  /// Steady cornering along the line at s [m], without slip of the rear axle: at a speed [m/s] and
+  /// an acceleration [m/s^2].
+  LineState cornering(double s, double speed, double acceleration) const;
   /// How fast a vehicle comes along the line at s [m/s].
   double progress(double s, const LineState& x) const;
   /// A vehicle's state relative to the line at s, and back. Its heading turns by no whole turns

@@ -10,7 +10,7 @@
 
 #include "between_nodes.hpp"
 #include "obstacle_choice.hpp"
-#include "slalom/nlp/check.hpp"
+#include "solving.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -25,18 +25,6 @@ Task with_groups(Task task) {
   check(task.planner, "planner " + task.planner.name);
   task.obstacles = group_obstacles(task.planner, task.obstacles);
   return task;
-}
-
-nlp::Options solver_options(const Settings& settings, const Request& request) {
-  nlp::Options options;
-  options.floor = settings.floor;
-  options.tol = settings.tol;
-  options.max_iterations = settings.max_iterations;
-  if (request.interrupted) {
-    options.stop = [](void* data) { return (*static_cast<const std::function<bool()>*>(data))(); };
-    options.stop_data = const_cast<std::function<bool()>*>(&request.interrupted);
-  }
-  return options;
 }
 
 /// Ended from outside, on its way to an answer.
@@ -245,7 +233,7 @@ RecedingHorizon::Attempt RecedingHorizon::read(const Cycle& cycle, int intervals
     std::copy_n(trajectory.states[k].begin(), kStates, plan.states[k].begin());
     std::copy_n(trajectory.controls[k].begin(), kControls, plan.controls[k].begin());
   }
-  plan.report = report(cycle.request, form.transcription, options);
+  plan.report = report_of(answer_, form.transcription, cycle.request, options);
   if (settings_.between_nodes != BetweenNodes::ignore) look_between(cycle, plan);
   if (!plan.report.solved) plan.report.blocks = what_blocks(plan);
   return attempt;
@@ -280,29 +268,6 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
            (distance >= 0 ? fmt::format(" and {:.2f} m would do", distance) : "");
   }
   return plain;
-}
-
-SolveReport RecedingHorizon::report(const Request& request, ocp::Transcription& transcription,
-                                    const nlp::Options& options) const {
-  const auto residuals = nlp::check(transcription, answer_.point, options);
-  SolveReport report;
-  const bool claimed = answer_.status == nlp::Status::solved;
-  report.solved = claimed && residuals.solved(options);
-  report.status =
-      claimed && !report.solved ? PlanStatus::not_confirmed : plan_status(answer_.status);
-  report.best_iterate = !report.solved && residuals.violation <= request.best_iterate_tol;
-  report.backend = answer_.backend;
-  report.iterations = answer_.iterations;
-  report.cpu_s = answer_.cpu_s;
-  report.wall_s = answer_.wall_s;
-  report.cost = residuals.objective;
-  report.cost_terms = transcription.cost_terms(answer_.point.x);
-  report.phi = residuals.phi;
-  report.worst_violation = residuals.violation;
-  report.worst_constraint = residuals.worst_constraint;
-  report.stationarity = residuals.stationarity;
-  report.complementarity = residuals.complementarity;
-  return report;
 }
 
 /// Notes how deep a plan goes into an obstacle between its nodes, also into one that the OCP leaves

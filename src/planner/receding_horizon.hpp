@@ -59,8 +59,6 @@ class RecedingHorizon final : public PlanningMethod {
   Attempt attempt(const Cycle& cycle, int intervals, ocp::Trajectory& guess, bool warm);
   Recording record_solve(const Cycle& cycle, const nlp::Options& options) const;
   Attempt read(const Cycle& cycle, int intervals, const nlp::Options& options);
-  SolveReport report(const Request& request, ocp::Transcription& transcription,
-                     const nlp::Options& options) const;
   std::string what_blocks(const Plan& plan) const;
   void look_between(const Cycle& cycle, Plan& plan) const;
   void try_sides(const Cycle& cycle, const ocp::Trajectory& guess, Attempt& best);

@@ -6,15 +6,15 @@
 #include "slalom/vehicle/derived.hpp"
 
 namespace slalom::vehicle {
-namespace {
 
-/// Steady lateral acceleration [m/s^2] at which the tyres slide or an inner wheel has Fz_min left.
 double most_lateral(const Parameters& p) {
   const auto lifts = [&](double load, double transfer) {
     return transfer > 0 ? (load / 2 - p.Fz_min) / transfer : HUGE_VAL;
   };
   return std::max(0., std::min({p.PDY1 * kGravity, lifts(p.FzF0, p.KZYF), lifts(p.FzR0, p.KZYR)}));
 }
+
+namespace {
 
 Agility absolute(const Parameters& p) {
   return {-p.ax_min_at(0), most_lateral(p), std::tan(p.sa_max()) / (p.la + p.lb),

@@ -1,4 +1,5 @@
 #include "slalom/world/path_exists.hpp"
+#include "world/box.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +8,8 @@
 
 namespace slalom::world {
 namespace {
+
+using test::box;
 
 /// Northwards at 17 m/s.
 const vehicle::Parameters kVehicle;
@@ -56,14 +59,6 @@ TEST(PathExists, StaysInTheRegionAndReachesTheGoalInTime) {
   s = open_way();
   EXPECT_FALSE(path_exists(s, kVehicle, kStart, {.t_max = 3})) << "90 m from 17 m/s on";
   EXPECT_TRUE(path_exists(s, kVehicle, kStart, {.t_max = 6}));
-}
-
-Obstacle box(double x, double y, double length, double width, double psi) {
-  Obstacle o{"box", x, y};
-  o.outline = std::make_shared<Polygon>(Polygon::rectangle(length, width));
-  o.a = o.b = o.outline->reach();
-  o.psi = psi;
-  return o;
 }
 
 TEST(PathExists, BetweenBoxesAsFarAsTheVehiclesBodyFits) {

@@ -10,17 +10,12 @@
 #include "slalom/world/footprint.hpp"
 #include "slalom/world/way_finder.hpp"
 #include "slalom/world/way_signature.hpp"
+#include "world/box.hpp"
 
 namespace slalom::world {
 namespace {
 
-Obstacle box(double x, double y, double length, double width, double psi) {
-  Obstacle o{"box", x, y};
-  o.outline = std::make_shared<Polygon>(Polygon::rectangle(length, width));
-  o.a = o.b = o.outline->reach();
-  o.psi = psi;
-  return o;
-}
+using test::box;
 
 /// Northwards at 10 m/s with a body, in a street 16 m wide.
 struct Street : ::testing::Test {

@@ -15,4 +15,7 @@ struct Agility {
 
 Agility agility(const Parameters& parameters);
 
+/// Steady lateral acceleration [m/s^2] at which the tyres slide or an inner wheel has Fz_min left.
+double most_lateral(const Parameters& parameters);
+
 }  // namespace slalom::vehicle

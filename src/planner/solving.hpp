@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "slalom/nlp/solver.hpp"
+#include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/transcription.hpp"
+#include "slalom/planner/planner.hpp"
+
+namespace slalom::planner {
+
+/// The solve ends as interrupted once `interrupted`, which outlives it and may be empty, says so.
+void stop_when(const std::function<bool()>& interrupted, nlp::Options& options);
+
+/// The solver's options as a planner's settings have them.
+nlp::Options solver_options(const Settings& settings, const Request& request);
+
+/// What an answer to a transcribed problem comes to, judged by its residuals. `options` are those
+/// it was solved with.
+SolveReport report_of(const nlp::Answer& answer, ocp::Transcription& transcription,
+                      const Request& request, const nlp::Options& options);
+
+/// The mesh whose intervals are to each other as these lengths.
+ocp::Mesh mesh_of(const std::vector<double>& lengths);
+
+}  // namespace slalom::planner
