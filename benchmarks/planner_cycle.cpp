@@ -12,7 +12,7 @@ namespace slalom::bench {
 using namespace vehicle;
 
 Form::Form(const sim::Scenario& scenario, bool goal_in_range)
-    : problem(scenario, goal_in_range),
+    : problem(scenario, scenario.obstacles, goal_in_range),
       transcription(
           [&]() -> const ocp::Problem& {
             problem.update({});

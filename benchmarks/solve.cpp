@@ -2,7 +2,7 @@
 //
 //   bench_solve --cycles FILE --environment E_C --backend NAME --floor MU --tol TOL --start
 //   warm|cold
-//               [--first I] [--count N] [--kernels baseline|avx2]
+//               [--first I] [--count N] [--kernels baseline|avx2|avx512]
 //   bench_solve --growth --environment E_C --cycles FILE --backend NAME --floor MU
 //               [--N 15,30,...] [--obstacles 0,38,...]
 //
@@ -162,7 +162,7 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--cycles", a.cycles, "of bench_record")->required();
   app.add_option("--backend", a.backend, "ipopt or interior_point")->required();
   app.add_option("--start", a.start, "warm or cold")->check(CLI::IsMember({"warm", "cold"}));
-  app.add_option("--kernels", a.kernels, "baseline or avx2; the best by default");
+  app.add_option("--kernels", a.kernels, "baseline, avx2 or avx512; the best by default");
   app.add_option("--floor", a.floor, "barrier floor; 0 for none");
   app.add_option("--tol", a.tol, "optimality tolerance without a floor");
   app.add_option("--dual-tol", a.dual_tol, "largest gradient of the Lagrangian");
@@ -181,12 +181,9 @@ Arguments parse(int argc, char** argv) {
 
 int main(int argc, char** argv) try {
   const Arguments a = parse(argc, argv);
-  if (!a.kernels.empty())
-    select_kernels(a.kernels == "avx2" ? KernelSet::avx2 : KernelSet::baseline);
+  if (!a.kernels.empty()) select_kernels(kernel_set(a.kernels));
   json result = a.growth ? growth(a) : solve_recorded(a);
-  result["kernels"] = to_string(a.kernels.empty()     ? best_kernels()
-                                : a.kernels == "avx2" ? KernelSet::avx2
-                                                      : KernelSet::baseline);
+  result["kernels"] = to_string(current_kernels());
   std::cout << result.dump() << "\n";
   return 0;
 } catch (const std::exception& error) {

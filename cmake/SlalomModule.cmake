@@ -65,7 +65,8 @@ set(SLALOM_SELDOM_RUN $<$<CONFIG:Release>:-O1>)
 # may link only modules above it; tools/check_layers.py holds the includes to the same order.
 # A folder without sources becomes an interface library.
 #
-# Files named *_avx2.cpp are compiled for AVX2 with FMA, all others for the baseline processor.
+# Files named *_avx2.cpp are compiled for AVX2 with FMA, *_avx512.cpp for AVX-512 too, all others for the
+# baseline processor.
 # Files named knitro*.cpp are left out when SLALOM_WITH_KNITRO is off.
 function(slalom_module name)
   cmake_parse_arguments(ARG "SELDOM_RUN" "" "DEPENDS" ${ARGN})
@@ -77,12 +78,16 @@ function(slalom_module name)
     add_library(slalom_${name} STATIC ${sources})
     target_compile_options(slalom_${name} PRIVATE ${SLALOM_WARNINGS})
     set(scope PUBLIC)
-    set(avx2 ${sources})
-    list(FILTER avx2 INCLUDE REGEX "_avx2\\.cpp$")
-    if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
-      set_source_files_properties(${avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
-    endif()
-    set_source_files_properties(${avx2} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    set(avx2 -mavx2 -mfma)
+    set(avx512 ${avx2} -mavx512f -mavx512dq -mavx512vl)
+    foreach(set avx2 avx512)
+      set(kernels ${sources})
+      list(FILTER kernels INCLUDE REGEX "_${set}\\.cpp$")
+      if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+        set_source_files_properties(${kernels} PROPERTIES COMPILE_OPTIONS "${${set}}")
+      endif()
+      set_source_files_properties(${kernels} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endforeach()
     if(ARG_SELDOM_RUN)
       target_compile_options(slalom_${name} PRIVATE ${SLALOM_SELDOM_RUN})
     endif()

@@ -3,7 +3,7 @@
 
 Names of an unnamed namespace are a file's own. Two files share a batch only if neither mentions,
 in any sense, a name the other keeps to itself, nor includes a header of the project that declares
-it, and both use the same namespaces; so a batch means what its files mean alone. Kernels (*_avx2.cpp,
+it, and both use the same namespaces; so a batch means what its files mean alone. Kernels (*_avx512.cpp, *_avx2.cpp,
 *_baseline.cpp) are compiled by themselves.
 
 usage: batches.py FILE...     one batch a line, its files with '|' between them
@@ -17,7 +17,7 @@ import sys
 INCLUDE_FOLDERS = [pathlib.Path(__file__).resolve().parent.parent / name
                    for name in ("include", "tests")]
 MOST_FILES = 8
-ALONE = re.compile(r"_(avx2|baseline)\.cpp$")
+ALONE = re.compile(r"_(avx512|avx2|baseline)\.cpp$")
 COMMENTS_AND_STRINGS = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 INCLUDE = re.compile(r'^#include "(.+)"', re.MULTILINE)

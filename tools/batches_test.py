@@ -63,8 +63,8 @@ class Batches(unittest.TestCase):
         self.assertTrue(self.together("using namespace b;\n", "using namespace b;\n"))
 
     def test_kernels_are_alone(self):
-        self.assertEqual(self.batches({"a_avx2.cpp": "", "b_baseline.cpp": "", "c.cpp": ""}),
-                         [["a_avx2.cpp"], ["b_baseline.cpp"], ["c.cpp"]])
+        self.assertEqual(self.batches({"a_avx2.cpp": "", "a_avx512.cpp": "", "b_baseline.cpp": "", "c.cpp": ""}),
+                         [["a_avx2.cpp"], ["a_avx512.cpp"], ["b_baseline.cpp"], ["c.cpp"]])
 
     def test_a_batch_is_full(self):
         made = self.batches({f"{i:02}.cpp": "" for i in range(batches.MOST_FILES + 1)})

@@ -4,6 +4,7 @@
 #include <cpuid.h>
 #endif
 
+#include <algorithm>
 #include <atomic>
 
 #include "slalom/base/error.hpp"
@@ -15,27 +16,56 @@ std::atomic<KernelSet>& selected() {
   return set;
 }
 
-/// Whether the processor has both, and the system saves their registers (Intel's manual, volume 1,
-/// section 14.3). The compiler's __builtin_cpu_supports is no help: with some libraries (zig's)
-/// nothing is ever supported.
-bool has_avx2_with_fma() {
 #ifdef __x86_64__
-  unsigned a = 0, b = 0, c = 0, d = 0;
-  constexpr unsigned kWanted = bit_OSXSAVE | bit_AVX | bit_FMA;
-  if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & kWanted) != kWanted) return false;
-  unsigned saved = 0, high = 0;
-  __asm__("xgetbv" : "=a"(saved), "=d"(high) : "c"(0));
-  constexpr unsigned kVectors = 2 | 4;  // SSE's and AVX's registers
-  if ((saved & kVectors) != kVectors) return false;
-  return __get_cpuid_count(7, 0, &a, &b, &c, &d) != 0 && (b & bit_AVX2) != 0;
+/// What the processor has and the system saves (Intel's manual, volume 1, sections 14.3 and 15.2).
+/// The compiler's __builtin_cpu_supports is no help: with some libraries (zig's) nothing is ever
+/// supported.
+class Processor {
+ public:
+  Processor() {
+    unsigned a = 0, b = 0, c = 0, d = 0, high = 0;
+    if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & bit_OSXSAVE) == 0) return;
+    fma_ = (c & (bit_AVX | bit_FMA)) == (bit_AVX | bit_FMA);
+    __asm__("xgetbv" : "=a"(saved_), "=d"(high) : "c"(0));
+    if (__get_cpuid_count(7, 0, &a, &b, &c, &d) != 0) extended_ = b;
+  }
+  bool avx2() const { return saves(kVectors) && fma_ && (extended_ & bit_AVX2) != 0; }
+  bool avx512() const {
+    constexpr unsigned kWanted = bit_AVX512F | bit_AVX512DQ | bit_AVX512VL;
+    return avx2() && saves(kVectors | kMasked) && (extended_ & kWanted) == kWanted;
+  }
+
+ private:
+  static constexpr unsigned kVectors = 2 | 4;              ///< SSE's and AVX's registers
+  static constexpr unsigned kMasked = 0x20 | 0x40 | 0x80;  ///< AVX-512's masks and vectors
+  bool saves(unsigned registers) const { return (saved_ & registers) == registers; }
+
+  bool fma_ = false;
+  unsigned saved_ = 0, extended_ = 0;
+};
 #else
-  return false;
+struct Processor {
+  bool avx2() const { return false; }
+  bool avx512() const { return false; }
+};
 #endif
-}
 }  // namespace
 
+bool has_kernels(KernelSet set) {
+  static const Processor processor;
+  switch (set) {
+    case KernelSet::avx512:
+      return processor.avx512();
+    case KernelSet::avx2:
+      return processor.avx2();
+    case KernelSet::baseline:
+      break;
+  }
+  return true;
+}
+
 KernelSet best_kernels() {
-  return has_avx2_with_fma() ? KernelSet::avx2 : KernelSet::baseline;
+  return *std::find_if(kKernelSets.rbegin(), kKernelSets.rend(), has_kernels);
 }
 
 KernelSet current_kernels() {
@@ -43,19 +73,30 @@ KernelSet current_kernels() {
 }
 
 void select_kernels(KernelSet set) {
-  if (set == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-    throw Error("kernel set avx2: this processor has no AVX2 with FMA; use baseline");
+  if (!has_kernels(set))
+    throw Error(std::string("kernel set ") + to_string(set) +
+                ": this processor has no such instructions; use " + to_string(best_kernels()));
   selected().store(set, std::memory_order_relaxed);
 }
 
 const char* to_string(KernelSet set) {
-  return set == KernelSet::avx2 ? "avx2" : "baseline";
+  switch (set) {
+    case KernelSet::avx512:
+      return "avx512";
+    case KernelSet::avx2:
+      return "avx2";
+    case KernelSet::baseline:
+      break;
+  }
+  return "baseline";
 }
 
 KernelSet kernel_set(const std::string& name) {
-  for (const auto set : {KernelSet::baseline, KernelSet::avx2})
-    if (name == to_string(set)) return set;
-  throw InvalidValue("kernels", "instruction set '" + name + "'", "baseline or avx2");
+  const auto set = std::find_if(kKernelSets.begin(), kKernelSets.end(),
+                                [&](KernelSet known) { return name == to_string(known); });
+  if (set == kKernelSets.end())
+    throw InvalidValue("kernels", "instruction set '" + name + "'", "baseline, avx2 or avx512");
+  return *set;
 }
 
 }  // namespace slalom

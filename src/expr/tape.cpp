@@ -5,9 +5,9 @@
 #include <cstring>
 #include <limits>
 
+#include "../base/kernel_choice.hpp"
 #include "op.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/base/kernels.hpp"
 
 namespace slalom::expr {
 namespace {
@@ -38,7 +38,7 @@ std::size_t block_width(const Tape& tape, std::size_t lanes) {
 }
 
 Kernel kernel() {
-  return current_kernels() == KernelSet::avx2 ? run_block_avx2 : run_block_baseline;
+  return in_use<Kernel>(run_block_baseline, run_block_avx2, run_block_avx512);
 }
 
 /// Few numbers are not worth a call.

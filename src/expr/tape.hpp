@@ -105,5 +105,6 @@ class TapeSpace {
 using Kernel = void (*)(const Tape& tape, double* const* rows, std::size_t width);
 void run_block_baseline(const Tape& tape, double* const* rows, std::size_t width);
 void run_block_avx2(const Tape& tape, double* const* rows, std::size_t width);
+void run_block_avx512(const Tape& tape, double* const* rows, std::size_t width);
 
 }  // namespace slalom::expr

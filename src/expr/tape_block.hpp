@@ -134,7 +134,8 @@ template <class V>
 void run_block(const Tape& tape, double* const* rows, std::size_t width) {
   switch (width) {
     case 4:
-      return run_width<V, 4>(tape, rows);
+      if constexpr (V::size <= 4) return run_width<V, 4>(tape, rows);
+      return;  // too narrow: the caller has it run on narrower vectors
     case 16:
       return run_width<V, 16>(tape, rows);
     default:

@@ -139,7 +139,7 @@ Recorded read_recording(const std::string& file) {
   r.t_start = request.at("t_start").real();
   r.goal_in_range = request.at("goal_in_range").flag();
   if (request.has("obstacles")) r.obstacles = read_obstacles(request.at("obstacles"));
-  r.kernels = reader.at("kernels").one_of(KernelSet::avx2);
+  r.kernels = reader.at("kernels").one_of(kKernelSets.back());
   r.options = reader.at("options").options();
   r.status = reader.at("status").one_of(nlp::Status::numerical_failure);
   r.iterations = reader.at("iterations").whole();

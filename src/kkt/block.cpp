@@ -1,11 +1,10 @@
 #include "block.hpp"
-
-#include "slalom/base/kernels.hpp"
+#include "../base/kernel_choice.hpp"
 
 namespace slalom::kkt {
 
 const BlockKernels& block_kernels() {
-  return current_kernels() == KernelSet::avx2 ? kBlockAvx2 : kBlockBaseline;
+  return in_use(kBlockBaseline, kBlockAvx2, kBlockAvx512);
 }
 
 }  // namespace slalom::kkt

@@ -7,8 +7,11 @@
 
 namespace slalom::kkt {
 
+/// Doubles in the widest vector of any instruction set.
+inline constexpr std::size_t kMostLanes = 8;
+
 /// A dense symmetric matrix whose first rows are eliminated in a given order of pivots: lower
-/// triangle, column-major, leading dimension a multiple of 4. After factor_block the first
+/// triangle, column-major, leading dimension a multiple of kMostLanes. After factor_block the first
 /// `eliminated` columns hold L without its unit diagonal (zero on and above it), the others the
 /// Schur complement.
 struct Block {
@@ -49,6 +52,7 @@ struct BlockKernels {
 
 extern const BlockKernels kBlockBaseline;
 extern const BlockKernels kBlockAvx2;
+extern const BlockKernels kBlockAvx512;
 const BlockKernels& block_kernels();  ///< of the kernel set in use
 
 }  // namespace slalom::kkt

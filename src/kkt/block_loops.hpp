@@ -40,7 +40,7 @@ class Loops {
     for (std::size_t p = 0; p < b.eliminated; ++p) {
       const T value = V::all(y[p]);
       const double* column = b.a + p * b.ld;
-      for (std::size_t r = first(p); r < b.ld; r += V::size)
+      for (std::size_t r = first(p); r < end(b); r += V::size)
         V::store(y + r, V::fnma(V::load(column + r), value, V::load(y + r)));
     }
   }
@@ -80,6 +80,8 @@ class Loops {
   static constexpr double larger(double a, double b) { return a > b ? a : b; }
   /// First row of the vector that holds row p: columns start there, zero above their diagonal.
   static constexpr std::size_t first(std::size_t p) { return p & ~(V::size - 1); }
+  /// Behind the vector that holds the last row; rows there are zero.
+  static constexpr std::size_t end(const Block& b) { return first(b.size + V::size - 1); }
 
   static std::size_t panel_end(const Block& b, std::size_t p) {
     std::size_t end = p + 4 < b.eliminated ? p + 4 : b.eliminated;
@@ -109,7 +111,7 @@ class Loops {
     const double* l = b.a + p * b.ld;
     T factor[Pivots];
     for (std::size_t e = 0; e < Pivots; ++e) factor[e] = V::all(b.panel[e * b.ld + c]);
-    for (std::size_t r = first(c); r < b.ld; r += V::size) {
+    for (std::size_t r = first(c); r < end(b); r += V::size) {
       T value = V::load(column + r);
       for (std::size_t e = 0; e < Pivots; ++e)
         value = V::fnma(V::load(l + e * b.ld + r), factor[e], value);
@@ -121,10 +123,10 @@ class Loops {
   template <class F>
   static void for_rows_behind(const Block& b, std::size_t head, F f) {
     const std::size_t begin = first(head + 1);
-    if (begin >= b.ld) return;
+    if (begin >= end(b)) return;
     std::size_t r = begin;
     f(r, [skip = head + 1 - begin](const double* p) { return V::without_first(V::load(p), skip); });
-    for (r += V::size; r < b.ld; r += V::size) f(r, [](const double* p) { return V::load(p); });
+    for (r += V::size; r < end(b); r += V::size) f(r, [](const double* p) { return V::load(p); });
   }
   /// Zeros in the vectors between the one of row q and the first behind `head`.
   static void clear_between(double* column, std::size_t q, std::size_t head) {
@@ -207,7 +209,7 @@ class Loops {
         factor1[e] = V::all(b.panel[e * b.ld + c + 1]);
       }
       double* to = b.a + c * b.ld;
-      for (std::size_t r = first(c); r < b.ld; r += V::size) {
+      for (std::size_t r = first(c); r < end(b); r += V::size) {
         T x = V::load(to + r), y = V::load(to + b.ld + r);
         for (std::size_t e = 0; e < Pivots; ++e) {
           const T value = V::load(l + e * b.ld + r);
@@ -237,7 +239,7 @@ class Loops {
 
   static double dot(const Block& b, std::size_t column, std::size_t from, const double* y) {
     T sum{};
-    for (std::size_t r = first(from); r < b.ld; r += V::size)
+    for (std::size_t r = first(from); r < end(b); r += V::size)
       sum = V::fma(V::load(b.a + column * b.ld + r), V::load(y + r), sum);
     return V::sum(sum);
   }
@@ -246,10 +248,10 @@ class Loops {
   static void four(const Block& b, std::size_t p, double* y) {
     const double* l = b.a + p * b.ld;
     T sum[4] = {};
-    for (std::size_t r = p + 4; r < b.ld; r += V::size) {
-      const T value = V::load(y + r);
+    for_rows_behind(b, p + 3, [&](std::size_t r, auto load) {
+      const T value = load(y + r);
       for (std::size_t e = 0; e < 4; ++e) sum[e] = V::fma(V::load(l + e * b.ld + r), value, sum[e]);
-    }
+    });
     const double y3 = y[p + 3] - V::sum(sum[3]);
     const double y2 = y[p + 2] - V::sum(sum[2]) - l[2 * b.ld + p + 3] * y3;
     const double y1 = y[p + 1] - V::sum(sum[1]) - l[b.ld + p + 2] * y2 - l[b.ld + p + 3] * y3;

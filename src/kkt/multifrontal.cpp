@@ -14,8 +14,9 @@ std::uint32_t narrow(std::size_t n) {
   return static_cast<std::uint32_t>(n);
 }
 
+/// To whole vectors of the widest kind.
 constexpr std::size_t padded(std::size_t n) {
-  return (n + 3) / 4 * 4;
+  return (n + kMostLanes - 1) / kMostLanes * kMostLanes;
 }
 
 /// Rows there is room for, at least, that a front passes on; more are forced through.
@@ -313,7 +314,7 @@ class Multifrontal final : public Backend {
   /// Zeros on and below the diagonal, and in the vectors that hold it.
   static void clear_lower(Factor& factor) {
     for (std::size_t c = 0; c < factor.size; ++c) {
-      const std::size_t begin = c & ~std::size_t{3};
+      const std::size_t begin = c & ~(kMostLanes - 1);
       std::fill_n(factor.a.get() + c * factor.ld + begin, factor.ld - begin, 0.0);
     }
   }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "../base/kernel_choice.hpp"
 #include "row_kernels.hpp"
-#include "slalom/base/kernels.hpp"
 
 namespace slalom::kkt {
 namespace {
@@ -42,7 +42,7 @@ std::vector<EntryRun> find_runs(std::span<const std::uint32_t> row,
 }  // namespace
 
 const RowKernels& row_kernels() {
-  return current_kernels() == KernelSet::avx2 ? kRowAvx2 : kRowBaseline;
+  return in_use(kRowBaseline, kRowAvx2, kRowAvx512);
 }
 
 RowBlocks::RowBlocks(std::size_t rows, std::span<const std::uint32_t> row,

@@ -25,6 +25,7 @@ struct RowKernels {
 
 extern const RowKernels kRowBaseline;
 extern const RowKernels kRowAvx2;
+extern const RowKernels kRowAvx512;
 const RowKernels& row_kernels();  ///< of the kernel set in use
 
 }  // namespace slalom::kkt

@@ -1,11 +1,10 @@
 #include "lane_runs.hpp"
-
-#include "slalom/base/kernels.hpp"
+#include "../base/kernel_choice.hpp"
 
 namespace slalom::ocp {
 
 const LaneKernels& lane_kernels() {
-  return current_kernels() == KernelSet::avx2 ? kLaneAvx2 : kLaneBaseline;
+  return in_use(kLaneBaseline, kLaneAvx2, kLaneAvx512);
 }
 
 LaneRuns::LaneRuns(const std::vector<Scatter>& list, std::vector<char>* written) {

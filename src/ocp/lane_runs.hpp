@@ -61,6 +61,7 @@ struct LaneKernels {
 };
 extern const LaneKernels kLaneBaseline;
 extern const LaneKernels kLaneAvx2;
+extern const LaneKernels kLaneAvx512;
 const LaneKernels& lane_kernels();  ///< of the kernel set in use
 
 }  // namespace slalom::ocp

@@ -152,8 +152,9 @@ SweepTable read_study(const Database& database, const fs::path& file) {
   row.require(!study.scenarios.empty(), "none", "a list of scenarios");
   study.identity = row.text();
   row.require(!study.identity.empty(), "nothing", "the study's identity");
-  study.kernels = row.one_of({to_string(KernelSet::baseline), to_string(KernelSet::avx2)},
-                             "an instruction set");
+  std::vector<std::string> sets;
+  for (const auto set : kKernelSets) sets.emplace_back(to_string(set));
+  study.kernels = row.one_of(sets, "an instruction set");
   study.planners = row.list();
   row.require(!study.planners.empty(), "none", "a list of planners");
   study.columns = row.list();

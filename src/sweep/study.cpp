@@ -25,8 +25,17 @@ namespace {
 
 /// The instruction set by name: a study runs on one, "best" or not.
 std::string kernel_name(KernelChoice choice) {
-  if (choice == KernelChoice::best) return to_string(best_kernels());
-  return to_string(choice == KernelChoice::avx2 ? KernelSet::avx2 : KernelSet::baseline);
+  switch (choice) {
+    case KernelChoice::baseline:
+      return to_string(KernelSet::baseline);
+    case KernelChoice::avx2:
+      return to_string(KernelSet::avx2);
+    case KernelChoice::avx512:
+      return to_string(KernelSet::avx512);
+    case KernelChoice::best:
+      break;
+  }
+  return to_string(best_kernels());
 }
 
 /// Reads one study file and what it refers to.

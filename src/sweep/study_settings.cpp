@@ -16,7 +16,7 @@ const OptionTable<StudySettings>& study_options() {
               "Wall clock of one trial; beyond it the trial counts as hung.")
         .integer("retries", &S::retries, OptionRange::closed(0, 10), "1",
                  "How often a trial is tried again whose worker died or hung.")
-        .choice("kernels", &S::kernels, {"best", "baseline", "avx2"},
+        .choice("kernels", &S::kernels, {"best", "baseline", "avx2", "avx512"},
                 "Instruction set all trials run on; best is the best this processor has.");
     return t;
   }();

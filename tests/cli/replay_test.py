@@ -156,7 +156,7 @@ class Replay(ProgramTest):
             "short state": (changed("request", "X0p", to=[1, 2]),
                             ["bad.json: request.X0p: found 2 numbers, expected 8"]),
             "kernel set": (changed("kernels", to="neon"),
-                           ["bad.json: kernels: found \"neon\", expected one of baseline, avx2"]),
+                           ["bad.json: kernels: found \"neon\", expected one of baseline, avx2, avx512"]),
             "status": (changed("status", to="fine"), ["bad.json: status: found \"fine\""]),
             "option": (changed("options", "tol", to=-1), ["bad.json: options", "tol = -1"]),
             "scenario": (changed("scenario", to="start: {x: 0}"), ["bad.json: scenario:1:"]),

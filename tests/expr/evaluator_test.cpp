@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "slalom/base/kernels.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::expr {
 namespace {
@@ -81,15 +82,7 @@ void expect_results(const Evaluator& e, const Sample::Results& r, Wanted wanted)
   }
 }
 
-class EvaluatorTest : public testing::TestWithParam<KernelSet> {
- protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
-};
+class EvaluatorTest : public OnKernelSet {};
 
 TEST_P(EvaluatorTest, GivesTheBitsOfFunctionWhateverIsAskedForTogether) {
   for (const std::size_t lanes : {1u, 2u, 3u, 4u, 7u, 8u, 16u, 61u, 600u}) {
@@ -193,8 +186,7 @@ TEST_P(EvaluatorTest, NoLanesAndNothingWanted) {
   expect_results(e, sample.expected(), kAll);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, EvaluatorTest, testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, EvaluatorTest, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::expr

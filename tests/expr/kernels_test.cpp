@@ -8,6 +8,7 @@
 
 #include "expr/op_cases.hpp"
 #include "expr/reference.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::expr {
 namespace {
@@ -15,16 +16,8 @@ namespace {
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Runs each test on both instruction sets (the second where the processor has it).
-class Kernels : public testing::TestWithParam<KernelSet> {
+class Kernels : public OnKernelSet {
  protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
-
   static std::vector<double> run(const OpCase& c, const std::vector<double>& x) {
     const auto symbols = c.symbols();
     const Function f(symbols, {}, {c.build(symbols)});
@@ -108,8 +101,7 @@ TEST_P(Kernels, NeighboursDoNotTouchALane) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, Kernels, testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, Kernels, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::expr

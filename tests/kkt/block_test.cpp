@@ -10,12 +10,13 @@
 
 #include "../../src/base/aligned.hpp"
 #include "slalom/base/kernels.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::kkt {
 namespace {
 
 std::size_t padded(std::size_t n) {
-  return (n + 3) / 4 * 4;
+  return (n + kMostLanes - 1) / kMostLanes * kMostLanes;
 }
 
 /// A block with its memory. Diagonals are large, but for pivots of order 2, which have none.
@@ -89,15 +90,7 @@ struct Sample {
   }
 };
 
-class BlockLoops : public testing::TestWithParam<KernelSet> {
- protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
-};
+class BlockLoops : public OnKernelSet {};
 
 TEST_P(BlockLoops, FactorLeavesTheSchurComplementAndCountsSigns) {
   for (std::size_t size = 1; size <= 19; ++size)
@@ -141,8 +134,7 @@ TEST_P(BlockLoops, RefusesUnstableTinyAndNanPivots) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, BlockLoops, testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, BlockLoops, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::kkt

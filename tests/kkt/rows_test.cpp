@@ -9,6 +9,7 @@
 #include "slalom/base/kernels.hpp"
 #include "slalom/kkt/condensed_hessian.hpp"
 #include "slalom/kkt/row_blocks.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::kkt {
 namespace {
@@ -101,14 +102,8 @@ void expect_near(const Vector& a, const Vector& b) {
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-12) << "at " << i;
 }
 
-class Rows : public testing::TestWithParam<KernelSet> {
+class Rows : public OnKernelSet {
  protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
   Random random_{1};
 };
 
@@ -206,8 +201,7 @@ TEST_P(Rows, CondensedSumIsThatOfTheDenseProducts) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, Rows, testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, Rows, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::kkt

@@ -9,6 +9,7 @@
 #include "nlp/hock_schittkowski/problems.hpp"
 #include "slalom/base/kernels.hpp"
 #include "slalom/nlp/solver.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::nlp {
 namespace {
@@ -43,15 +44,7 @@ std::vector<Bits> solve_some() {
   return all;
 }
 
-class SameBits : public testing::TestWithParam<KernelSet> {
- protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
-};
+class SameBits : public OnKernelSet {};
 
 TEST_P(SameBits, FromRunToRun) {
   const auto first = solve_some();
@@ -71,8 +64,7 @@ TEST_P(SameBits, WithSolversSideBySideInThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, SameBits, testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, SameBits, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::nlp

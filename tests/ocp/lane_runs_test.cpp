@@ -9,6 +9,7 @@
 #include <random>
 
 #include "slalom/base/kernels.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -61,15 +62,7 @@ void expect_near(const Vector& a, const Vector& b) {
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-11) << "at " << i;
 }
 
-class Lanes : public testing::TestWithParam<KernelSet> {
- protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
-};
+class Lanes : public OnKernelSet {};
 
 TEST_P(Lanes, ScatterAddsAndGatherIsItsTranspose) {
   for (const auto& list : lists()) {
@@ -142,8 +135,7 @@ TEST_P(Lanes, AllFiniteSeesEveryPlaceAndOverflowsOnNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, Lanes, testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, Lanes, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::ocp

@@ -11,6 +11,7 @@
 #include "slalom/kkt/condensed_hessian.hpp"
 #include "slalom/kkt/row_blocks.hpp"
 #include "slalom/kkt/system.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -119,15 +120,7 @@ double error_of(const PlannerSystem& system, kkt::Backend& backend, const kkt::V
   return most / size;
 }
 
-class PlannerSystems : public testing::TestWithParam<KernelSet> {
- protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
-};
+class PlannerSystems : public OnKernelSet {};
 
 TEST_P(PlannerSystems, BothFactorisationsAgree) {
   std::mt19937 random(3);
@@ -156,9 +149,7 @@ TEST_P(PlannerSystems, BothFactorisationsAgree) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, PlannerSystems,
-                         testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, PlannerSystems, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::planner

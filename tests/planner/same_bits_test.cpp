@@ -8,6 +8,7 @@
 
 #include "planner/transcribed.hpp"
 #include "slalom/base/kernels.hpp"
+#include "support/kernel_sets.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -39,15 +40,7 @@ Bits drive_a_while() {
   return bits;
 }
 
-class PlannerBits : public testing::TestWithParam<KernelSet> {
- protected:
-  void SetUp() override {
-    if (GetParam() == KernelSet::avx2 && best_kernels() != KernelSet::avx2)
-      GTEST_SKIP() << "no AVX2 with FMA here";
-    select_kernels(GetParam());
-  }
-  void TearDown() override { select_kernels(best_kernels()); }
-};
+class PlannerBits : public OnKernelSet {};
 
 TEST_P(PlannerBits, SameOnAnyNumberOfThreads) {
   const Bits alone = drive_a_while();
@@ -62,8 +55,7 @@ TEST_P(PlannerBits, SameOnAnyNumberOfThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sets, PlannerBits, testing::Values(KernelSet::baseline, KernelSet::avx2),
-                         [](const auto& set) { return std::string(to_string(set.param)); });
+INSTANTIATE_TEST_SUITE_P(Sets, PlannerBits, each_kernel_set(), name_of_set);
 
 }  // namespace
 }  // namespace slalom::planner

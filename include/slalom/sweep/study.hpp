@@ -17,7 +17,7 @@ inline constexpr std::int64_t kMaxDrawn = 20'000'000;
 /// What a sweep keeps of each trial: its row, or the whole folder of its drive too.
 enum class Keep { figures, drives };
 /// The instruction set of all trials; best: the best this processor has.
-enum class KernelChoice { best, baseline, avx2 };
+enum class KernelChoice { best, baseline, avx2, avx512 };
 
 /// How a study's trials are run, beside what they are.
 struct StudySettings {
@@ -85,7 +85,7 @@ struct Study {
   std::vector<sim::Scenario> bases;
   std::vector<Axis> axes;
   StudySettings settings;
-  std::string kernels;  ///< the instruction set by name: baseline or avx2
+  std::string kernels;  ///< the instruction set by name: baseline, avx2 or avx512
 
   std::int64_t size() const;
   /// The names of all planners, each once, in the study's order.

@@ -1,11 +1,10 @@
 #include "vector_kernels.hpp"
-
-#include "slalom/base/kernels.hpp"
+#include "../../base/kernel_choice.hpp"
 
 namespace slalom::nlp::ipm {
 
 const VectorKernels& vector_kernels() {
-  return current_kernels() == KernelSet::avx2 ? kVectorAvx2 : kVectorBaseline;
+  return in_use(kVectorBaseline, kVectorAvx2, kVectorAvx512);
 }
 
 }  // namespace slalom::nlp::ipm

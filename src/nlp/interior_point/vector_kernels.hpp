@@ -78,6 +78,7 @@ struct VectorKernels {
 
 extern const VectorKernels kVectorBaseline;
 extern const VectorKernels kVectorAvx2;
+extern const VectorKernels kVectorAvx512;
 const VectorKernels& vector_kernels();  ///< of the kernel set in use
 
 }  // namespace slalom::nlp::ipm
