@@ -99,10 +99,7 @@ def processor():
 
 def kernel_set():
     """The one that the program takes on this processor (src/base/kernels.cpp)."""
-    flags = set(of_processor("flags").split())
-    if not {"avx2", "fma"} <= flags:
-        return "baseline"
-    return "avx512" if {"avx512f", "avx512dq", "avx512vl"} <= flags else "avx2"
+    return "avx2" if {"avx2", "fma"} <= set(of_processor("flags").split()) else "baseline"
 
 
 def compiler(program):

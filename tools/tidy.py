@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over src/ and apps/ in parallel; any finding fails.
+"""Runs clang-tidy over src/, apps/ and benchmarks/ in parallel; any finding fails.
 
 Files that are compiled as one are looked at as one, and without clang's static analyzer and the
 checks that take longest in library headers, which takes much less time; --alone looks at each by
@@ -43,7 +43,7 @@ def batches(build, only, alone):
         if path.parent.name == "Unity":
             files = [pathlib.Path(name) for name in INCLUDED.findall(path.read_text("utf-8"))]
         files = [file for file in files if file.is_relative_to(ROOT) and
-                 file.relative_to(ROOT).parts[0] in ("src", "apps") and
+                 file.relative_to(ROOT).parts[0] in ("src", "apps", "benchmarks") and
                  (not only or file in only)]
         command = flags(shlex.split(entry["command"]), files)
         found += [([file], entry["directory"], command) for file in files] if alone else (

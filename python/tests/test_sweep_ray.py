@@ -135,5 +135,5 @@ def test_a_cluster_that_is_not_there_is_said_at_once(tmp_path):
 def test_a_worker_of_another_kind_is_refused():
     with pytest.raises(Exception, match="a worker has slalom .*, the sweep 0.0.0"):
         _sweep_ray.run_chunk([], "baseline", "0.0.0", 0, 1, 1)
-    with pytest.raises(Exception, match="instruction set 'avx512'"):
-        _sweep_ray.run_chunk([], "avx512", _sweep_ray._core.__version__, 0, 1, 1)
+    with pytest.raises(Exception, match="instruction set 'avx10'"):
+        _sweep_ray.run_chunk([], "avx10", _sweep_ray._core.__version__, 0, 1, 1)

@@ -65,7 +65,7 @@ bool has_kernels(KernelSet set) {
 }
 
 KernelSet best_kernels() {
-  return *std::find_if(kKernelSets.rbegin(), kKernelSets.rend(), has_kernels);
+  return has_kernels(KernelSet::avx2) ? KernelSet::avx2 : KernelSet::baseline;
 }
 
 KernelSet current_kernels() {

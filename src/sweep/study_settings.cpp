@@ -17,7 +17,8 @@ const OptionTable<StudySettings>& study_options() {
         .integer("retries", &S::retries, OptionRange::closed(0, 10), "1",
                  "How often a trial is tried again whose worker died or hung.")
         .choice("kernels", &S::kernels, {"best", "baseline", "avx2", "avx512"},
-                "Instruction set all trials run on; best is the best this processor has.");
+                "Instruction set all trials run on; best is avx2 where the processor has it: "
+                "avx512 makes a cycle 5 to 8 % faster and gives other last places.");
     return t;
   }();
   return table;

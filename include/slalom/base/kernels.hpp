@@ -14,7 +14,9 @@ inline constexpr std::array kKernelSets = {KernelSet::baseline, KernelSet::avx2,
 
 /// Whether this processor has the set, and the system saves its registers.
 bool has_kernels(KernelSet set);
-/// The best set this processor has.
+/// The set to prefer on this processor: AVX2 where there is one. AVX-512 is for those who ask for
+/// it: it makes a planning cycle 5 to 8 % faster, and gives other last places than most machines
+/// do.
 KernelSet best_kernels();
 /// The set in use: the best one unless select_kernels chose another.
 KernelSet current_kernels();

@@ -16,7 +16,7 @@ inline constexpr std::int64_t kMaxDrawn = 20'000'000;
 
 /// What a sweep keeps of each trial: its row, or the whole folder of its drive too.
 enum class Keep { figures, drives };
-/// The instruction set of all trials; best: the best this processor has.
+/// The instruction set of all trials; best: best_kernels().
 enum class KernelChoice { best, baseline, avx2, avx512 };
 
 /// How a study's trials are run, beside what they are.
