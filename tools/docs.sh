@@ -4,6 +4,7 @@
 # from PyPI into an environment of its own.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. tools/environment.sh
 
 if [ $# -ne 2 ]; then
   echo "usage: tools/docs.sh DIST SITE" >&2
@@ -19,9 +20,9 @@ trap 'rm -rf "$work"' EXIT
 
 python=$(realpath "$1")/venv/bin/python
 if [ ! -x "$python" ]; then
-  python3 -m venv "$work/venv"
+  make_environment "$work/venv"
   python=$work/venv/bin/python
-  "$python" -m pip --disable-pip-version-check install -q "$(realpath "$wheel")[docs]"
+  install_into "$work/venv" "$(realpath "$wheel")[docs]"
 fi
 mkdir "$work/pages"
 cp -r docs/*.md docs/*.svg docs/measured docs/scenes docs/schemes docs/site/* "$work/pages/"

