@@ -90,6 +90,7 @@ void bind_saved(nb::module_& module);
 void bind_solution(nb::module_& module);
 void bind_solve(nb::module_& module);
 void bind_simulation(nb::module_& module);
+void bind_many(nb::module_& module);
 void bind_mpc(nb::module_& module);
 void bind_refine(nb::module_& module);
 void bind_judge(nb::module_& module);

@@ -68,6 +68,7 @@ NB_MODULE(_core, module) {
   bind_problem(module);
   bind_saved(module);
   bind_solve(module);
+  bind_many(module);
   bind_simulation(module);
   bind_judge(module);
   bind_phases(module);

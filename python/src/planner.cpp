@@ -8,6 +8,7 @@
 #include "binding.hpp"
 #include "scenario.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/planner/many.hpp"
 #include "slalom/vehicle/plant.hpp"
 
 namespace slalom::python {
@@ -29,10 +30,11 @@ vehicle::State state_of(const std::vector<double>& numbers, const char* where) {
 
 /// A planner with what its scenario says of time.
 struct ScenarioPlanner {
+  planner::Task task;
   planner::Planner planner;
   double tex;
 
-  explicit ScenarioPlanner(const Scenario& s) : planner(s), tex(s.loop.tex) {}
+  explicit ScenarioPlanner(const Scenario& s) : task(s), planner(s), tex(s.loop.tex) {}
 };
 
 /// Obstacles as measured at t0, as a request has them: where they would have been at t = 0. Times
@@ -67,6 +69,30 @@ Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
   }
   released.raise_if_interrupted();
   return result;
+}
+
+/// Each from `state`'s row, as the first plan of a planner made for the scenario.
+std::vector<Plan> plan_many(ScenarioPlanner& self, const std::vector<std::vector<double>>& states,
+                            double t0, std::optional<double> tex, double time_limit,
+                            double best_iterate_tol, int threads) {
+  std::vector<planner::Request> requests;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    planner::Request& request = requests.emplace_back();
+    request.X0p = state_of(states[i], ("plan_many: states[" + std::to_string(i) + "]").c_str());
+    request.t0 = t0;
+    request.t_start = t0 + tex.value_or(self.tex);
+    request.time_limit = time_limit;
+    request.best_iterate_tol = best_iterate_tol;
+  }
+  Released released;
+  std::vector<Plan> plans;
+  {
+    const nb::gil_scoped_release unlock;
+    plans = planner::plan_many(self.task, requests, threads,
+                               [&released] { return released.interrupted(); });
+  }
+  released.raise_if_interrupted();
+  return plans;
 }
 
 void bind_report(nb::class_<Plan>& type) {
@@ -231,6 +257,14 @@ void bind_planner(nb::module_& module) {
            "there are: their x and y are those at t0, times of tables and paths the drive's, "
            "and\nthose "
            "of one name are one from call to call.")
+      .def("plan_many", &plan_many, "states"_a, nb::kw_only(), "t0"_a = 0.0, "tex"_a = nb::none(),
+           "time_limit"_a = std::numeric_limits<double>::infinity(), "best_iterate_tol"_a = -1.0,
+           "threads"_a = 0,
+           "A plan from each row of `states`, [plan, state], each as the first plan of a planner "
+           "just "
+           "made: so it\ndepends on its row alone, and neither on this planner's last plan nor on "
+           "the number of `threads`\n(0: as many as processors). `time_limit` is of thread time of "
+           "each plan [s].")
       .def(
           "reset", [](ScenarioPlanner& self) { self.planner.reset(); }, doc::planner_Planner_reset);
 }
