@@ -1,8 +1,7 @@
 #pragma once
 
-// The interpreter's inner loops, included once for each instruction set with a policy V that
-// wraps its vectors and SLEEF's functions for them. Of SLEEF only the deterministic variants (cinz,
-// finz) will do: in the others a lane's last bit depends on how large its neighbours are.
+// The interpreter's inner loops over vectors V (tape_vector.hpp); included once for each
+// instruction set.
 
 #include <cstddef>
 
