@@ -23,6 +23,7 @@ struct Interval {
   double t0 = 0, length = 0;  ///< absolute time of the first [s]
   Vector p0, p1, v0, v1;
   double psi0 = 0, psi1 = 0, r0 = 0, r1 = 0;  ///< headings [rad] and yaw rates [rad/s]
+  double most_speed = 0;                      ///< fastest(), found once for all obstacles [m/s]
 
   /// Place and heading.
   State at(double share) const {
@@ -58,7 +59,7 @@ class Search {
         margin_(margin),
         deepest_(deepest) {
     const double moving = held < 0 ? obstacle.fastest(time(0), time(1)) + obstacle.margin_rate : 0;
-    rate_ = (interval.fastest() + moving) * interval.length;
+    rate_ = (interval.most_speed + moving) * interval.length;
     if (!footprint.is_point())
       rate_ += interval.fastest_turn() * footprint.reach() * interval.length;
   }
@@ -67,9 +68,10 @@ class Search {
     if (!obstacle_.present(time(0), time(1))) return;
     // Far ones, which are most, are told by the distance between centres.
     const world::Pose o = obstacle_.pose_at(time(0));
-    const double most = obstacle_.reach() + footprint_.reach() + margin_ +
-                        obstacle_.margin(time(0)) - deepest_.depth;
-    if ((interval_.p0 - Vector{o.x, o.y}).norm() > most + rate_) return;
+    const double near = obstacle_.reach() + footprint_.reach() + margin_ +
+                        obstacle_.margin(time(0)) - deepest_.depth + rate_;
+    const Vector apart = interval_.p0 - Vector{o.x, o.y};
+    if (near < 0 || dot(apart, apart) > near * near) return;
     split(0, depth(0), 1, depth(1));
   }
 
@@ -121,6 +123,7 @@ Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& ob
     i.psi1 = b[PSI];
     i.r0 = a[R];
     i.r1 = b[R];
+    i.most_speed = i.fastest();
     for (const auto& o : obstacles)
       Search(i, footprint, o, plan.obstacle_time_held, margin, deepest).run();
   }

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <random>
+#include <vector>
 
 namespace slalom::sim {
 
@@ -10,11 +12,15 @@ namespace slalom::sim {
 /// bits with every standard library.
 class NormalDraws {
  public:
-  explicit NormalDraws(std::initializer_list<std::uint32_t> seed);
+  explicit NormalDraws(std::initializer_list<std::uint32_t> seed) : seed_(seed) {}
   double next();
+  /// Leaves a draw out, which costs nothing.
+  void skip() { ++skipped_; }
 
  private:
-  std::mt19937_64 generator_;
+  std::vector<std::uint32_t> seed_;
+  unsigned long long skipped_ = 0;
+  std::optional<std::mt19937_64> generator_;  ///< made for the first draw: seeding takes microseconds
 };
 
 }  // namespace slalom::sim

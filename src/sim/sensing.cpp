@@ -15,8 +15,11 @@ using Range = OptionRange;
 
 /// `value` with noise of standard deviation `sigma`; untouched where there is none.
 void disturb(double& value, double sigma, NormalDraws& draws) {
-  const double z = draws.next();  // drawn in any case: one noise does not change another
-  if (sigma > 0) value += sigma * z;
+  // Each has a draw of its own: one noise does not change another.
+  if (sigma > 0)
+    value += sigma * draws.next();
+  else
+    draws.skip();
 }
 
 /// A motion as it is believed at t0 [s]: displaced by an error of place, and `factor` times as fast

@@ -24,7 +24,7 @@ constexpr double kGraze = 1e-4, kLow = 1e-3;
 /// After so many looks in a stretch, the others are evenly apart and as many at most: whatever the
 /// speeds, a stretch is soon judged.
 constexpr int kMostLooks = 1000;
-/// Share of a stretch over which one-sided differences of wheel loads are taken.
+/// Share of a stretch over which one-sided differences are taken.
 constexpr double kDifference = 1e-3;
 
 constexpr std::array<const char*, vehicle::kWheels> kWheelsInWords = {"rear left", "rear right",
@@ -41,6 +41,14 @@ Low lowest(const F& f, double length) {
   std::uintmax_t iterations = 60;
   const auto [t, value] = boost::math::tools::brent_find_minima(f, 0., length, 26, iterations);
   return {t, value};
+}
+
+/// Whether `f`, of one minimum, has it between two times: it falls after the first and rises before
+/// the second.
+template <class F>
+bool dips_between(const F& f, double t0, double f0, double t1, double f1) {
+  const double dt = kDifference * (t1 - t0);
+  return f(t0 + dt) < f0 && f(t1 - dt) < f1;
 }
 
 /// First time in (0, end] at which `f` is no longer positive, given f(0) > 0 >= f(end) and one sign
@@ -153,8 +161,7 @@ double load(const vehicle::Dynamics& dynamics, const Stretch& s, double t, std::
 }
 
 /// Calls use(wheel, low) with the least load of each wheel over a stretch, for those that can be
-/// below `level` [N]. A minimum between the ends shows as a fall after the first and a rise before
-/// the second.
+/// below `level` [N].
 template <class Use>
 void for_each_low_load(const vehicle::Dynamics& dynamics, const Stretch& s, double level,
                        const Use& use) {
@@ -165,8 +172,7 @@ void for_each_low_load(const vehicle::Dynamics& dynamics, const Stretch& s, doub
     if (least - kLoadRate * length / 2 >= level) continue;
     Low low = end[wheel] < start[wheel] ? Low{length, end[wheel]} : Low{0, start[wheel]};
     const auto along = [&](double t) { return load(dynamics, s, t, wheel); };
-    const double dt = kDifference * length;
-    if (length > 0 && along(dt) < start[wheel] && along(length - dt) < end[wheel]) {
+    if (length > 0 && dips_between(along, 0, start[wheel], length, end[wheel])) {
       const Low inside = lowest(along, length);
       if (inside.value < low.value) low = inside;
     }
@@ -233,6 +239,7 @@ struct Watch::Approach {
   Low least(double level) const {
     Low low = d1 < d0 ? Low{to, d1} : Low{from, d0};
     if (to <= from || (d0 + d1 - rate * (to - from)) / 2 >= level) return low;
+    if (is_convex() && !dips_between(*this, from, d0, to, d1)) return low;
     const Low inside = lowest([&](double after) { return (*this)(from + after); }, to - from);
     if (inside.value < low.value) low = {from + inside.t, inside.value};
     if (is_convex()) return low;
