@@ -1,0 +1,66 @@
+#include "slalom/ocp/sensitivity.hpp"
+
+#include "factorised.hpp"
+#include "lookup.hpp"
+#include "solved.hpp"
+
+namespace slalom::ocp {
+
+std::vector<double> Sensitivity::state(const std::string& name) const {
+  return column(trajectory.states, index_of(name, state_names, "state"));
+}
+std::vector<double> Sensitivity::control(const std::string& name) const {
+  return column(trajectory.controls, index_of(name, control_names, "control"));
+}
+double Sensitivity::static_parameter(const std::string& name) const {
+  return trajectory.static_parameters[index_of(name, static_parameter_names, "static parameter")];
+}
+double Sensitivity::slack(const std::string& name) const {
+  return trajectory.slacks[index_of(name, slack_names, "slack")];
+}
+double Sensitivity::integral(const std::string& name) const {
+  return trajectory.integrals[index_of(name, integral_names, "integral")];
+}
+const Multipliers& Sensitivity::multiplier(const std::string& name) const {
+  return multipliers[index_of(name, names_of(multipliers), "multiplier")];
+}
+
+std::vector<std::pair<std::string, double>> sensitivity_numbers(const Problem& problem) {
+  std::vector<std::pair<std::string, double>> list;
+  for (const Number& number : numbers(problem)) list.emplace_back(number.name, number.value);
+  return list;
+}
+
+class Sensitivities::Impl {
+ public:
+  Impl(const Problem& problem, const Solution& solution)
+      : problem_((check_solved(problem.name(), solution), with_scales_of(solution, problem))),
+        transcription_(problem_, solution.mesh, solution.scheme),
+        factorised_(problem.name(), transcription_, solution.point, solution.options),
+        phase_(problem_, transcription_, factorised_.point()) {}
+
+  Sensitivity operator()(const std::string& name) {
+    const auto& numbers = phase_.numbers();
+    const Number& number = numbers[number_named(problem_.name(), name, names_of(numbers))];
+    const Direction direction = phase_.direction(number);
+    const auto dependence = phase_.dependence(direction);
+    return phase_.describe(name, factorised_.solve(name, dependence).point, direction, dependence);
+  }
+
+ private:
+  const Problem problem_;
+  Transcription transcription_;
+  Factorised factorised_;
+  AnsweredPhase phase_;
+};
+
+Sensitivities::Sensitivities(const Problem& problem, const Solution& solution)
+    : impl_(std::make_unique<Impl>(problem, solution)) {}
+Sensitivities::~Sensitivities() = default;
+Sensitivities::Sensitivities(Sensitivities&&) noexcept = default;
+Sensitivities& Sensitivities::operator=(Sensitivities&&) noexcept = default;
+Sensitivity Sensitivities::operator()(const std::string& number) const {
+  return (*impl_)(number);
+}
+
+}  // namespace slalom::ocp

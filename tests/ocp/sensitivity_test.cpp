@@ -1,0 +1,307 @@
+// How answers move with the numbers of their problems: by closed forms, and by differences of
+// answers to problems with other numbers.
+
+#include "slalom/ocp/sensitivity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ocp/closed_forms.hpp"
+#include "ocp/messages.hpp"
+
+namespace slalom::ocp {
+namespace {
+
+using test::refusal;
+
+nlp::Options tight(double floor = 0) {
+  nlp::Options options;
+  options.floor = floor;
+  options.tol = options.constraint_tol = 1e-10;
+  options.dual_tol = floor > 0 ? 1e-9 : 1e-5;
+  options.floor_tol = 1e-9;
+  return options;
+}
+
+TEST(Sensitivity, OfTheLinearRegulatorToItsStart) {
+  const auto form = regulator();
+  const Solution s = solve(form.problem, {.options = tight()});
+  const Sensitivity by_start = Sensitivities(form.problem, s)("initial x");
+  EXPECT_NEAR(by_start.objective, std::tanh(1), 1e-7);
+  for (std::size_t k = 0; k < s.time().size(); ++k) {
+    const double t = s.time()[k];
+    EXPECT_NEAR(by_start.state("x")[k], std::cosh(1 - t) / std::cosh(1), 1e-7);
+    EXPECT_NEAR(by_start.control("u")[k], -std::sinh(1 - t) / std::cosh(1), 1e-4);
+    EXPECT_NEAR(by_start.control("u")[k], s.control("u")[k], 1e-8);  // all is linear in x(0) = 1
+  }
+  EXPECT_EQ(by_start.tf(), 0);
+  EXPECT_EQ(by_start.number, "initial x");
+}
+
+/// J = 4 / (9 l), also by the envelope theorem: minus the sum of the bound's multipliers.
+TEST(Sensitivity, OfBrysonDenhamToItsBound) {
+  const double l = 1.0 / 9;
+  const auto form = bryson_denham(l);
+  const Solution s = solve(form.problem, {.mesh = Mesh::uniform(90), .options = tight()});
+  const Sensitivity by_bound = Sensitivities(form.problem, s)("upper x");
+  EXPECT_NEAR(by_bound.objective, -4 / (9 * l * l), 0.01);
+  double envelope = 0;
+  for (const double each : s.multiplier("x").values) envelope -= each;
+  const auto& fixed = s.multiplier("x").values;  // of the ends: not of this bound
+  envelope += fixed.front() + fixed.back();
+  EXPECT_NEAR(by_bound.objective, envelope, 1e-5 * std::fabs(envelope));
+  for (std::size_t k = 1; k + 1 < s.time().size(); ++k)
+    if (s.multiplier("x").values[k] > 1) EXPECT_NEAR(by_bound.state("x")[k], 1, 1e-5) << k;
+}
+
+/// tf = 2 sqrt(X), of whatever mesh: the discretised problem scales alike.
+TEST(Sensitivity, OfTheLeastTimeToTheWay) {
+  const auto form = least_time();
+  for (const auto& scheme : {hermite_simpson(), lgr(4), backward_euler()}) {
+    const Solution s = solve(form.problem, {.scheme = scheme, .options = tight()});
+    const Sensitivity by_way = Sensitivities(form.problem, s)("final x");
+    EXPECT_NEAR(by_way.tf(), s.tf() / 2, 1e-6);
+    EXPECT_NEAR(by_way.objective, by_way.tf(), 1e-12);
+    EXPECT_NEAR(by_way.state("x").back(), 1, 1e-12);
+    EXPECT_NEAR(by_way.control("u").front(), 0, 1e-6);  // on its bound
+    const Sensitivity by_most = Sensitivities(form.problem, s)("upper u");
+    EXPECT_NEAR(by_most.control("u").front(), 1, 0.02);  // where the multiplier is small, less
+    EXPECT_LT(by_most.tf(), 0);
+  }
+}
+
+/// A number by its name, and how a user sets it.
+struct Change {
+  std::string number;
+  std::function<void(Problem&, double by)> add;
+};
+
+/// Compares with central differences of the answers to problems with other numbers.
+class Differences {
+ public:
+  Differences(Problem problem, SolveSettings settings, double step, double tolerance)
+      : problem_(std::move(problem)),
+        settings_(std::move(settings)),
+        step_(step),
+        tolerance_(tolerance),
+        answer_(solved(problem_, {})),
+        sensitivities_(problem_, answer_) {}
+
+  void compare(const Change& change) const {
+    SCOPED_TRACE(change.number);
+    const Sensitivity s = sensitivities_(change.number);
+    const Solution low = beside(change, -step_), high = beside(change, step_);
+    close("objective", s.objective, low.objective, high.objective);
+    const auto &r = s.trajectory, &a = low.trajectory, &b = high.trajectory;
+    close("t0", r.t0, a.t0, b.t0);
+    close("tf", r.tf, a.tf, b.tf);
+    for (std::size_t k = 0; k < r.tau.size(); ++k) {
+      const std::string at = " at " + std::to_string(k);
+      close("states" + at, r.states[k], a.states[k], b.states[k]);
+      close("controls" + at, r.controls[k], a.controls[k], b.controls[k]);
+    }
+    close("static parameters", r.static_parameters, a.static_parameters, b.static_parameters);
+    close("slacks", r.slacks, a.slacks, b.slacks);
+    close("integrals", r.integrals, a.integrals, b.integrals);
+    for (std::size_t m = 0; m < s.multipliers.size(); ++m)
+      close("multiplier of " + s.multipliers[m].name, s.multipliers[m].values,
+            low.multipliers[m].values, high.multipliers[m].values);
+  }
+
+ private:
+  Solution solved(const Problem& problem, const nlp::Start& warm) const {
+    SolveSettings settings = settings_;
+    settings.warm_start = warm;
+    Solution solution = solve(problem, settings);
+    EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+    return solution;
+  }
+  Solution beside(const Change& change, double by) const {
+    Problem moved = problem_;
+    change.add(moved, by);
+    return solved(moved, answer_.point);
+  }
+  void close(const std::string& what, double rate, double low, double high) const {
+    EXPECT_NEAR(rate, (high - low) / (2 * step_), tolerance_ * (1 + std::fabs(rate))) << what;
+  }
+  void close(const std::string& what, const std::vector<double>& rate,
+             const std::vector<double>& low, const std::vector<double>& high) const {
+    for (std::size_t i = 0; i < rate.size(); ++i)
+      close(what + "[" + std::to_string(i) + "]", rate[i], low[i], high[i]);
+  }
+
+  Problem problem_;
+  SolveSettings settings_;
+  double step_, tolerance_;
+  Solution answer_;
+  Sensitivities sensitivities_;
+};
+
+/// Everything a problem may have, in a form that has one answer: numbers of all kinds, a free end,
+/// end values away from their ends, a slack, an integral, families, soft rows, a moment.
+struct Everything {
+  Problem problem{"everything"};
+  Expr x = problem.state("x", {-4, 3}, 2);
+  Expr v = problem.state("v", Bounds::at_most(0.9));
+  Expr u = problem.control("u", {-2.5, 4}, 3);
+  Expr mass = problem.parameter("mass", 1.2);
+  Expr drag = problem.parameter("drag", 0.3);
+  Expr gain = problem.static_parameter("gain", {0.2, 5}, 1, 2);
+  Expr late = problem.slack("late", End::final, Bounds::at_least(0), 0.1);
+  Expr work = problem.integral("work", square(u), Bounds::at_most(40));
+  ConstraintId discs, limit, wall;
+
+  Everything() {
+    const Expr t = problem.time();
+    problem.dynamics(x, v);
+    problem.dynamics(v, u / mass - drag * v * sqrt(square(v) + 0.1) + 0.1 * problem.initial(x) * t);
+    problem.lagrange("effort", square(u) / gain + 0.2 * square(x - 1));
+    problem.mayer("time", mass * problem.final_time() + 3 * square(late) + late);
+    problem.mayer("gain", 0.4 * gain);
+    problem.mayer("work", 0.05 * work * drag);
+    problem.initial_bounds(x, Bounds::equal(0.1));
+    problem.initial_bounds(v, Bounds::equal(0));
+    problem.final_bounds(v, {-0.2, 0.05});
+    problem.boundary("arrival", problem.final(x) + late, Bounds::equal(2));
+    problem.final_time({0.5, 8}, 3);
+    const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
+    discs = problem.path_family("disc", {a, b}, x - a + b * v, {-6, 3});
+    problem.set_members(discs, {"one", "two"}, {{0.2, 0.5}, {-0.3, 0.4}});
+    limit = problem.path("power", u * v, Bounds::at_most(0.8), Points::after_first);
+    wall = problem.path("wall", v - 0.3 * mass * t, Bounds::at_most(0.2));
+    problem.soften(wall, {Norm::l2, 5, 0.01});
+    problem.path_at("half", v - u / 20, Moment::share(0.5), Bounds::at_most(0.7));
+  }
+
+  std::vector<Change> changes() const {
+    const auto parameter = [](const Expr& symbol, double value) {
+      return [symbol, value](Problem& p, double by) { p.set_parameter(symbol, value + by); };
+    };
+    const auto member = [this](std::size_t m, std::size_t i) {
+      return [this, m, i](Problem& p, double by) {
+        auto values = p.constraints()[discs.index].member_values;
+        values[m][i] += by;
+        p.set_members(discs, p.constraints()[discs.index].members, values);
+      };
+    };
+    return {
+        {"mass", parameter(mass, 1.2)},
+        {"drag", parameter(drag, 0.3)},
+        {"initial x",
+         [this](Problem& p, double by) { p.initial_bounds(x, Bounds::equal(0.1 + by)); }},
+        {"initial v", [this](Problem& p, double by) { p.initial_bounds(v, Bounds::equal(by)); }},
+        {"upper final v",
+         [this](Problem& p, double by) {
+           p.final_bounds(v, {-0.2, 0.05 + by});
+         }},
+        {"lower final v",
+         [this](Problem& p, double by) {
+           p.final_bounds(v, {-0.2 + by, 0.05});
+         }},
+        {"lower tf",
+         [](Problem& p, double by) {
+           p.final_time({0.5 + by, 8}, 3);
+         }},
+        {"upper tf",
+         [](Problem& p, double by) {
+           p.final_time({0.5, 8 + by}, 3);
+         }},
+        {"disc[one].a", member(0, 0)},
+        {"disc[two].b", member(1, 1)},
+        {"weight of wall",
+         [this](Problem& p, double by) {
+           p.soften(wall, {Norm::l2, 5 + by, 0.01});
+         }},
+    };
+  }
+};
+
+TEST(Sensitivity, AgreesWithDifferencesAtAFloor) {
+  const Everything everything;
+  for (const auto& scheme : {trapezoidal(), backward_euler(), hermite_simpson(),
+                             hermite_simpson_compressed(), lgr(3), lgl(4)}) {
+    SCOPED_TRACE(scheme.name);
+    const Differences differences(
+        everything.problem, {.mesh = Mesh::uniform(6), .scheme = scheme, .options = tight(0.01)},
+        1e-4, 3e-5);
+    for (const auto& change : everything.changes()) differences.compare(change);
+  }
+}
+
+TEST(Sensitivity, AgreesWithDifferencesOfOptima) {
+  const Everything everything;
+  for (const auto& scheme : {trapezoidal(), hermite_simpson(), lgr(3)}) {
+    SCOPED_TRACE(scheme.name);
+    const Differences differences(everything.problem,
+                                  {.mesh = Mesh::uniform(6), .scheme = scheme, .options = tight()},
+                                  1e-5, 2e-3);
+    for (const auto& change : everything.changes()) differences.compare(change);
+  }
+}
+
+TEST(Sensitivity, ListsTheNumbersOfAProblem) {
+  const Everything everything;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : sensitivity_numbers(everything.problem)) names.push_back(name);
+  const std::vector<std::string> expected = {
+      "mass",          "drag",        "initial x",      "initial v",   "lower final v",
+      "upper final v", "t0",          "lower tf",       "upper tf",    "lower x",
+      "upper x",       "upper v",     "lower u",        "upper u",     "lower gain",
+      "upper gain",    "lower late",  "upper work",     "arrival",     "lower disc",
+      "upper disc",    "disc[one].a", "disc[one].b",    "disc[two].a", "disc[two].b",
+      "upper power",   "upper wall",  "weight of wall", "upper half"};
+  EXPECT_EQ(names, expected);
+  EXPECT_EQ(sensitivity_numbers(everything.problem)[5].second, 0.05);
+}
+
+TEST(Sensitivity, RefusesWhatHasNone) {
+  const auto form = regulator();
+  const Solution s = solve(form.problem, {});
+  const Sensitivities known(form.problem, s);
+  EXPECT_EQ(refusal([&] { (void)known("inital x"); }),
+            "linear regulator: sensitivities: found no number 'inital x', expected perhaps "
+            "'initial x'");
+  EXPECT_EQ(refusal([&] { (void)known("initial x").state("y"); }),
+            "solution: found no state 'y', expected one of x");
+  nlp::Options few;
+  few.max_iterations = 0;
+  const Solution cut = solve(form.problem, {.options = few});
+  EXPECT_EQ(refusal([&] { Sensitivities(form.problem, cut); }),
+            "linear regulator: sensitivities: found an answer that is not solved: "
+            "iteration_limit, expected one that is");
+  Problem other = form.problem;
+  other.initial_bounds(other.states()[0].symbol, Bounds::equal(2));
+  EXPECT_EQ(refusal([&] { Sensitivities(other, s); }),
+            "linear regulator: sensitivities: found an answer to other numbers than the "
+            "problem's, expected the problem as it was solved");
+}
+
+TEST(Sensitivity, NamesWhatNothingDetermines) {
+  Problem p = regulator().problem;
+  (void)p.control("idle");
+  const Solution s = solve(p, {});
+  ASSERT_TRUE(s.solved());
+  EXPECT_NE(refusal([&] { Sensitivities(p, s); }).find("least determined at idle at"),
+            std::string::npos);
+}
+
+/// A row at a time keeps its node there, where the mesh has it at a share of the horizon.
+TEST(Sensitivity, RefusesEndsThatWouldMoveTheMesh) {
+  Problem p = regulator().problem;
+  const Expr x = p.states()[0].symbol;
+  const Solution before = solve(p, {.options = tight()});
+  const double by_end = Sensitivities(p, before)("tf").objective;
+  EXPECT_NEAR(by_end, 1 / (2 * std::cosh(1) * std::cosh(1)), 1e-7);  // of tanh(tf) / 2
+  p.path_at("early", x, Moment::time(0.3), Bounds::at_most(0.7));
+  const Solution s = solve(p, {});
+  const Sensitivities known(p, s);
+  EXPECT_NE(refusal([&] { (void)known("tf"); }).find("a breakpoint at a time"), std::string::npos);
+  EXPECT_LT(known("upper early").objective, 0);
+}
+
+}  // namespace
+}  // namespace slalom::ocp
