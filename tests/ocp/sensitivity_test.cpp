@@ -243,6 +243,74 @@ TEST(Sensitivity, AgreesWithDifferencesOfOptima) {
   }
 }
 
+/// Without a bound that becomes active or lets go, a prediction's error falls with the square of
+/// the change; at a floor always.
+TEST(Sensitivity, PredictsToSecondOrder) {
+  const Everything everything;
+  for (const double floor : {0.0, 0.01}) {
+    SCOPED_TRACE(floor);
+    const SolveSettings settings{.mesh = Mesh::uniform(6), .options = tight(floor)};
+    const Solution s = solve(everything.problem, settings);
+    const Sensitivities known(everything.problem, s);
+    double errors[2];
+    for (const int halved : {0, 1}) {
+      const double by = halved == 0 ? 4e-3 : 2e-3;
+      const Problem changed =
+          with_numbers(everything.problem,
+                       {{"mass", 1.2 + by}, {"initial x", 0.1 - by}, {"disc[one].a", 0.2 + by}});
+      const Solution predicted = known.predict(changed);
+      EXPECT_EQ(predicted.status, nlp::Status::iteration_limit);
+      EXPECT_LT(predicted.residuals.violation, 1e-3);
+      EXPECT_EQ(predicted.state("x").front(), 0.1 - by);
+      const Solution exact = solve(changed, settings);
+      ASSERT_TRUE(exact.solved());
+      errors[halved] = std::fabs(predicted.tf() - exact.tf());
+      for (std::size_t k = 0; k < s.time().size(); ++k)
+        errors[halved] += std::fabs(predicted.state("v")[k] - exact.state("v")[k]);
+      SolveSettings warm = settings;
+      warm.warm_start = predicted.point;
+      EXPECT_TRUE(solve(changed, warm).solved());
+    }
+    EXPECT_GT(errors[0], 1e-7);
+    EXPECT_NEAR(errors[0] / errors[1], 4, 0.3);
+    EXPECT_TRUE(known.predict(everything.problem).solved());
+  }
+}
+
+TEST(Sensitivity, PredictsForOtherNumbersAlone) {
+  const Everything everything;
+  const Solution s = solve(everything.problem, {.mesh = Mesh::uniform(6)});
+  const Sensitivities known(everything.problem, s);
+  Problem other = everything.problem;
+  other.enable(everything.limit, false);
+  EXPECT_NE(refusal([&] { (void)known.predict(other); }).find("power switched"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              (void)with_numbers(other, {{"upper v", 1}});
+            }).find("upper v: found 1, expected a number that may be set"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              (void)with_numbers(other, {{"mess", 1}});
+            }).find("perhaps 'mass'"),
+            std::string::npos);
+  other = with_numbers(everything.problem, {{"weight of wall", 3},
+                                            {"upper tf", 7},
+                                            {"lower final v", -0.3},
+                                            {"disc[two].b", 0.7},
+                                            {"t0", -0.5}});
+  const auto numbers = sensitivity_numbers(other);
+  const auto value = [&](const std::string& name) {
+    for (const auto& [known_name, number] : numbers)
+      if (known_name == name) return number;
+    return std::nan("");
+  };
+  EXPECT_EQ(value("weight of wall"), 3);
+  EXPECT_EQ(value("upper tf"), 7);
+  EXPECT_EQ(value("lower tf"), 0.5);
+  EXPECT_EQ(value("lower final v"), -0.3);
+  EXPECT_EQ(value("disc[two].b"), 0.7);
+  EXPECT_EQ(value("t0"), -0.5);
+}
+
 TEST(Sensitivity, ListsTheNumbersOfAProblem) {
   const Everything everything;
   std::vector<std::string> names;

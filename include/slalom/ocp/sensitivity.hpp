@@ -77,10 +77,23 @@ class Sensitivities {
   /// have to move; and where the derivative is not finite.
   Sensitivity operator()(const std::string& number) const;
 
+  /// The answer to `changed`, the problem with other numbers (parameters, ends, times, members,
+  /// weights, bounds of variables), to first order in all their changes together, as a Solution:
+  /// judged as an answer to `changed`, so that its residuals say how good it is, `solved` where
+  /// they are within the tolerances and else of status iteration_limit after no iterations. A guess
+  /// or warm start for solving `changed` (Zavala & Biegler, Automatica 45, 2009, use it to act
+  /// before that is done). Throws InvalidValue where more than numbers differ, and as above.
+  [[nodiscard]] Solution predict(const Problem& changed) const;
+
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// A problem with some of its sensitivity_numbers() changed, by name. Throws InvalidValue for
+/// another name, naming the nearest, and for bounds over the horizon and of constraints, which
+/// stand where they are declared.
+Problem with_numbers(Problem problem, const std::vector<std::pair<std::string, double>>& changes);
 
 /// Sensitivity of an answer to a phased problem.
 struct PhasedSensitivity {
