@@ -1,7 +1,12 @@
 #include "slalom/ocp/sensitivity.hpp"
 
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/variant.h>
+
+#include <map>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "answers.hpp"
@@ -12,7 +17,25 @@ namespace slalom::python {
 namespace {
 
 using ocp::PhasedSensitivity;
+using ocp::Problem;
 using ocp::Sensitivity;
+
+/// A problem with other numbers, or some of its numbers by name.
+using Changed = std::variant<Problem, std::map<std::string, double>>;
+
+Solved predict(const Solved& s, const Changed& changed) {
+  Solved predicted;
+  if (const auto* problem = std::get_if<Problem>(&changed)) {
+    predicted.problem = std::make_shared<const Problem>(*problem);
+  } else {
+    const auto& numbers = std::get<std::map<std::string, double>>(changed);
+    predicted.problem = std::make_shared<const Problem>(named([&] {
+      return ocp::with_numbers(*s.problem, {numbers.begin(), numbers.end()});
+    }));
+  }
+  predicted.answer = s.sensitivities().predict(*predicted.problem);
+  return predicted;
+}
 
 template <class Get>
 ByName<Vector> columns(const std::vector<std::string>& names, const Get& get) {
@@ -94,6 +117,9 @@ void bind_one_phase(nb::module_& module) {
   bind_rates(type);
   static const std::string names =
       std::string("Its derivative by one of sensitivity_numbers. ") + doc::ocp_Sensitivities;
+  static const std::string predicted =
+      std::string(doc::ocp_Sensitivities_predict) +
+      "\n\n`changed` is that problem, or a dict of the numbers that differ, by name.";
   nb::borrow<nb::class_<Solved>>(module.attr("Solution"))
       .def(
           "sensitivity",
@@ -102,6 +128,7 @@ void bind_one_phase(nb::module_& module) {
             return named([&] { return known(number); });
           },
           "number"_a, names.c_str())
+      .def("predict", &predict, "changed"_a, predicted.c_str())
       .def_prop_ro(
           "sensitivity_numbers",
           [](const Solved& s) { return by_name<double>(ocp::sensitivity_numbers(*s.problem)); },

@@ -57,6 +57,26 @@ def test_what_a_bound_costs():
     assert set(by.multipliers) == set(s.multipliers)
 
 
+def test_predictions_are_answers_to_first_order():
+    s = pendulum().solve(**EXACT)
+    predicted = s.predict({"mass": 1.21, "initial angle": 0.302})
+    exact = pendulum(mass=1.21, start=0.302).solve(**EXACT)
+    assert predicted.tf == pytest.approx(exact.tf, abs=0.02 * abs(exact.tf - s.tf))
+    assert predicted.state("angle")[0] == 0.302
+    assert predicted.violation < 1e-3 and predicted.iterations == 0 and not predicted.solved
+    warm = pendulum(mass=1.21, start=0.302).solve(warm_start=predicted, **EXACT)
+    assert warm.solved and warm.objective == pytest.approx(exact.objective, rel=1e-8)
+
+    other = pendulum()  # another problem by the same name, with symbols of its own
+    with pytest.raises(slalom.UnknownName, match="perhaps 'mass'"):
+        s.predict({"mas": 1})
+    with pytest.raises(slalom.InvalidValue, match="set after its declaration"):
+        s.predict({"upper push": 3})
+    other.control("idle")
+    with pytest.raises(slalom.InvalidValue, match="the problem that was transcribed"):
+        s.predict(other)
+
+
 def test_names_that_are_not_there():
     s = pendulum().solve()
     assert s.sensitivity_numbers["mass"] == 1.2 and s.sensitivity_numbers["t0"] == 0

@@ -11,9 +11,9 @@
 
 namespace slalom::ocp {
 
-Problem with_scales_of(const Solution& solution, Problem problem) {
+Problem scaled_by(const std::vector<std::pair<std::string, double>>& scales, Problem problem) {
   const auto scale = [&](const std::string& name) -> std::optional<double> {
-    for (const auto& [known, value] : solution.scales)
+    for (const auto& [known, value] : scales)
       if (known == name) return value;
     return std::nullopt;
   };
@@ -31,7 +31,11 @@ Problem with_scales_of(const Solution& solution, Problem problem) {
   for (std::size_t c = 0; c < problem.constraints().size(); ++c)
     if (const auto known = scale(problem.constraints()[c].name))
       problem.set_scale(ConstraintId{c}, *known);
-  return with_scales(std::move(problem), solution.trajectory);
+  return problem;
+}
+
+Problem with_scales_of(const Solution& solution, Problem problem) {
+  return with_scales(scaled_by(solution.scales, std::move(problem)), solution.trajectory);
 }
 
 Factorised::Factorised(std::string name, nlp::Problem& problem, const nlp::Start& users_point,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dependence.hpp"
@@ -11,6 +12,8 @@
 
 namespace slalom::ocp {
 
+/// The problem with these scales, as Solution::scales has them; others stay.
+Problem scaled_by(const std::vector<std::pair<std::string, double>>& scales, Problem problem);
 /// The problem with the scales that it was solved with.
 Problem with_scales_of(const Solution& solution, Problem problem);
 

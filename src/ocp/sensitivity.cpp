@@ -68,7 +68,7 @@ class Sensitivities::Impl {
   }
 
   Solution predict(const Problem& changed) {
-    const Problem now = with_scales_of(known_, changed);
+    const Problem now = scaled_by(all_scales(problem_), changed);
     if (!moved_) moved_ = std::make_unique<Transcription>(problem_, known_.mesh, known_.scheme);
     moved_->update(now);
     const Direction direction =
