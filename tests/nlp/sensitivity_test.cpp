@@ -75,6 +75,33 @@ TEST(NlpSensitivity, OfRowsAtAFloor) {
   }
 }
 
+/// A row's slack may be as small as what its value is known to: its multiplier says what it is.
+TEST(NlpSensitivity, OfARowWhoseSlackIsHardlyKnown) {
+  const double c = -1, q = 2, mu = 2e-6;
+  for (const double lower : {-kInf, -1.0}) {
+    auto problem = one_variable(c, q, -kInf, kInf, 0.1, 1, lower, 0.2);
+    auto answer = solved(problem, tight(mu));  // the slack is mu / .6
+    auto p = no_dependence(problem.structure());
+    p.gradient[0] = 1;
+    const double exact = sensitivity(problem, answer, tight(mu), p).point.x[0];
+    answer.point.x[0] += 8e-7;
+    Options loose;
+    loose.floor = mu;
+    EXPECT_NEAR(sensitivity(problem, answer, loose, p).point.x[0], exact, 1e-3 * std::fabs(exact));
+  }
+}
+
+/// d objective/dp as the envelope theorem has it without a floor: of the Lagrangian, x and all
+/// multipliers held (Fiacco 1983, section 3.4).
+double envelope(const Dependence& p, const Start& at) {
+  double slope = p.objective;
+  for (std::size_t i = 0; i < at.x.size(); ++i)
+    slope += at.zl[i] * p.limits.xl[i] - at.zu[i] * p.limits.xu[i];
+  for (std::size_t r = 0; r < at.y.size(); ++r)
+    slope += at.y[r] * (p.rows[r] - (at.y[r] < 0 ? p.limits.gl[r] : p.limits.gu[r]));
+  return slope;
+}
+
 /// HS071's numbers, by differences of its answers.
 class Hs071 {
  public:
@@ -143,6 +170,7 @@ void compare_with_differences(const Hs071& form) {
     compare(s.point.zl, at[0].point.zl, at[1].point.zl);
     compare(s.point.zu, at[0].point.zu, at[1].point.zu);
     EXPECT_NEAR(s.objective, (at[1].objective - at[0].objective) / (2 * h), 1e-5);
+    if (form.options().floor == 0) EXPECT_NEAR(s.objective, envelope(p, answer.point), 1e-6);
   }
 }
 

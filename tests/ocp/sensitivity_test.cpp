@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "ocp/closed_forms.hpp"
+#include "ocp/everything.hpp"
 #include "ocp/messages.hpp"
 
 namespace slalom::ocp {
@@ -25,6 +25,15 @@ nlp::Options tight(double floor = 0) {
   options.dual_tol = floor > 0 ? 1e-9 : 1e-5;
   options.floor_tol = 1e-9;
   return options;
+}
+
+TEST(Sensitivity, IsKnownOfEveryBackEndsAnswers) {
+  const auto form = bryson_denham(1.0 / 9);
+  for (const std::string& backend : nlp::backends()) {
+    SCOPED_TRACE(backend);
+    const Solution s = solve(form.problem, {.backend = backend});
+    EXPECT_NEAR(Sensitivities(form.problem, s)("upper x").objective, -36, 0.2);
+  }
 }
 
 TEST(Sensitivity, OfTheLinearRegulatorToItsStart) {
@@ -73,12 +82,6 @@ TEST(Sensitivity, OfTheLeastTimeToTheWay) {
     EXPECT_LT(by_most.tf(), 0);
   }
 }
-
-/// A number by its name, and how a user sets it.
-struct Change {
-  std::string number;
-  std::function<void(Problem&, double by)> add;
-};
 
 /// Compares with central differences of the answers to problems with other numbers.
 class Differences {
@@ -141,85 +144,6 @@ class Differences {
   Sensitivities sensitivities_;
 };
 
-/// Everything a problem may have, in a form that has one answer: numbers of all kinds, a free end,
-/// end values away from their ends, a slack, an integral, families, soft rows, a moment.
-struct Everything {
-  Problem problem{"everything"};
-  Expr x = problem.state("x", {-4, 3}, 2);
-  Expr v = problem.state("v", Bounds::at_most(0.9));
-  Expr u = problem.control("u", {-2.5, 4}, 3);
-  Expr mass = problem.parameter("mass", 1.2);
-  Expr drag = problem.parameter("drag", 0.3);
-  Expr gain = problem.static_parameter("gain", {0.2, 5}, 1, 2);
-  Expr late = problem.slack("late", End::final, Bounds::at_least(0), 0.1);
-  Expr work = problem.integral("work", square(u), Bounds::at_most(40));
-  ConstraintId discs, limit, wall;
-
-  Everything() {
-    const Expr t = problem.time();
-    problem.dynamics(x, v);
-    problem.dynamics(v, u / mass - drag * v * sqrt(square(v) + 0.1) + 0.1 * problem.initial(x) * t);
-    problem.lagrange("effort", square(u) / gain + 0.2 * square(x - 1));
-    problem.mayer("time", mass * problem.final_time() + 3 * square(late) + late);
-    problem.mayer("gain", 0.4 * gain);
-    problem.mayer("work", 0.05 * work * drag);
-    problem.initial_bounds(x, Bounds::equal(0.1));
-    problem.initial_bounds(v, Bounds::equal(0));
-    problem.final_bounds(v, {-0.2, 0.05});
-    problem.boundary("arrival", problem.final(x) + late, Bounds::equal(2));
-    problem.final_time({0.5, 8}, 3);
-    const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
-    discs = problem.path_family("disc", {a, b}, x - a + b * v, {-6, 3});
-    problem.set_members(discs, {"one", "two"}, {{0.2, 0.5}, {-0.3, 0.4}});
-    limit = problem.path("power", u * v, Bounds::at_most(0.8), Points::after_first);
-    wall = problem.path("wall", v - 0.3 * mass * t, Bounds::at_most(0.2));
-    problem.soften(wall, {Norm::l2, 5, 0.01});
-    problem.path_at("half", v - u / 20, Moment::share(0.5), Bounds::at_most(0.7));
-  }
-
-  std::vector<Change> changes() const {
-    const auto parameter = [](const Expr& symbol, double value) {
-      return [symbol, value](Problem& p, double by) { p.set_parameter(symbol, value + by); };
-    };
-    const auto member = [this](std::size_t m, std::size_t i) {
-      return [this, m, i](Problem& p, double by) {
-        auto values = p.constraints()[discs.index].member_values;
-        values[m][i] += by;
-        p.set_members(discs, p.constraints()[discs.index].members, values);
-      };
-    };
-    return {
-        {"mass", parameter(mass, 1.2)},
-        {"drag", parameter(drag, 0.3)},
-        {"initial x",
-         [this](Problem& p, double by) { p.initial_bounds(x, Bounds::equal(0.1 + by)); }},
-        {"initial v", [this](Problem& p, double by) { p.initial_bounds(v, Bounds::equal(by)); }},
-        {"upper final v",
-         [this](Problem& p, double by) {
-           p.final_bounds(v, {-0.2, 0.05 + by});
-         }},
-        {"lower final v",
-         [this](Problem& p, double by) {
-           p.final_bounds(v, {-0.2 + by, 0.05});
-         }},
-        {"lower tf",
-         [](Problem& p, double by) {
-           p.final_time({0.5 + by, 8}, 3);
-         }},
-        {"upper tf",
-         [](Problem& p, double by) {
-           p.final_time({0.5, 8 + by}, 3);
-         }},
-        {"disc[one].a", member(0, 0)},
-        {"disc[two].b", member(1, 1)},
-        {"weight of wall",
-         [this](Problem& p, double by) {
-           p.soften(wall, {Norm::l2, 5 + by, 0.01});
-         }},
-    };
-  }
-};
-
 TEST(Sensitivity, AgreesWithDifferencesAtAFloor) {
   const Everything everything;
   for (const auto& scheme : {trapezoidal(), backward_euler(), hermite_simpson(),
@@ -267,6 +191,10 @@ TEST(Sensitivity, PredictsToSecondOrder) {
       errors[halved] = std::fabs(predicted.tf() - exact.tf());
       for (std::size_t k = 0; k < s.time().size(); ++k)
         errors[halved] += std::fabs(predicted.state("v")[k] - exact.state("v")[k]);
+      for (const char* name : {"arrival", "v", "power"})
+        for (std::size_t k = 0; k < s.multiplier(name).values.size(); ++k)
+          errors[halved] +=
+              std::fabs(predicted.multiplier(name).values[k] - exact.multiplier(name).values[k]);
       SolveSettings warm = settings;
       warm.warm_start = predicted.point;
       EXPECT_TRUE(solve(changed, warm).solved());
@@ -315,13 +243,38 @@ TEST(Sensitivity, ListsTheNumbersOfAProblem) {
   const Everything everything;
   std::vector<std::string> names;
   for (const auto& [name, value] : sensitivity_numbers(everything.problem)) names.push_back(name);
-  const std::vector<std::string> expected = {
-      "mass",          "drag",        "initial x",      "initial v",   "lower final v",
-      "upper final v", "t0",          "lower tf",       "upper tf",    "lower x",
-      "upper x",       "upper v",     "lower u",        "upper u",     "lower gain",
-      "upper gain",    "lower late",  "upper work",     "arrival",     "lower disc",
-      "upper disc",    "disc[one].a", "disc[one].b",    "disc[two].a", "disc[two].b",
-      "upper power",   "upper wall",  "weight of wall", "upper half"};
+  const std::vector<std::string> expected = {"mass",
+                                             "drag",
+                                             "initial x",
+                                             "initial v",
+                                             "lower final v",
+                                             "upper final v",
+                                             "t0",
+                                             "lower tf",
+                                             "upper tf",
+                                             "lower x",
+                                             "upper x",
+                                             "upper v",
+                                             "lower u",
+                                             "upper u",
+                                             "lower gain",
+                                             "upper gain",
+                                             "lower late",
+                                             "upper work",
+                                             "arrival",
+                                             "lower disc",
+                                             "upper disc",
+                                             "disc[one].a",
+                                             "disc[one].b",
+                                             "disc[two].a",
+                                             "disc[two].b",
+                                             "upper power",
+                                             "upper wall",
+                                             "weight of wall",
+                                             "lower fence",
+                                             "upper fence",
+                                             "weight of fence",
+                                             "upper half"};
   EXPECT_EQ(names, expected);
   EXPECT_EQ(sensitivity_numbers(everything.problem)[5].second, 0.05);
 }
@@ -346,6 +299,17 @@ TEST(Sensitivity, RefusesWhatHasNone) {
   EXPECT_EQ(refusal([&] { Sensitivities(other, s); }),
             "linear regulator: sensitivities: found an answer to other numbers than the "
             "problem's, expected the problem as it was solved");
+}
+
+TEST(Sensitivity, RefusesADerivativeThatIsNotFinite) {
+  Problem p = regulator().problem;
+  const Expr k = p.parameter("k", 0), j = p.parameter("j", 2);
+  p.mayer("root", sqrt(k) * p.final(p.states()[0].symbol) + square(j));
+  const Solution s = solve(p, {});
+  const Sensitivities known(p, s);
+  EXPECT_NE(refusal([&] { (void)known("k"); }).find("sensitivity to k: found derivatives by it"),
+            std::string::npos);
+  EXPECT_NEAR(known("j").objective, 4, 1e-12);
 }
 
 TEST(Sensitivity, NamesWhatNothingDetermines) {
