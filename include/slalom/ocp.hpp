@@ -17,6 +17,7 @@
 #include "slalom/ocp/refine.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/sensitivity.hpp"
 #include "slalom/ocp/simulate.hpp"
 #include "slalom/ocp/solve.hpp"
 #include "slalom/ocp/starts.hpp"

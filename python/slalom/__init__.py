@@ -26,6 +26,7 @@ from ._core import (  # noqa: E402
     Obstacle,
     PhasedProblem,
     PhasedRefined,
+    PhasedSensitivity,
     PhasedSolution,
     Plan,
     Planner,
@@ -35,6 +36,7 @@ from ._core import (  # noqa: E402
     Region,
     Road,
     Scenario,
+    Sensitivity,
     Simulation,
     Solution,
     Solutions,
@@ -77,8 +79,8 @@ from ._trials import read_trials, write_parquet  # noqa: E402
 
 __all__ = [
     "Candidate", "Certificate", "ConstraintId", "Cycle", "Drive", "Error", "ErrorEstimate", "Expr", "Goal", "InvalidValue",
-    "MeshRecord", "Mpc", "MpcCycle", "MpcResult", "Obstacle", "PhasedProblem", "PhasedRefined", "PhasedSolution", "Plan", "Planner", "Plant",
-    "Problem", "Refined", "Region", "Road", "Scenario", "Simulation", "Solution", "Solutions", "UnknownName", "Violation",
+    "MeshRecord", "Mpc", "MpcCycle", "MpcResult", "Obstacle", "PhasedProblem", "PhasedRefined", "PhasedSensitivity", "PhasedSolution", "Plan", "Planner", "Plant",
+    "Problem", "Refined", "Region", "Road", "Scenario", "Sensitivity", "Simulation", "Solution", "Solutions", "UnknownName", "Violation",
     "__version__", "absolute", "arccos", "arcsin", "arctan", "arctan2", "backends", "control_names",
     "cos", "cosh", "cubic_spline", "exp", "load_scenario", "log", "maximum", "minimum",
     "planner_names", "power", "read_trials", "scenario_names", "scheme_names", "select", "sign", "simulate", "sin",

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "binding.hpp"
 #include "slalom/nlp/check.hpp"
@@ -74,6 +76,24 @@ void bind_verdict(nb::class_<Type>& type) {
             return fault ? fault.function + " at " + fault.where : std::string();
           },
           "The function that gave NaN or infinity, and where; empty if none did.");
+}
+
+/// Numbers at some of `count` points as numbers at all, 0 at the others; of what has one value,
+/// that.
+inline nb::object over_points(std::size_t count, const std::vector<std::size_t>& points,
+                              const std::vector<double>& values) {
+  if (points.empty()) {
+    if (values.size() == 1) return nb::float_(values.front());
+    return nb::cast(to_numpy(values));
+  }
+  const std::size_t members = values.size() / points.size();
+  std::vector<std::vector<double>> rows(count, std::vector<double>(members, 0.0));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (std::size_t m = 0; m < members; ++m) rows[points[k]][m] = values[k * members + m];
+  if (members != 1) return nb::cast(to_numpy(rows, members));
+  std::vector<double> column;
+  for (const auto& row : rows) column.push_back(row.front());
+  return nb::cast(to_numpy(column));
 }
 
 /// Calls `function` of a Python module of the package, which needs an extra.

@@ -87,6 +87,7 @@ void bind_expressions(nb::module_& module);
 void bind_pickles(nb::module_& module);
 void bind_problem(nb::module_& module);
 void bind_saved(nb::module_& module);
+void bind_sensitivity(nb::module_& module);
 void bind_solution(nb::module_& module);
 void bind_solve(nb::module_& module);
 void bind_simulation(nb::module_& module);

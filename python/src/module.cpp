@@ -72,6 +72,7 @@ NB_MODULE(_core, module) {
   bind_simulation(module);
   bind_judge(module);
   bind_phases(module);
+  bind_sensitivity(module);
   bind_refine(module);
   bind_mpc(module);
   bind_scenario(module);

@@ -126,12 +126,14 @@ PhasedStart start_of(const PhasedProblem& problem, const GridChoice& all, const 
   return start;
 }
 
-PhasedSolved::PhasedSolved(const PhasedProblem& problem, PhasedSolution solution, double elapsed)
-    : answer(std::move(solution)), elapsed_s(elapsed) {
+PhasedSolved::PhasedSolved(const PhasedProblem& of, PhasedSolution solution, double elapsed)
+    : problem(std::make_shared<const PhasedProblem>(of)),
+      answer(std::move(solution)),
+      elapsed_s(elapsed) {
   forget_stop(answer.options);
-  for (std::size_t p = 0; p < problem.phases().size(); ++p) {
+  for (std::size_t p = 0; p < of.phases().size(); ++p) {
     Solved& phase = phases.emplace_back();
-    phase.problem = std::make_shared<const Problem>(problem.phases()[p]);
+    phase.problem = std::make_shared<const Problem>(of.phases()[p]);
     phase.answer = std::move(answer.phases[p]);
     phase.elapsed_s = elapsed;
     forget_stop(phase.answer.options);

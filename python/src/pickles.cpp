@@ -30,7 +30,8 @@ void bind_pickles(nb::module_& module) {
       "it holds its problem's formulas; solution.save(FILE) and problem.load_solution(FILE) keep "
       "it to the bit");
   const std::string arrays = "it holds its problem's formulas; pickle the arrays that you need";
-  for (const char* name : {"PhasedSolution", "Simulation", "Refined", "PhasedRefined", "MpcResult"})
+  for (const char* name : {"PhasedSolution", "Simulation", "Refined", "PhasedRefined", "MpcResult",
+                           "Sensitivity", "PhasedSensitivity"})
     if (nb::hasattr(module, name)) refuse(module, name, arrays);
   refuse(module, "Drive",
          "drive.write(FOLDER) keeps its files; or pickle its scenario, which drives again to the "

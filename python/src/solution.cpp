@@ -57,28 +57,11 @@ double integral(const Solved& s, const std::string& name) {
                      nearest.empty() ? "a name of an integral" : "perhaps '" + nearest + "'"});
 }
 
-/// Numbers at some points as numbers at all, 0 at the others; of what has one value, that.
-nb::object over_points(const Solved& s, const std::vector<std::size_t>& points,
-                       const std::vector<double>& values) {
-  if (points.empty()) {
-    if (values.size() == 1) return nb::float_(values.front());
-    return nb::cast(to_numpy(values));
-  }
-  const std::size_t members = values.size() / points.size();
-  std::vector<std::vector<double>> rows(s.answer.trajectory.tau.size(),
-                                        std::vector<double>(members, 0.0));
-  for (std::size_t k = 0; k < points.size(); ++k)
-    for (std::size_t m = 0; m < members; ++m) rows[points[k]][m] = values[k * members + m];
-  if (members != 1) return nb::cast(to_numpy(rows, members));
-  std::vector<double> column;
-  for (const auto& row : rows) column.push_back(row.front());
-  return nb::cast(to_numpy(column));
-}
-
 /// One look-up of what C++ has by name at some points.
 template <class Item>
 nb::any item(const Solved& s, const Item& found) {
-  return nb::borrow<nb::any>(over_points(s, found.points, found.values));
+  return nb::borrow<nb::any>(
+      over_points(s.answer.trajectory.tau.size(), found.points, found.values));
 }
 
 ByName<nb::any> multipliers(const Solved& s) {

@@ -6,6 +6,7 @@
 
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
+#include "slalom/ocp/sensitivity.hpp"
 #include "slalom/ocp/simulate.hpp"
 #include "slalom/ocp/solve.hpp"
 
@@ -41,9 +42,16 @@ struct Solved {
                                                               answer.mesh, answer.scheme);
     return *interpolant_;
   }
+  /// Likewise.
+  const ocp::Sensitivities& sensitivities() const {
+    if (!sensitivities_)
+      sensitivities_ = std::make_shared<const ocp::Sensitivities>(*problem, answer);
+    return *sensitivities_;
+  }
 
  private:
   mutable std::shared_ptr<const ocp::Interpolant> interpolant_;
+  mutable std::shared_ptr<const ocp::Sensitivities> sensitivities_;
 };
 
 /// Warns of tables used beyond their ends, and of equations of a high index in what is not solved.
@@ -57,6 +65,7 @@ struct Simulated {
 
 /// What Python knows as PhasedSolution: the phases' answers stand in `phases`, not in `answer`.
 struct PhasedSolved {
+  std::shared_ptr<const ocp::PhasedProblem> problem;  ///< as it was then
   ocp::PhasedSolution answer;
   std::vector<Solved> phases;
   double elapsed_s = 0;
@@ -66,6 +75,15 @@ struct PhasedSolved {
   PhasedSolved(const ocp::PhasedProblem& problem, ocp::PhasedSolution solution, double elapsed);
   /// As C++ has it.
   ocp::PhasedSolution whole() const;
+  /// Made when first asked for.
+  const ocp::PhasedSensitivities& sensitivities() const {
+    if (!sensitivities_)
+      sensitivities_ = std::make_shared<const ocp::PhasedSensitivities>(*problem, whole());
+    return *sensitivities_;
+  }
+
+ private:
+  mutable std::shared_ptr<const ocp::PhasedSensitivities> sensitivities_;
 };
 
 /// Whether both stand on the same mesh, by the same schemes.

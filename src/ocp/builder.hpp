@@ -10,6 +10,7 @@
 #include "slalom/nlp/problem.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
+#include "slalom/ocp/transcription.hpp"
 
 namespace slalom::ocp {
 
@@ -79,6 +80,9 @@ inline std::size_t defect_row(const Transcribed& t, std::size_t defect, std::siz
 
 /// Throws InvalidValue for what Transcription's constructor names.
 Transcribed transcribe(const Problem& problem, const Mesh& mesh, const Schemes& schemes);
+
+/// What a transcription evaluates with.
+const Transcribed& transcribed_by(const Transcription& transcription);
 
 /// Bounds of all variables, as `problem` has them now.
 void fill_limits(const Problem& problem, Transcribed& transcribed);

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "conflicts.hpp"
+#include "lookup.hpp"
 #include "moved.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/base/options.hpp"
 #include "slalom/ocp/moments.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/transcription.hpp"
@@ -18,26 +18,6 @@ namespace {
 
 /// Starts beside the first, where that ends at a point that is stationary for the violation.
 constexpr std::uint64_t kMoreTries = 5;
-
-std::size_t index_of(const std::string& name, const std::vector<std::string>& known,
-                     const char* what) {
-  const auto it = std::find(known.begin(), known.end(), name);
-  if (it != known.end()) return static_cast<std::size_t>(it - known.begin());
-  std::string list;
-  for (const auto& each : known) list += (list.empty() ? "" : ", ") + each;
-  const std::string nearest = nearest_name(name, known);
-  throw InvalidValue("solution", std::string("no ") + what + " '" + name + "'",
-                     !nearest.empty() ? "perhaps '" + nearest + "'"
-                     : list.empty()   ? std::string("a problem with one")
-                                      : "one of " + list);
-}
-
-std::vector<double> column(const std::vector<std::vector<double>>& rows, std::size_t i) {
-  std::vector<double> result;
-  result.reserve(rows.size());
-  for (const auto& row : rows) result.push_back(row[i]);
-  return result;
-}
 
 }  // namespace
 

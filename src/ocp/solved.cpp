@@ -6,12 +6,10 @@
 
 namespace slalom::ocp {
 
-void describe(const Problem& problem, const PhasedTranscription::Grid& grid, const Tables& tables,
-              Transcription& transcription, const nlp::Start& point, Solution& solution) {
-  solution.mesh = grid.mesh;
-  for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
+std::vector<std::pair<std::string, double>> all_scales(const Problem& problem) {
+  std::vector<std::pair<std::string, double>> scales;
   const auto note = [&](const auto& list) {
-    for (const auto& each : list) solution.scales.emplace_back(each.name, each.unit());
+    for (const auto& each : list) scales.emplace_back(each.name, each.unit());
   };
   note(problem.states());
   note(problem.controls());
@@ -20,6 +18,14 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid, con
   note(problem.integrals());
   note(std::vector{problem.t0(), problem.tf()});
   note(problem.constraints());
+  return scales;
+}
+
+void describe(const Problem& problem, const PhasedTranscription::Grid& grid, const Tables& tables,
+              Transcription& transcription, const nlp::Start& point, Solution& solution) {
+  solution.mesh = grid.mesh;
+  for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
+  solution.scales = all_scales(problem);
   solution.scheme = grid.schemes;
   solution.cost_terms = transcription.cost_terms(point.x);
   solution.trajectory = transcription.trajectory(point.x);

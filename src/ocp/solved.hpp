@@ -19,6 +19,9 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
+/// What Solution::scales has of a problem.
+std::vector<std::pair<std::string, double>> all_scales(const Problem& problem);
+
 /// Fills `solution` with what a point says of one phase, whose tables are `tables`.
 void describe(const Problem& problem, const PhasedTranscription::Grid& grid, const Tables& tables,
               Transcription& transcription, const nlp::Start& point, Solution& solution);

@@ -16,6 +16,7 @@
 #include "point_functions.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
+#include "stored_trajectory.hpp"
 #include "symbols.hpp"
 
 namespace slalom::ocp {
@@ -214,24 +215,7 @@ Trajectory Transcription::straight_guess() const {
 
 Trajectory Transcription::trajectory(std::span<const double> x) const {
   const Layout& layout = impl_->data.layout;
-  const auto& scale = impl_->data.structure.variable_scale;
-  const auto value = [&](std::size_t index) { return x[index] * scale[index]; };
-  Trajectory result;
-  result.t0 = value(layout.t0);
-  result.tf = value(layout.tf);
-  result.tau = layout.tau;
-  for (std::size_t point = 0; point < layout.points(); ++point) {
-    auto& states = result.states.emplace_back();
-    for (std::size_t i = 0; i < layout.nx; ++i)
-      states.push_back(layout.has_state(point) ? value(layout.state(point, i)) : 0);
-    auto& controls = result.controls.emplace_back();
-    for (std::size_t i = 0; i < layout.nu; ++i) controls.push_back(value(layout.control(point, i)));
-  }
-  for (std::size_t i = 0; i < impl_->problem.static_parameters().size(); ++i)
-    result.static_parameters.push_back(value(layout.static_parameters + i));
-  for (std::size_t i = 0; i < impl_->problem.integrals().size(); ++i)
-    result.integrals.push_back(value(layout.integrals + i));
-  for (std::size_t index : layout.slack) result.slacks.push_back(value(index));
+  Trajectory result = stored_trajectory(impl_->problem, impl_->data, x);
   if (layout.state_points.size() < layout.points()) fill_midpoints(impl_->problem, layout, result);
   return result;
 }
@@ -327,6 +311,10 @@ std::optional<std::size_t> Transcription::end_variable(const Expr& symbol) const
     default:
       return std::nullopt;
   }
+}
+
+const Transcribed& transcribed_by(const Transcription& transcription) {
+  return transcription.impl_->data;
 }
 
 const nlp::Structure& Transcription::structure() const {

@@ -47,6 +47,8 @@ struct Duals {
   std::vector<Multipliers> multipliers;
 };
 
+struct Transcribed;
+
 /// A problem made into a stage-structured NLP on a mesh by a collocation scheme.
 ///
 /// Stage k holds node k (slacks of that end, states, controls) and the interior points of interval
@@ -107,6 +109,7 @@ class Transcription final : public nlp::Problem {
   std::optional<nlp::Formulas> formulas() const override;
 
  private:
+  friend const Transcribed& transcribed_by(const Transcription& transcription);
   void relax_constant_rows();
 
   class Impl;
