@@ -11,6 +11,7 @@
 
 #include "answers.hpp"
 #include "binding.hpp"
+#include "phased.hpp"
 #include "solved.hpp"
 
 namespace slalom::python {
@@ -21,20 +22,30 @@ using ocp::Problem;
 using ocp::Sensitivity;
 
 /// A problem with other numbers, or some of its numbers by name.
-using Changed = std::variant<Problem, std::map<std::string, double>>;
+using Numbers = std::map<std::string, double>;
+using Changed = std::variant<Problem, Numbers>;
+using ChangedPhases = std::variant<Phases, Numbers>;
+
+/// The problem that was solved, with those numbers.
+template <class Solved>
+auto with_numbers(const Solved& s, const Numbers& numbers) {
+  return named([&] { return ocp::with_numbers(*s.problem, {numbers.begin(), numbers.end()}); });
+}
 
 Solved predict(const Solved& s, const Changed& changed) {
   Solved predicted;
-  if (const auto* problem = std::get_if<Problem>(&changed)) {
-    predicted.problem = std::make_shared<const Problem>(*problem);
-  } else {
-    const auto& numbers = std::get<std::map<std::string, double>>(changed);
-    predicted.problem = std::make_shared<const Problem>(named([&] {
-      return ocp::with_numbers(*s.problem, {numbers.begin(), numbers.end()});
-    }));
-  }
+  const auto* given = std::get_if<Problem>(&changed);
+  predicted.problem = std::make_shared<const Problem>(
+      given != nullptr ? *given : with_numbers(s, std::get<Numbers>(changed)));
   predicted.answer = s.sensitivities().predict(*predicted.problem);
   return predicted;
+}
+
+PhasedSolved predict_phases(const PhasedSolved& s, const ChangedPhases& changed) {
+  const auto* given = std::get_if<Phases>(&changed);
+  const ocp::PhasedProblem problem =
+      given != nullptr ? given->now() : with_numbers(s, std::get<Numbers>(changed));
+  return {problem, s.sensitivities().predict(problem), 0};
 }
 
 template <class Get>
@@ -155,6 +166,10 @@ void bind_several_phases(nb::module_& module) {
           },
           "number"_a,
           "Its derivative by one of sensitivity_numbers, as Solution.sensitivity has it.")
+      .def(
+          "predict", &predict_phases, "changed"_a,
+          "As Solution.predict: the answer to that problem with other numbers, or to a dict of the "
+          "numbers\nthat differ, to first order.")
       .def_prop_ro(
           "sensitivity_numbers",
           [](const PhasedSolved& s) {

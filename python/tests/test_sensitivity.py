@@ -153,6 +153,10 @@ def test_several_phases():
         difference = (high[p].state("v") - low[p].state("v")) / (2 * h)
         np.testing.assert_allclose(by.phases[p].state("v"), difference, atol=1e-5)
     assert set(by.link_multipliers) == set(s.link_multipliers)
+    predicted = s.predict({"mass": 2.02})
+    assert predicted.objective == pytest.approx(s.objective * 1.01**2, rel=2e-4)
+    assert predicted.violation > 0 and not predicted.solved
+    assert s.predict(flight(1.0)).solved
     # With the mass, forces grow alike: effort with its square.
     assert s.sensitivity("mass").objective == pytest.approx(s.objective, rel=1e-5)
     assert math.isclose(s.sensitivity_numbers["second: final h"], 8)

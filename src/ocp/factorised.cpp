@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "slalom/base/options.hpp"
-#include "slalom/nlp/check.hpp"
 #include "slalom/ocp/scaling.hpp"
-#include "solved.hpp"
 
 namespace slalom::ocp {
 
@@ -71,6 +69,17 @@ nlp::Sensitivity Factorised::solve(const std::string& number, const nlp::Depende
                        "but for rounding",
                        "a regular problem");
   return rate;
+}
+
+nlp::Start Factorised::moved(const nlp::Start& change, const nlp::Limits& limits) const {
+  nlp::Start point = point_;
+  for (std::size_t i = 0; i < point.x.size(); ++i) {
+    point.x[i] = limits.xl[i] == limits.xu[i] ? limits.xl[i] : point.x[i] + change.x[i];
+    point.zl[i] = std::max(point.zl[i] + change.zl[i], 0.0);
+    point.zu[i] = std::max(point.zu[i] + change.zu[i], 0.0);
+  }
+  for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] += change.y[r];
+  return point;
 }
 
 AnsweredPhase::AnsweredPhase(const Problem& problem, Transcription& transcription,

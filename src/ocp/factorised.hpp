@@ -7,8 +7,10 @@
 #include "dependence.hpp"
 #include "numbers.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/nlp/check.hpp"
 #include "slalom/nlp/sensitivity.hpp"
 #include "slalom/ocp/sensitivity.hpp"
+#include "solved.hpp"
 
 namespace slalom::ocp {
 
@@ -27,6 +29,9 @@ class Factorised {
   const nlp::Start& point() const { return point_; }  ///< in the NLP's units
   /// In the NLP's units. Throws where the derivatives by `number` are not finite.
   nlp::Sensitivity solve(const std::string& number, const nlp::Dependence& dependence);
+  /// The point and a change of it: fixed variables by the new limits exactly, and no multiplier of
+  /// the wrong sign.
+  nlp::Start moved(const nlp::Start& change, const nlp::Limits& limits) const;
 
  private:
   const std::string name_;
@@ -69,6 +74,19 @@ void check_solved(const std::string& name, const Answer& answer) {
             (answer.status == nlp::Status::solved ? "its residuals are beyond its tolerances"
                                                   : nlp::to_string(answer.status)),
         "one that is");
+}
+
+/// Fills what a predicted point of an NLP says of itself as an answer to it.
+template <class Answer>
+void judge_prediction(nlp::Problem& problem, const nlp::Start& point, const nlp::Options& options,
+                      Answer& answer) {
+  answer.options = options;
+  answer.backend = "prediction";
+  answer.residuals = nlp::check(problem, point, options);
+  answer.status =
+      answer.residuals.solved(options) ? nlp::Status::solved : nlp::Status::iteration_limit;
+  answer.objective = answer.residuals.objective;
+  answer.point = to_user(point, problem.structure());
 }
 
 /// Place of the number of that name in a list. Throws InvalidValue, naming the nearest.

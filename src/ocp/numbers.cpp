@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "slalom/base/error.hpp"
 #include "symbols.hpp"
@@ -148,7 +149,51 @@ void check_nodes(const Problem& problem, const Number& number) {
                        "moments as shares of the horizon, for the mesh does not move");
 }
 
+Bounds moved(Bounds bounds, Number::Side side, double value) {
+  if (side != Number::Side::upper) bounds.lower = value;
+  if (side != Number::Side::lower) bounds.upper = value;
+  return bounds;
+}
+
 }  // namespace
+
+void set_number(const Number& number, double value, Problem& problem) {
+  switch (number.kind) {
+    case Kind::parameter:
+      return problem.set_parameter(problem.parameters()[number.index].symbol, value);
+    case Kind::initial: {
+      const auto& state = problem.states()[number.index];
+      return problem.initial_bounds(state.symbol, moved(state.initial, number.side, value));
+    }
+    case Kind::final: {
+      const auto& state = problem.states()[number.index];
+      return problem.final_bounds(state.symbol, moved(state.final, number.side, value));
+    }
+    case Kind::t0:
+      return problem.initial_time(moved(problem.t0().bounds, number.side, value),
+                                  problem.t0().guess);
+    case Kind::tf:
+      return problem.final_time(moved(problem.tf().bounds, number.side, value), problem.tf().guess);
+    case Kind::weight: {
+      Soft soft = *problem.constraints()[number.index].soft;
+      soft.weight = value;
+      return problem.soften({number.index}, soft);
+    }
+    case Kind::member: {
+      const auto& family = problem.constraints()[number.index];
+      auto values = family.member_values;
+      auto& own = values[number.member];
+      for (std::size_t i = number.symbol; i < own.size(); i += family.symbols.size())
+        own[i] = value;
+      return problem.set_members({number.index}, family.members, std::move(values));
+    }
+    default:
+      throw InvalidValue(
+          problem.name() + ": " + number.name, fmt::format("{}", value),
+          "a number that may be set after its declaration: a parameter, bounds at an "
+          "end, t0, tf, a member's number or a weight");
+  }
+}
 
 std::vector<Number> numbers(const Problem& problem) {
   List list;

@@ -40,6 +40,10 @@ struct Number {
 /// none.
 std::vector<Number> numbers(const Problem& problem);
 
+/// Throws InvalidValue for bounds that stand where they are declared: over the horizon, and of
+/// constraints.
+void set_number(const Number& number, double value, Problem& problem);
+
 /// How fast the numbers move that a transcription was filled with.
 struct Direction {
   std::vector<std::vector<double>> data;  ///< of each batch, as Batch::data

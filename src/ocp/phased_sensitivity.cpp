@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <deque>
+#include <utility>
 
 #include "factorised.hpp"
 #include "slalom/ocp/sensitivity.hpp"
@@ -84,13 +85,18 @@ class PhasedSensitivities::Impl {
  public:
   Impl(const PhasedProblem& problem, const PhasedSolution& solution)
       : problem_((check_phases(problem, solution), with_scales_of(solution, problem))),
-        transcription_(problem_, grids_of(solution)),
+        grids_(grids_of(solution)),
+        options_(solution.options),
+        transcription_(problem_, grids_),
         factorised_(problem.name(), transcription_, solution.point, solution.options),
         numbers_(phased_numbers(problem_)) {
     for (std::size_t p = 0; p < problem_.phases().size(); ++p)
       phases_.emplace_back(problem_.phases()[p], transcription_.phase(p),
                            transcription_.part_of(p, factorised_.point()));
   }
+
+  std::size_t phases() const { return phases_.size(); }
+  std::size_t links() const { return problem_.links().size(); }
 
   PhasedSensitivity operator()(const std::string& name) {
     const auto& number = numbers_[number_named(problem_.name(), name, names_of(numbers_))];
@@ -119,6 +125,26 @@ class PhasedSensitivities::Impl {
     return s;
   }
 
+  PhasedSolution predict(const PhasedProblem& changed) {
+    PhasedProblem now = changed;
+    PhasedTranscription same(problem_, grids_);
+    std::vector<nlp::Dependence> parts;
+    for (std::size_t p = 0; p < phases_.size(); ++p) {
+      now.replace(p, scaled_by(all_scales(problem_.phases()[p]), changed.phases().at(p)));
+      same.phase(p).update(now.phases()[p]);
+      const auto& before = transcribed_by(transcription_.phase(p));
+      parts.push_back(
+          phases_[p].dependence(direction_between(before, transcribed_by(same.phase(p)))));
+    }
+    PhasedTranscription moved(now, grids_);
+    const auto change = factorised_.solve("other numbers", joined(parts, {})).point;
+    const nlp::Start point = factorised_.moved(change, moved.limits());
+    PhasedSolution s;
+    judge_prediction(moved, point, options_, s);
+    describe(now, grids_, moved, point, s);
+    return s;
+  }
+
  private:
   nlp::Dependence joined(const std::vector<nlp::Dependence>& parts,
                          const PhasedNumber& number) const {
@@ -141,6 +167,8 @@ class PhasedSensitivities::Impl {
   }
 
   const PhasedProblem problem_;
+  const std::vector<PhasedTranscription::Grid> grids_;
+  const nlp::Options options_;
   PhasedTranscription transcription_;
   Factorised factorised_;
   std::vector<PhasedNumber> numbers_;
@@ -155,6 +183,29 @@ PhasedSensitivities::PhasedSensitivities(PhasedSensitivities&&) noexcept = defau
 PhasedSensitivities& PhasedSensitivities::operator=(PhasedSensitivities&&) noexcept = default;
 PhasedSensitivity PhasedSensitivities::operator()(const std::string& number) const {
   return (*impl_)(number);
+}
+PhasedSolution PhasedSensitivities::predict(const PhasedProblem& changed) const {
+  if (changed.phases().size() != impl_->phases() || changed.links().size() != impl_->links())
+    throw InvalidValue(changed.name() + ": prediction", "other phases or links",
+                       "the problem that was solved, with other numbers");
+  return impl_->predict(changed);
+}
+
+PhasedProblem with_numbers(PhasedProblem problem,
+                           const std::vector<std::pair<std::string, double>>& changes) {
+  for (const auto& [name, value] : changes) {
+    const auto all = phased_numbers(problem);
+    const auto& number = all[number_named(problem.name(), name, names_of(all))];
+    if (number.link != kNone)
+      throw InvalidValue(problem.name() + ": " + name, "the bound of a link",
+                         "a number of a phase");
+    for (const auto& [phase, own] : number.of_phases) {
+      Problem moved = problem.phases()[phase];
+      set_number(own, value, moved);
+      problem.replace(phase, std::move(moved));
+    }
+  }
+  return problem;
 }
 
 }  // namespace slalom::ocp

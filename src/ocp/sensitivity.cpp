@@ -1,13 +1,9 @@
 #include "slalom/ocp/sensitivity.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <utility>
 
 #include "factorised.hpp"
 #include "lookup.hpp"
-#include "slalom/nlp/check.hpp"
 #include "solved.hpp"
 #include "tables.hpp"
 
@@ -74,32 +70,14 @@ class Sensitivities::Impl {
     const Direction direction =
         direction_between(transcribed_by(transcription_), transcribed_by(*moved_));
     const auto change = factorised_.solve("other numbers", phase_.dependence(direction)).point;
-    const nlp::Start point = moved_point(change);
+    const nlp::Start point = factorised_.moved(change, moved_->limits());
     Solution s;
-    s.options = known_.options;
-    s.backend = "prediction";
-    s.residuals = nlp::check(*moved_, point, s.options);
-    s.status = s.residuals.solved(s.options) ? nlp::Status::solved : nlp::Status::iteration_limit;
-    s.objective = s.residuals.objective;
-    s.point = to_user(point, moved_->structure());
+    judge_prediction(*moved_, point, known_.options, s);
     describe(now, {known_.mesh, known_.scheme}, Tables(now), *moved_, point, s);
     return s;
   }
 
  private:
-  /// What does not move is taken exactly, and no multiplier gets the wrong sign.
-  nlp::Start moved_point(const nlp::Start& change) const {
-    nlp::Start point = factorised_.point();
-    const nlp::Limits& limits = moved_->limits();
-    for (std::size_t i = 0; i < point.x.size(); ++i) {
-      point.x[i] = limits.xl[i] == limits.xu[i] ? limits.xl[i] : point.x[i] + change.x[i];
-      point.zl[i] = std::max(point.zl[i] + change.zl[i], 0.0);
-      point.zu[i] = std::max(point.zu[i] + change.zu[i], 0.0);
-    }
-    for (std::size_t r = 0; r < point.y.size(); ++r) point.y[r] += change.y[r];
-    return point;
-  }
-
   const Solution known_;
   const Problem problem_;
   Transcription transcription_;
@@ -119,55 +97,6 @@ Sensitivity Sensitivities::operator()(const std::string& number) const {
 Solution Sensitivities::predict(const Problem& changed) const {
   return impl_->predict(changed);
 }
-
-namespace {
-
-Bounds moved(Bounds bounds, Number::Side side, double value) {
-  if (side != Number::Side::upper) bounds.lower = value;
-  if (side != Number::Side::lower) bounds.upper = value;
-  return bounds;
-}
-
-void set_number(const Number& number, double value, Problem& problem) {
-  using Kind = Number::Kind;
-  switch (number.kind) {
-    case Kind::parameter:
-      return problem.set_parameter(problem.parameters()[number.index].symbol, value);
-    case Kind::initial: {
-      const auto& state = problem.states()[number.index];
-      return problem.initial_bounds(state.symbol, moved(state.initial, number.side, value));
-    }
-    case Kind::final: {
-      const auto& state = problem.states()[number.index];
-      return problem.final_bounds(state.symbol, moved(state.final, number.side, value));
-    }
-    case Kind::t0:
-      return problem.initial_time(moved(problem.t0().bounds, number.side, value),
-                                  problem.t0().guess);
-    case Kind::tf:
-      return problem.final_time(moved(problem.tf().bounds, number.side, value), problem.tf().guess);
-    case Kind::weight: {
-      Soft soft = *problem.constraints()[number.index].soft;
-      soft.weight = value;
-      return problem.soften({number.index}, soft);
-    }
-    case Kind::member: {
-      const auto& family = problem.constraints()[number.index];
-      auto values = family.member_values;
-      auto& own = values[number.member];
-      for (std::size_t i = number.symbol; i < own.size(); i += family.symbols.size())
-        own[i] = value;
-      return problem.set_members({number.index}, family.members, std::move(values));
-    }
-    default:
-      throw InvalidValue(
-          problem.name() + ": " + number.name, fmt::format("{}", value),
-          "a number that may be set after its declaration: a parameter, bounds at an "
-          "end, t0, tf, a member's number or a weight");
-  }
-}
-
-}  // namespace
 
 Problem with_numbers(Problem problem, const std::vector<std::pair<std::string, double>>& changes) {
   for (const auto& [name, value] : changes) {

@@ -119,26 +119,7 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
   const auto solver = nlp::make_solver(settings.backend);
   PhasedSolution solution;
   const auto point = run(transcription, *solver, settings.options, start, regular, solution);
-  for (std::size_t p = 0; p < phases; ++p) {
-    Solution& part = solution.phases.emplace_back();
-    const Problem& phase = scaled.phases()[p];
-    describe(phase, grids[p], Tables(phase), transcription.phase(p),
-             transcription.part_of(p, point), part);
-    part.status = solution.status;
-    part.residuals = solution.residuals;
-    part.options = solution.options;
-    part.backend = solution.backend;
-    part.iterations = solution.iterations;
-    part.wall_s = solution.wall_s;
-    for (const auto& term : part.cost_terms) part.objective += term.second;
-  }
-  for (std::size_t l = 0; l < problem.links().size(); ++l) {
-    const std::size_t row = transcription.first_link() + l;
-    solution.link_multipliers.emplace_back(problem.links()[l].name, point.y[row] * row_scale[row]);
-  }
-  const auto costs = transcription.cost_terms(point.x);
-  for (std::size_t c = 0; c < costs.size(); ++c)
-    solution.cost_terms.emplace_back(problem.costs()[c].name, costs[c]);
+  describe(scaled, grids, transcription, point, solution);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
   return solution;
 }

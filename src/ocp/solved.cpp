@@ -42,6 +42,32 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid, con
   if (knows_conflicts(solution)) solution.conflicts = conflicts(problem, solution.multipliers);
 }
 
+void describe(const PhasedProblem& problem, const std::vector<PhasedTranscription::Grid>& grids,
+              PhasedTranscription& transcription, const nlp::Start& point,
+              PhasedSolution& solution) {
+  const auto& row_scale = transcription.structure().row_scale;
+  for (std::size_t p = 0; p < problem.phases().size(); ++p) {
+    Solution& part = solution.phases.emplace_back();
+    const Problem& phase = problem.phases()[p];
+    describe(phase, grids[p], Tables(phase), transcription.phase(p),
+             transcription.part_of(p, point), part);
+    part.status = solution.status;
+    part.residuals = solution.residuals;
+    part.options = solution.options;
+    part.backend = solution.backend;
+    part.iterations = solution.iterations;
+    part.wall_s = solution.wall_s;
+    for (const auto& term : part.cost_terms) part.objective += term.second;
+  }
+  for (std::size_t l = 0; l < problem.links().size(); ++l) {
+    const std::size_t row = transcription.first_link() + l;
+    solution.link_multipliers.emplace_back(problem.links()[l].name, point.y[row] * row_scale[row]);
+  }
+  const auto costs = transcription.cost_terms(point.x);
+  for (std::size_t c = 0; c < costs.size(); ++c)
+    solution.cost_terms.emplace_back(problem.costs()[c].name, costs[c]);
+}
+
 nlp::Answer interrupted_at(const nlp::Start& start, const nlp::Structure& shape) {
   nlp::Answer answer;
   answer.status = nlp::Status::interrupted;

@@ -26,6 +26,11 @@ std::vector<std::pair<std::string, double>> all_scales(const Problem& problem);
 void describe(const Problem& problem, const PhasedTranscription::Grid& grid, const Tables& tables,
               Transcription& transcription, const nlp::Start& point, Solution& solution);
 
+/// The same of all phases, once all else of `solution` is filled.
+void describe(const PhasedProblem& problem, const std::vector<PhasedTranscription::Grid>& grids,
+              PhasedTranscription& transcription, const nlp::Start& point,
+              PhasedSolution& solution);
+
 /// A point of the NLP in the user's units, and back.
 nlp::Start to_user(nlp::Start point, const nlp::Structure& shape);
 nlp::Start from_user(nlp::Start point, const nlp::Structure& shape);

@@ -127,6 +127,43 @@ TEST(PhasedSensitivity, AgreesWithDifferences) {
   }
 }
 
+TEST(PhasedSensitivity, PredictsToSecondOrder) {
+  const auto how = settings(0.02);
+  const auto problem = carts({});
+  const PhasedSensitivities known(problem, solved({}, how));
+  double errors[2];
+  for (const int halved : {0, 1}) {
+    const double by = halved == 0 ? 8e-3 : 4e-3;
+    const auto changed = with_numbers(
+        problem, {{"drag", 0.2 + by}, {"mass", 1.3 - by}, {"first: initial x", 0.1 + by}});
+    const PhasedSolution predicted = known.predict(changed), exact = solve(changed, how);
+    ASSERT_TRUE(exact.solved());
+    EXPECT_EQ(predicted.status, nlp::Status::iteration_limit);
+    EXPECT_EQ(predicted.phases[0].state("x").front(), 0.1 + by);
+    errors[halved] = std::fabs(predicted.phases[1].tf() - exact.phases[1].tf());
+    for (const std::size_t p : {0, 1})
+      for (std::size_t k = 0; k < exact.phases[p].time().size(); ++k)
+        errors[halved] +=
+            std::fabs(predicted.phases[p].state("v")[k] - exact.phases[p].state("v")[k]);
+    for (std::size_t l = 0; l < exact.link_multipliers.size(); ++l)
+      errors[halved] +=
+          std::fabs(predicted.link_multipliers[l].second - exact.link_multipliers[l].second);
+  }
+  EXPECT_GT(errors[0], 1e-7);
+  EXPECT_NEAR(errors[0] / errors[1], 4, 0.4);
+  EXPECT_TRUE(known.predict(problem).solved());
+  Problem other = problem.phases()[0];
+  other.enable_cost("effort", false);
+  auto switched = problem;
+  switched.replace(0, other);
+  EXPECT_NE(refusal([&] { (void)known.predict(switched); }).find("effort switched"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              (void)with_numbers(problem, {{"jump", 1}});
+            }).find("bound of a link"),
+            std::string::npos);
+}
+
 TEST(PhasedSensitivity, ListsAndRefuses) {
   const auto problem = carts({});
   const auto numbers = sensitivity_numbers(problem);

@@ -35,8 +35,8 @@ std::vector<std::pair<std::string, double>> sensitivity_numbers(const PhasedProb
 /// units over the number's.
 struct Sensitivity {
   std::string number;  ///< p
-  /// Of the objective. Without a floor it is that of the Lagrangian with all else held (envelope
-  /// theorem; Fiacco 1983, section 3.4).
+  /// Of the objective. Without a floor it is that of the Lagrangian with all else held, but for
+  /// what is left of the barrier (envelope theorem; Fiacco 1983, section 3.4).
   double objective = 0;
   /// Of t0, tf, states and controls by point, static parameters, slacks and integrals. The points
   /// stay at their tau: at a fixed time, a state's derivative is that less its rate times the
@@ -95,6 +95,11 @@ class Sensitivities {
 /// stand where they are declared.
 Problem with_numbers(Problem problem, const std::vector<std::pair<std::string, double>>& changes);
 
+/// The same of phases: "first: initial x", "mass" of all that have one. Bounds of links stand where
+/// they are declared.
+PhasedProblem with_numbers(PhasedProblem problem,
+                           const std::vector<std::pair<std::string, double>>& changes);
+
 /// Sensitivity of an answer to a phased problem.
 struct PhasedSensitivity {
   std::string number;
@@ -113,6 +118,8 @@ class PhasedSensitivities {
   PhasedSensitivities& operator=(PhasedSensitivities&&) noexcept;
 
   PhasedSensitivity operator()(const std::string& number) const;
+  /// As Sensitivities::predict: for phases replaced by the same ones with other numbers.
+  [[nodiscard]] PhasedSolution predict(const PhasedProblem& changed) const;
 
  private:
   class Impl;

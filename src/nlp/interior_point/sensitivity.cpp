@@ -18,7 +18,7 @@ constexpr double kLeastSlack = 1e-10;
 constexpr int kRefinements = 10;
 /// What may be left of the equations, relative to their right-hand side: good enough to stop, and
 /// to be an answer.
-constexpr double kGoodResidual = 1e-13, kFairResidual = 1e-7;
+constexpr double kGoodResidual = 1e-13, kFairResidual = 1e-6;
 constexpr int kInverseIterations = 3;
 constexpr double kGolden = 0.6180339887498949;
 
