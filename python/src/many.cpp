@@ -6,12 +6,14 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "binding.hpp"
 #include "running.hpp"
 #include "settings.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/ocp/sensitivity.hpp"
 #include "solved.hpp"
 
 namespace slalom::python {
@@ -42,7 +44,9 @@ struct ManySolved {
     if (!begun(answers[i]))
       throw Error("Solutions: solve " + std::to_string(i) + " was not begun before the call ended");
     Solved one;
-    one.problem = std::make_shared<const Problem>(ocp::with_numbers(*problem, variations, i));
+    std::vector<std::pair<std::string, double>> numbers;
+    for (const auto& [name, values] : variations) numbers.emplace_back(name, values[i]);
+    one.problem = std::make_shared<const Problem>(ocp::with_numbers(*problem, numbers));
     one.answer = answers[i];
     one.elapsed_s = elapsed_s;
     return one;
@@ -217,9 +221,9 @@ void bind_many(nb::module_& module) {
       "solve_many", &solve_many, "numbers"_a, nb::kw_only(), "mesh"_a = 40,
       "scheme"_a = "hermite_simpson", "points"_a = nb::none(), "backend"_a = "",
       "guess"_a = nb::none(), "warm_start"_a = nb::none(), "threads"_a = 0, "options"_a,
-      "Solves the problem for many sets of numbers. `numbers` has, by the name of a parameter, "
-      "or by\n\"initial x\" or \"final x\" of a state x, an array with a number for each "
-      "solve.\n\n"
+      "Solves the problem for many sets of numbers. `numbers` has, by the name of one of the "
+      "problem's numbers, such as\na parameter or \"initial x\" (Solution.sensitivity_numbers), an "
+      "array with a number for each solve.\n\n"
       "The problem is transcribed once a thread, so that this takes much less time than as "
       "many calls\nof solve. Each solve starts from the guess, or from the solution "
       "`warm_start` with its multipliers,\nand depends on nothing else: an answer has the "

@@ -126,14 +126,4 @@ Sensitivity AnsweredPhase::describe(const std::string& number, const nlp::Start&
   return s;
 }
 
-std::size_t number_named(const std::string& problem, const std::string& name,
-                         const std::vector<std::string>& known) {
-  const auto found = std::find(known.begin(), known.end(), name);
-  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
-  const std::string nearest = nearest_name(name, known);
-  throw InvalidValue(
-      problem + ": sensitivities", "no number '" + name + "'",
-      nearest.empty() ? "one of sensitivity_numbers()" : "perhaps '" + nearest + "'");
-}
-
 }  // namespace slalom::ocp

@@ -89,8 +89,4 @@ void judge_prediction(nlp::Problem& problem, const nlp::Start& point, const nlp:
   answer.point = to_user(point, problem.structure());
 }
 
-/// Place of the number of that name in a list. Throws InvalidValue, naming the nearest.
-std::size_t number_named(const std::string& problem, const std::string& name,
-                         const std::vector<std::string>& known);
-
 }  // namespace slalom::ocp

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <utility>
 
 #include "../base/side_by_side.hpp"
+#include "numbers.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/base/options.hpp"
 #include "slalom/ocp/moments.hpp"
 #include "slalom/ocp/prepared.hpp"
 #include "solved.hpp"
@@ -22,43 +21,22 @@ class Numbers {
  public:
   Numbers(const Problem& problem, const std::vector<Variation>& variations)
       : variations_(variations) {
+    const auto all = numbers(problem);
+    const auto names = names_of(all);
     for (const auto& variation : variations) {
-      setters_.push_back(setter_of(problem, variation.name));
+      numbers_.push_back(all[number_named(problem.name() + ": many", variation.name, names)]);
       check(problem, variation);
     }
+    Problem probe = problem;
+    if (count() > 0) put(0, probe);  // throws for what may not be set
   }
   std::size_t count() const { return variations_.empty() ? 0 : variations_.front().values.size(); }
   void put(std::size_t solve, Problem& problem) const {
-    for (std::size_t i = 0; i < setters_.size(); ++i)
-      setters_[i](problem, variations_[i].values[solve]);
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      set_number(numbers_[i], variations_[i].values[solve], problem);
   }
 
  private:
-  using Setter = std::function<void(Problem&, double)>;
-
-  static Setter setter_of(const Problem& problem, const std::string& name) {
-    std::vector<std::string> known;
-    for (const auto& parameter : problem.parameters()) {
-      if (parameter.name == name)
-        return [symbol = parameter.symbol](Problem& p, double v) { p.set_parameter(symbol, v); };
-      known.push_back(parameter.name);
-    }
-    for (const auto& state : problem.states()) {
-      if ("initial " + state.name == name)
-        return [symbol = state.symbol](Problem& p, double v) {
-          p.initial_bounds(symbol, Bounds::equal(v));
-        };
-      if ("final " + state.name == name)
-        return [symbol = state.symbol](Problem& p, double v) {
-          p.final_bounds(symbol, Bounds::equal(v));
-        };
-      known.insert(known.end(), {"initial " + state.name, "final " + state.name});
-    }
-    const auto nearest = nearest_name(name, known);
-    throw InvalidValue(problem.name() + ": many", "'" + name + "'",
-                       nearest.empty() ? "a parameter, or 'initial' or 'final' and a state"
-                                       : "perhaps '" + nearest + "'");
-  }
   void check(const Problem& problem, const Variation& variation) const {
     const auto where = problem.name() + ": many: " + variation.name;
     if (variation.values.size() != count())
@@ -71,7 +49,7 @@ class Numbers {
   }
 
   const std::vector<Variation>& variations_;
-  std::vector<Setter> setters_;
+  std::vector<Number> numbers_;
 };
 
 }  // namespace
@@ -84,12 +62,12 @@ std::vector<Solution> solve_many(const Problem& problem, const SolveSettings& se
   if (!settings.warm_start.x.empty())
     throw InvalidValue(problem.name() + ": many", "a warm start",
                        "none, or the solution as `previous`");
-  const Numbers numbers(problem, variations);
+  const Numbers varied(problem, variations);
   const auto grid = with_moments(problem, {settings.mesh, settings.scheme});
   const Beginning from = begin(problem, grid, settings.guess, settings.previous);
   const bool straight = settings.guess.tau.empty() && settings.previous == nullptr;
 
-  std::vector<Solution> answers(numbers.count());
+  std::vector<Solution> answers(varied.count());
   const nlp::Options& options = settings.options;
   SideBySide pieces(answers.size(), threads,
                     [&] { return options.stop != nullptr && options.stop(options.stop_data); });
@@ -103,7 +81,7 @@ std::vector<Solution> solve_many(const Problem& problem, const SolveSettings& se
         answers[solve].status = nlp::Status::interrupted;
         return;
       }
-      numbers.put(solve, changed);
+      varied.put(solve, changed);
       try {
         prepared->update(changed);
       } catch (const InvalidValue& error) {
@@ -118,11 +96,6 @@ std::vector<Solution> solve_many(const Problem& problem, const SolveSettings& se
     };
   });
   return answers;
-}
-
-Problem with_numbers(Problem problem, const std::vector<Variation>& variations, std::size_t solve) {
-  Numbers(problem, variations).put(solve, problem);
-  return problem;
 }
 
 }  // namespace slalom::ocp

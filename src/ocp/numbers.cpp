@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "slalom/base/error.hpp"
+#include "slalom/base/options.hpp"
 #include "symbols.hpp"
 
 namespace slalom::ocp {
@@ -254,6 +256,16 @@ Direction direction_between(const Transcribed& from, const Transcribed& to) {
   direction.limits = {change(from.limits.xl, to.limits.xl), change(from.limits.xu, to.limits.xu),
                       change(from.limits.gl, to.limits.gl), change(from.limits.gu, to.limits.gu)};
   return direction;
+}
+
+std::size_t number_named(const std::string& where, const std::string& name,
+                         const std::vector<std::string>& known) {
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
+  const std::string nearest = nearest_name(name, known);
+  throw InvalidValue(
+      where, "no number '" + name + "'",
+      nearest.empty() ? "one of sensitivity_numbers()" : "perhaps '" + nearest + "'");
 }
 
 }  // namespace slalom::ocp

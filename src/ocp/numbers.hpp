@@ -43,6 +43,9 @@ std::vector<Number> numbers(const Problem& problem);
 /// Throws InvalidValue for bounds that stand where they are declared: over the horizon, and of
 /// constraints.
 void set_number(const Number& number, double value, Problem& problem);
+/// Place of the number of that name in a list. Throws InvalidValue, naming the nearest.
+std::size_t number_named(const std::string& where, const std::string& name,
+                         const std::vector<std::string>& known);
 
 /// How fast the numbers move that a transcription was filled with.
 struct Direction {

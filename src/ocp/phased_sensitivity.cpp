@@ -99,7 +99,8 @@ class PhasedSensitivities::Impl {
   std::size_t links() const { return problem_.links().size(); }
 
   PhasedSensitivity operator()(const std::string& name) {
-    const auto& number = numbers_[number_named(problem_.name(), name, names_of(numbers_))];
+    const auto& number =
+        numbers_[number_named(problem_.name() + ": sensitivities", name, names_of(numbers_))];
     std::vector<Direction> directions;
     std::vector<nlp::Dependence> parts;
     for (std::size_t p = 0; p < phases_.size(); ++p) {
@@ -195,7 +196,7 @@ PhasedProblem with_numbers(PhasedProblem problem,
                            const std::vector<std::pair<std::string, double>>& changes) {
   for (const auto& [name, value] : changes) {
     const auto all = phased_numbers(problem);
-    const auto& number = all[number_named(problem.name(), name, names_of(all))];
+    const auto& number = all[number_named(problem.name() + ": numbers", name, names_of(all))];
     if (number.link != kNone)
       throw InvalidValue(problem.name() + ": " + name, "the bound of a link",
                          "a number of a phase");

@@ -57,7 +57,8 @@ class Sensitivities::Impl {
 
   Sensitivity operator()(const std::string& name) {
     const auto& numbers = phase_.numbers();
-    const Number& number = numbers[number_named(problem_.name(), name, names_of(numbers))];
+    const Number& number =
+        numbers[number_named(problem_.name() + ": sensitivities", name, names_of(numbers))];
     const Direction direction = phase_.direction(number);
     const auto dependence = phase_.dependence(direction);
     return phase_.describe(name, factorised_.solve(name, dependence).point, direction, dependence);
@@ -101,7 +102,8 @@ Solution Sensitivities::predict(const Problem& changed) const {
 Problem with_numbers(Problem problem, const std::vector<std::pair<std::string, double>>& changes) {
   for (const auto& [name, value] : changes) {
     const auto all = numbers(problem);
-    set_number(all[number_named(problem.name(), name, names_of(all))], value, problem);
+    set_number(all[number_named(problem.name() + ": numbers", name, names_of(all))], value,
+               problem);
   }
   return problem;
 }

@@ -20,7 +20,8 @@ class NormalDraws {
  private:
   std::vector<std::uint32_t> seed_;
   unsigned long long skipped_ = 0;
-  std::optional<std::mt19937_64> generator_;  ///< made for the first draw: seeding takes microseconds
+  std::optional<std::mt19937_64>
+      generator_;  ///< made for the first draw: seeding takes microseconds
 };
 
 }  // namespace slalom::sim

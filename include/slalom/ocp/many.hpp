@@ -11,8 +11,7 @@ namespace slalom::ocp {
 
 /// A number of a problem that differs from one solve to the next.
 struct Variation {
-  /// A parameter; or "initial x", "final x": where a state x begins, or ends [its unit], with both
-  /// bounds there.
+  /// One of sensitivity_numbers() that with_numbers() takes, such as a parameter or "initial x".
   std::string name;
   std::vector<double> values;  ///< one for each solve
 };
@@ -34,9 +33,5 @@ struct Variation {
                                                const SolveSettings& settings,
                                                const std::vector<Variation>& variations,
                                                int threads = 0);
-
-/// The problem with the numbers of one of these solves.
-[[nodiscard]] Problem with_numbers(Problem problem, const std::vector<Variation>& variations,
-                                   std::size_t solve);
 
 }  // namespace slalom::ocp
