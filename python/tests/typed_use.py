@@ -71,6 +71,14 @@ def simulated() -> str:
     return s.message + r.solution["typed"].status + str(p.solve(guess=s).objective)
 
 
+def moved(answer: slalom.Solution, other: Problem) -> float:
+    by: slalom.Sensitivity = answer.sensitivity("initial x")
+    predicted = answer.predict({"initial x": 1.1}).objective + answer.predict(other).objective
+    rate: NDArray[np.float64] = by.states["x"]
+    answer.sensitivity(3)  # type: ignore[arg-type]
+    return by.objective + by.tf + predicted + len(rate) + answer.sensitivity_numbers["t0"]
+
+
 def receding(problem: Problem) -> str:
     def update(now: Problem, cycle: slalom.MpcCycle) -> None:
         now.set_scale("row", cycle.t + 1)
