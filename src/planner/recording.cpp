@@ -51,6 +51,11 @@ Replayed replay(const Recording& recording, const Task& task) {
   problem.update(request);
   ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
                                    scheme_of(settings));
+  if (known.road) {
+    // Where the cycle was on the road is a state of the start.
+    const double s = transcription.trajectory(recording.start.x).states.front().back();
+    problem.update(request, way_ahead(known, request, s));
+  }
   problem.set_obstacles(chosen,
                         obstacle_times(settings, request, transcription, recording.start.x));
   transcription.update(problem.problem());
