@@ -3,7 +3,7 @@
 import math
 import unittest
 
-from drives import STATES, run, scratch, simulate_all
+from drives import SOURCE, STATES, scratch, simulate_all
 
 # E_C with its region as a road, whose edges are the region's sides.
 STRAIGHT = "road: {points: [[12, -50, 12, 12], [12, 800, 12, 12]]}\n"
@@ -54,9 +54,7 @@ class Road(unittest.TestCase):
 
     def test_a_straight_road_gives_the_drive_without_it(self):
         with scratch() as folder:
-            run("init", "E_C", "--out", f"{folder}/E_C.yaml")
-            with open(f"{folder}/E_C.yaml", encoding="utf-8") as file:
-                text = file.read()
+            text = (SOURCE / "config/scenarios/E_C.yaml").read_text()
             region = next(row for row in text.splitlines() if row.startswith("region:"))
             jobs = {"plain": (text,), "instead": (text.replace(region, STRAIGHT),),
                     "beside": (text + STRAIGHT.replace("12, 12]", "20, 15]"),)}
