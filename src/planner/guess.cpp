@@ -19,7 +19,7 @@ constexpr double kLateralShare = 0.6, kBrakingShare = 0.6, kLeastSpeed = 2;
 
 std::optional<SpeedProfile> profile_of(const Task& task) {
   if (!task.road) return std::nullopt;
-  return SpeedProfile(*task.road, task.vehicle, kLateralShare, kBrakingShare, false);
+  return drivable_speeds(*task.road, task.vehicle, kLateralShare, kBrakingShare);
 }
 
 }  // namespace

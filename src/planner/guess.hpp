@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "line_problem.hpp"
+#include "drivable_speed.hpp"
 #include "road_way.hpp"
 #include "slalom/ocp/trajectory.hpp"
 #include "slalom/planner/planner.hpp"

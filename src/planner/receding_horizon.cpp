@@ -107,6 +107,8 @@ Plan RecedingHorizon::plan(const Request& request) {
   const Timer timer;
   const Cycle cycle{request, look_ahead(request), timer};
   choose(request);
+  // A goal that was passed on the road leaves a plan that has nothing left.
+  if (task_.road && last_ && last_->in_range && !cycle.way.in_range) last_.reset();
   // Multipliers carry over where the plan that they belong to had the same rows.
   const bool warm =
       last_ && carries_ && last_->in_range == cycle.way.in_range && same_names(chosen_, of_last_);
@@ -212,7 +214,8 @@ RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int interv
   solver_->solve(form.transcription, start_, options, answer_);
   const double solved_at = cycle.timer.cpu();
   std::optional<Recording> recording;
-  if (recorder_ && intervals == settings_.N) recording = record_solve(cycle, options);
+  if (recorder_ && intervals == settings_.N)
+    recording = recorded(cycle.request, cycle.way.in_range, options, start_, answer_);
   Attempt attempt = read(cycle, intervals, options);
   if (recording && recorder_->wanted(attempt.plan.report)) {
     recording->phi = attempt.plan.report.phi;
@@ -220,17 +223,6 @@ RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int interv
   }
   longest_reading_s_ = std::max(longest_reading_s_, cycle.timer.cpu() - solved_at);
   return attempt;
-}
-
-/// The last solve, but for what judging it brings.
-Recording RecedingHorizon::record_solve(const Cycle& cycle, const nlp::Options& options) const {
-  const Request& request = cycle.request;
-  Recording r{request.X0p,   request.t0,     request.t_start, cycle.way.in_range, current_kernels(),
-              options,       start_,         answer_.status,  answer_.iterations, 0,
-              answer_.cpu_s, answer_.wall_s, answer_.point,   request.obstacles};
-  r.options.stop = nullptr;
-  r.options.stop_data = nullptr;
-  return r;
 }
 
 /// The answer as a plan, judged.

@@ -61,7 +61,6 @@ class RecedingHorizon final : public PlanningMethod {
   void place_obstacles(const Request& request, Form& form) const;
   void prepare();
   Attempt attempt(const Cycle& cycle, int intervals, ocp::Trajectory& guess, bool warm);
-  Recording record_solve(const Cycle& cycle, const nlp::Options& options) const;
   Attempt read(const Cycle& cycle, int intervals, const nlp::Options& options);
   std::string what_blocks(const Plan& plan) const;
   void look_between(const Cycle& cycle, Plan& plan) const;

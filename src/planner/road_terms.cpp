@@ -44,7 +44,7 @@ bool enters(const world::Region& box, Point a, Point b) {
   return cut(a.x, b.x, box.x_min, box.x_max) && cut(a.y, b.y, box.y_min, box.y_max);
 }
 
-/// Whether what an edge leaves, `inwards` of it [m], ends within the region anywhere.
+/// Whether an edge, or what lies so far inwards of it [m], is within the region anywhere.
 bool within_region(const world::Road& road, const world::Region& region, bool left,
                    double inwards) {
   std::vector<Point> edge;
@@ -130,7 +130,7 @@ void RoadTerms::add_edges(ocp::Problem& problem, const Task& task, const States&
                           const RoadTables& tables, const Expr& s) const {
   const auto discs = edge_discs(world::Footprint(task.vehicle));
   const std::array where = {" at the rear", " in the middle", " at the front"};
-  const double inwards = task.planner.edge_clearance + discs.front().radius;
+  const double inwards = task.planner.edge_clearance;
   const bool left = within_region(*road_, task.region, true, inwards);
   const bool right = within_region(*road_, task.region, false, inwards);
   for (std::size_t k = 0; k < discs.size(); ++k) {
@@ -147,7 +147,7 @@ void RoadTerms::add_edges(ocp::Problem& problem, const Task& task, const States&
 
 /// Where the road is nowhere too sharp for the vehicle's greatest speed, there is no such row.
 void RoadTerms::add_end_speed(ocp::Problem& problem, const Task& task, const States& X) {
-  profile_.emplace(*road_, task.vehicle, kLateralShare, kBrakingShare, false);
+  profile_ = drivable_speeds(*road_, task.vehicle, kLateralShare, kBrakingShare);
   if (profile_->slowest() >= task.vehicle.ux_max) return;
   reach_ = {task.planner.L_range - task.planner.kappa, task.planner.L_range + task.planner.kappa};
   end_speed_ = problem.parameter("end_speed", task.vehicle.ux_max);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "line_problem.hpp"
+#include "drivable_speed.hpp"
 #include "road_way.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/planner/task.hpp"
@@ -63,10 +63,11 @@ class RoadTerms {
   /// Where a plan that comes to the goal ends; of a goal across the whole road, on the line.
   const Place& goal() const { return goal_; }
   bool goal_is_across() const { return across_; }
-  /// How many times the paper's price the slack on the initial steering angle has: 1, unless the
-  /// vehicle must slow down for the road's bends. At that price a plan that comes near to an edge
-  /// steers by .025 rad more than the vehicle does, in each cycle anew, and the vehicle runs wide.
-  double steering_price() const { return end_speed_ ? 10 : 1; }
+  /// How many times the paper's price the slack on the initial state has: 1, unless the vehicle
+  /// must slow down for the road's bends. At that price a plan that comes near to an edge begins
+  /// with, say, .025 rad of steering that the vehicle has not, in each cycle anew, and it runs
+  /// wide.
+  double slack_price() const { return end_speed_ ? 10 : 1; }
   void set(ocp::Problem& problem, const WayAhead& way) const;
   /// The state along a trajectory of the plant's states that begins about s [m].
   std::vector<double> along(double s, const ocp::Trajectory& trajectory) const;

@@ -1,11 +1,14 @@
 #include "trajectory_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "arrival_end.hpp"
 #include "in_terms_of.hpp"
 #include "local_frame.hpp"
+#include "region_rows.hpp"
 
 namespace slalom::planner {
 
@@ -13,6 +16,13 @@ using ocp::Bounds;
 using ocp::End;
 using ocp::Points;
 using namespace vehicle;
+
+namespace {
+
+/// A radian off the heading asked for at the goal costs as much as so many metres off it.
+constexpr double kHeadingPrice = 10;
+
+}  // namespace
 
 const ocp::Scheme& scheme_of(const Settings& settings) {
   static const ocp::Scheme backward_euler = ocp::backward_euler();
@@ -56,14 +66,17 @@ TrajectoryProblem::TrajectoryProblem(const Task& task,
   add_vehicle_limits(model);
   add_obstacles();
   set_obstacles(obstacles, {0});
+  add_region_rows(problem_, task.region, world::Footprint(vehicle_), X_, Points::all);
   add_lidar_region();
   add_goal();
+  if (goal_in_range_) add_arrival();
 }
 
 void TrajectoryProblem::add_variables(const Model& model, const world::Region& region) {
   std::array<Bounds, kStates> bounds;
-  bounds[X] = {region.x_min, region.x_max};
-  bounds[Y] = {region.y_min, region.y_max};
+  const auto place = region_bounds(region, world::Footprint(vehicle_));
+  bounds[X] = place[0];
+  bounds[Y] = place[1];
   bounds[PSI] = {-vehicle_.psi_max, vehicle_.psi_max};
   bounds[SA] = {-vehicle_.sa_max(), vehicle_.sa_max()};
   bounds[UX] = {vehicle_.ux_min, vehicle_.ux_max};
@@ -148,9 +161,9 @@ void TrajectoryProblem::add_cost(const Model& model) {
 
   Expr initial_slacks;
   for (std::size_t i = 0; i < kStates; ++i)
-    if (model.role[i] == Role::state)
-      initial_slacks += s.w_s0[i] * (road_ && i == SA ? road_->steering_price() : 1) * x0s_[i];
-  problem_.mayer("initial_slack", s.w_ic * initial_slacks);
+    if (model.role[i] == Role::state) initial_slacks += s.w_s0[i] * x0s_[i];
+  const double price = road_ ? road_->slack_price() : 1;
+  problem_.mayer("initial_slack", s.w_ic * price * initial_slacks);
   if (goal_in_range_) problem_.mayer("final_slack", s.w_xf * (xfs_[0] + xfs_[1]));
 }
 
@@ -257,6 +270,26 @@ void TrajectoryProblem::add_goal() {
   const Expr distance = square(final_[0] - initial_[0]) + square(final_[1] - initial_[1]);
   problem_.boundary("LiDAR edge, inner", distance - inner * inner, Bounds::at_least(0));
   problem_.boundary("LiDAR edge, outer", outer * outer - distance, Bounds::at_least(0));
+}
+
+/// What else is asked of the vehicle at the goal, softly: close to the goal there may be no time
+/// left to meet it.
+void TrajectoryProblem::add_arrival() {
+  const auto& role = map_.model().role;
+  const auto add = [&](const std::string& name, const Expr& value, Bounds bounds, double price) {
+    if (!bounds.bounded()) return;
+    problem_.soften(problem_.boundary(name, value, bounds), {ocp::Norm::l1, price, 0});
+  };
+  if (goal_.psi_tolerance < world::Goal::kAbsent) {  // in whatever turn
+    const double most = std::sin(std::min(goal_.psi_tolerance, M_PI / 2));
+    add("goal heading", sin(problem_.final(X_[PSI]) - goal_.psi), inside_range(-most, most),
+        kHeadingPrice * settings_.w_xf);
+  }
+  if (role[UX] == Role::state)
+    add("goal speed", problem_.final(X_[UX]), inside_range(goal_.ux_min, goal_.ux_max),
+        settings_.w_xf);
+  add("goal time", t_start_ + problem_.final_time(), inside_range(goal_.t_min, goal_.t_max),
+      settings_.w_xf);
 }
 
 void TrajectoryProblem::update(const Request& request) {

@@ -63,6 +63,7 @@ class TrajectoryProblem {
   void add_obstacles();
   void add_lidar_region();
   void add_goal();
+  void add_arrival();
 
   const Settings settings_;
   const vehicle::Parameters vehicle_;

@@ -97,6 +97,12 @@ void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
   };
   require(X, s.region.x_min, s.region.x_max, {"region.x_min"}, {"region.x_max"}, "the region");
   require(Y, s.region.y_min, s.region.y_max, {"region.y_min"}, {"region.y_max"}, "the region");
+  const world::Footprint footprint(car);
+  if (const double out = footprint.outside(s.region, s.start); !footprint.is_point() && out > 0)
+    throw InvalidValue(where + ": start",
+                       fmt::format("({:.6g}, {:.6g}), its footprint {:.6g} m outside the region",
+                                   s.start[X], s.start[Y], out),
+                       "a footprint within the region", {"start", "region", "vehicle.footprint"});
   const Keys psi = {"vehicle.psi_max"}, sa = {"vehicle.sa_max_deg"};
   require(PSI, -car.psi_max, car.psi_max, psi, psi, "psi_max, in rad, but for whole turns");
   require(SA, -car.sa_max(), car.sa_max(), sa, sa, "sa_max_deg, in rad");

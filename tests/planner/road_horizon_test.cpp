@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "../../src/planner/drivable_speed.hpp"
 #include "../../src/planner/road_terms.hpp"
 #include "../../src/planner/road_way.hpp"
 #include "../../src/planner/trajectory_problem.hpp"
@@ -205,6 +206,43 @@ TEST(RoadHorizon, PlansEndNoFasterThanTheRoadAllows) {
   EXPECT_LT(plan.states.back()[UX], 13);
   task.road = road_of({{-50, 0, 4, 4}, {400, 0, 4, 4}});
   EXPECT_GT(Planner(task).plan(at(30, 0, 0, 17)).states.back()[UX], 17);
+}
+
+TEST(RoadHorizon, MeetsWhatIsAskedOnArrival) {
+  Task task = on(road_of({{-50, 0, 4, 4}, {400, 0, 4, 4}}), 90);
+  EXPECT_GT(Planner(task).plan(at(5, 0, 0, 15)).states.back()[UX], 15);
+  task.goal.ux_max = 9;
+  task.goal.psi_tolerance = 0.1;
+  for (const bool road : {true, false}) {
+    if (!road) {
+      task.road = nullptr;
+      task.goal = {.x = 40, .y = 0, .psi = 0, .length = 4, .width = 4, .ux_max = 9};
+    }
+    const Plan plan = Planner(task).plan(at(5, 0, 0, 15));
+    ASSERT_TRUE(plan.report.solved) << plan.report.status_text();
+    EXPECT_TRUE(plan.goal_in_range);
+    EXPECT_LT(plan.states.back()[UX], 9);
+    EXPECT_NEAR(plan.states.back()[PSI], 0, 0.1);
+  }
+}
+
+TEST(RoadHorizon, SteeringLimitsTheSpeedWhereTheRoadLeavesLittleRoom) {
+  Parameters car;
+  const auto road = hairpin();
+  const double s = 118;  // where the bend begins
+  const double wide = steerable_speed(*road, car, s);
+  EXPECT_GT(wide, 3);
+  EXPECT_LT(wide, 12);
+  car.footprint = FootprintKind::rectangle;
+  EXPECT_LT(steerable_speed(*road, car, s), wide);
+  car.sr_max_deg *= 2;
+  EXPECT_NEAR(steerable_speed(*road, car, 40), car.ux_max, 1e-9);  // on the straight
+  EXPECT_GT(steerable_speed(*road, car, s), wide);
+  // It never rises faster than braking allows for, and is that of the straight before.
+  const SpeedProfile speeds = drivable_speeds(*road, car, 0.8, 0.7);
+  EXPECT_LE(speeds.at(s), steerable_speed(*road, car, s) + 0.5);
+  EXPECT_GT(speeds.at(s - 40), speeds.at(s) + 3);
+  EXPECT_GT(speeds.at(road->length() + 50), 20);  // the road goes on
 }
 
 }  // namespace
