@@ -114,7 +114,7 @@ class Replay(ProgramTest):
                              "--record-slow", "0")
                 self.assertEqual(result.code, 0, result.err)
                 files = sorted(folder.glob("cycle-*.json"))
-                self.assertGreaterEqual(len(files), 4)
+                self.assertTrue(files)
                 for path in files:
                     self.assertEqual(run("replay", path).code, 0, path)
 

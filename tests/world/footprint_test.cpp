@@ -95,7 +95,8 @@ TEST(Footprint, IsOutsideARegionByItsFarthestCorner) {
   EXPECT_NEAR(body().outside(region, state), -0.1, 1e-12);
   region.y_min = -car.width / 2 + 0.2;
   EXPECT_NEAR(body().outside(region, state), 0.2, 1e-12);
-  EXPECT_NEAR(Footprint(car).outside(region, state), region.y_min, 1e-12);
+  EXPECT_NEAR(Footprint(car).outside(region, state),
+              std::max(region.y_min, -car.front_overhang - 0.1), 1e-12);
   EXPECT_TRUE(region.contains(10, 0));
   state[vehicle::PSI] = std::numbers::pi / 2;
   EXPECT_NEAR(body().outside(region, state), car.length - car.front_overhang + region.y_min, 1e-9);
