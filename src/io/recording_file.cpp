@@ -52,6 +52,7 @@ RecordedMotion motion(const JsonReader& reader, const std::string& file) {
   if (!(p.tex > 0)) reader.at("tex").refuse(fmt::format("{}", p.tex), "a number > 0");
   const JsonReader need = reader.at("need");
   p.clearance = need.at("clearance").real();
+  if (need.has("edge")) p.edge = need.at("edge").real();  // older recordings have none
   p.wheel_load = need.at("wheel_load").real();
   const auto seen = need.at("seen").list();
   if (seen.size() != 3)
@@ -108,6 +109,7 @@ std::string to_json(const RecordedMotion& motion) {
   json["t0"] = p.t0;
   json["tex"] = p.tex;
   json["need"] = {{"clearance", json_number(p.clearance)},
+                  {"edge", json_number(p.edge)},
                   {"wheel_load", json_number(p.wheel_load)},
                   {"seen", json_numbers({p.seen_x, p.seen_y, p.seen_radius})}};
   json["obstacles"] = json_obstacles(p.obstacles);

@@ -70,7 +70,7 @@ const std::vector<ScenarioSection>& scenario_sections() {
            }},
       {.name = "region",
        .form = Form::flow,
-       .about = "A box in which every node of a plan lies.",
+       .about = "A box in which the vehicle's footprint lies at every node of a plan.",
        .bind = [](Scenario& s) { return section("region", world::region_options(), s.region); }},
       {.name = "road",
        .form = Form::road,

@@ -24,13 +24,12 @@ constexpr double kShare = 0.25, kInside = 0.1;
 /// beside it [rad/s]: it goes on.
 constexpr double kEndHeading = 0.15, kEndTurn = 0.1;
 
-/// A range, smaller on each side that is there.
-Bounds inside(double lower, double upper) {
+}  // namespace
+
+Bounds inside_range(double lower, double upper) {
   const double by = std::min(kInside, kShare * (upper - lower));
   return {lower + by, upper - by};
 }
-
-}  // namespace
 
 ArrivalEnd::ArrivalEnd(ocp::Problem& problem, const Task& task, const States& states,
                        const Expr& t_start)
@@ -73,9 +72,10 @@ void ArrivalEnd::add_conditions(ocp::Problem& problem, const States& states, con
   if (goal_.psi_tolerance < world::Goal::kAbsent) {
     turns_ = problem.parameter("goal_psi", goal_.psi);
     problem.boundary("goal heading", problem.final(states[PSI]) - *turns_,
-                     inside(-goal_.psi_tolerance, goal_.psi_tolerance));
+                     inside_range(-goal_.psi_tolerance, goal_.psi_tolerance));
   }
-  const Bounds ux = inside(goal_.ux_min, goal_.ux_max), t = inside(goal_.t_min, goal_.t_max);
+  const Bounds ux = inside_range(goal_.ux_min, goal_.ux_max),
+               t = inside_range(goal_.t_min, goal_.t_max);
   if (ux.bounded()) problem.boundary("goal speed", problem.final(states[UX]), ux);
   if (t.bounded()) problem.boundary("goal time", t_start + problem.final_time(), t);
 }

@@ -10,6 +10,10 @@
 
 namespace slalom::planner {
 
+/// The range of what is asked of the vehicle on arrival, a little smaller on each side that is
+/// there.
+ocp::Bounds inside_range(double lower, double upper);
+
 /// The end of the OCP of a whole way: rows that make its last point reach the goal, and what a goal
 /// by time pays for instead, which is progress along the road.
 class ArrivalEnd {

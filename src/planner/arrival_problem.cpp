@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "in_terms_of.hpp"
+#include "region_rows.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "solving.hpp"
 
@@ -74,8 +75,10 @@ void ArrivalProblem::add_dynamics(const Task& task) {
   const Parameters& p = task.vehicle;
   const Model model = make_model(p);
   std::array<Bounds, kStates> bounds;
-  bounds[X] = {task.region.x_min, task.region.x_max};
-  bounds[Y] = {task.region.y_min, task.region.y_max};
+  const world::Footprint footprint(p);
+  const auto place = region_bounds(task.region, footprint);
+  bounds[X] = place[0];
+  bounds[Y] = place[1];
   bounds[SA] = {-p.sa_max(), p.sa_max()};
   bounds[UX] = {p.ux_min, p.ux_max};
   for (std::size_t i = 0; i < kStates; ++i) {
@@ -94,6 +97,7 @@ void ArrivalProblem::add_dynamics(const Task& task) {
                       Bounds::equal(0));
   }
   add_limits(model, p);
+  add_region_rows(problem_, task.region, footprint, X_, Points::after_first);
 }
 
 void ArrivalProblem::add_limits(const Model& model, const Parameters& vehicle) {

@@ -41,24 +41,22 @@ Edge edge_at(const world::RoadPlace& road, bool left) {
           std::clamp(bend, -kSharpest, kSharpest)};
 }
 
-/// What of the vehicle an edge touches first, as discs of half its width: at both ends, for a
-/// straight edge, and in the middle, for one that bends towards the road.
-std::vector<world::Disc> discs_of(const world::Footprint& footprint) {
-  if (footprint.is_point()) return {{}};
-  const double front = footprint.corners()[0].x, back = footprint.corners()[1].x;
-  const double half = footprint.corners()[0].y;
-  return {{back, half}, {(back + front) / 2, half}, {front, half}};
-}
-
 double spare_of(double radius, double bend) {
   return radius - bend * radius * radius / 2;
 }
 
 }  // namespace
 
+std::vector<world::Disc> edge_discs(const world::Footprint& footprint) {
+  if (footprint.is_point()) return {{}};
+  const double front = footprint.corners()[0].x, back = footprint.corners()[1].x;
+  const double half = footprint.corners()[0].y;
+  return {{back, half}, {(back + front) / 2, half}, {front, half}};
+}
+
 CorridorRows::CorridorRows(ocp::Problem& problem, const Expr& X, const Expr& Y, const Expr& psi,
                            const world::Footprint& footprint)
-    : discs_(discs_of(footprint)), rows_{}, along_{} {
+    : discs_(edge_discs(footprint)), rows_{}, along_{} {
   const auto symbol = [](const char* name) { return Expr::symbol(name); };
   const Symbols s{symbol("xe"),   symbol("ye"),    symbol("nx"),   symbol("ny"),
                   symbol("bend"), symbol("spare"), symbol("ahead")};

@@ -9,6 +9,11 @@
 
 namespace slalom::planner {
 
+/// What of the vehicle an edge touches first, as discs of half its width: at both ends, rear first,
+/// for a straight edge, and in the middle, for one that bends towards the road. A point is one disc
+/// of no radius.
+std::vector<world::Disc> edge_discs(const world::Footprint& footprint);
+
 /// Rows of an OCP that keep discs of the vehicle within a road's edges. At each point of the mesh
 /// an edge is the circle that touches it, with its curvature, where it is nearest to the guess: of
 /// the vector d from there to the disc's centre, n . d - k |d|^2 / 2 >= r - k r^2 / 2 for a disc of

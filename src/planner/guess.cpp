@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "local_frame.hpp"
+#include "road_reference.hpp"
 
 namespace slalom::planner {
 
@@ -13,15 +14,62 @@ namespace {
 
 /// A start slower than this speeds up in the guess [m/s], at this share of what the vehicle can.
 constexpr double kSlow = 3, kShare = 0.7;
+/// Along a road, shares of lateral acceleration and braking, and the least speed [m/s] of a guess.
+constexpr double kLateralShare = 0.6, kBrakingShare = 0.6, kLeastSpeed = 2;
+
+std::optional<SpeedProfile> profile_of(const Task& task) {
+  if (!task.road) return std::nullopt;
+  return drivable_speeds(*task.road, task.vehicle, kLateralShare, kBrakingShare);
+}
 
 }  // namespace
 
-ocp::Trajectory& Guess::operator()(const Request& request, bool in_range, const LastPlan* last) {
-  last != nullptr ? shift(request, *last) : straight_on(request);
+Guess::Guess(const Task& task)
+    : settings_(task.planner),
+      vehicle_(task.vehicle),
+      goal_(task.goal),
+      road_(task.road),
+      offset_(road_ ? goal_offset(task) : std::nullopt),
+      profile_(profile_of(task)) {}
+
+ocp::Trajectory& Guess::operator()(const Request& request, const WayAhead& way,
+                                   const LastPlan* last) {
+  if (last != nullptr)
+    shift(request, *last);
+  else
+    road_ ? along_road(request, way) : straight_on(request);
   guess_.slacks.clear();
   place_initial_slacks(request, last);
-  if (in_range) place_final_slacks();
+  if (way.in_range) place_final_slacks(way);
   return guess_;
+}
+
+/// The slowest that the road's bends allow before a plan ends [m/s].
+double Guess::slowest_ahead(const WayAhead& way) const {
+  const double length = std::min(settings_.L_range, way.aim - way.s);
+  double slowest = profile_->at(way.s + length);
+  for (double s = 0; s < length; ++s) slowest = std::min(slowest, profile_->at(way.s + s));
+  return std::max(slowest, kLeastSpeed);
+}
+
+/// Along the road at the offset that X0p has, evenly faster or slower until the end.
+void Guess::along_road(const Request& request, const WayAhead& way) {
+  State X0p = request.X0p;
+  const double length = std::max(std::min(settings_.L_range, way.aim - way.s), 1.);
+  const double u = std::max(X0p[UX], 0.), slowest = slowest_ahead(way);
+  const double able = u < kSlow ? kShare * vehicle_.ax_max_at(kSlow) : 0;
+  const double end = std::min(std::sqrt(u * u + 2 * able * length), slowest);
+  const double tf = std::clamp(2 * length / std::max(u + end, able > 0 ? 0.1 : 10.),
+                               1.01 * settings_.tf_min, 0.99 * settings_.tf_max);
+  const Motion motion = road_reference(*road_, {way.s, way.n}, X0p, 0, tf,
+                                       (u * u - end * end) / (2 * length), vehicle_);
+  guess_ = {0, tf, {}, {}, {}, {}, {}};
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    guess_.tau.push_back(static_cast<double>(k) / static_cast<double>(motion.size() - 1));
+    guess_.states.emplace_back(motion.states[k].begin(), motion.states[k].end());
+    guess_.controls.push_back({0, 0});
+  }
+  guess_.states.front().assign(X0p.begin(), X0p.end());
 }
 
 void Guess::straight_on(const Request& request) {
@@ -110,12 +158,22 @@ void Guess::place_initial_slacks(const Request& request, const LastPlan* last) {
   }
 }
 
-void Guess::place_final_slacks() {
+void Guess::place_final_slacks(const WayAhead& way) {
   const auto& end = guess_.states.back();
-  for (const double gap : {std::fabs(end[X] - goal_.x), std::fabs(end[Y] - goal_.y)})
+  std::vector<double> gaps{end[X] - goal_.x, end[Y] - goal_.y};
+  if (road_) {
+    std::vector<world::Point> places;
+    for (const auto& state : guess_.states) places.push_back({state[X], state[Y]});
+    const double s = follow(*road_, way.s, places).back();
+    gaps = {s - way.aim};
+    if (offset_) gaps.push_back(road_->project(places.back(), s).n - *offset_);
+  }
+  for (double gap : gaps) {
+    gap = std::fabs(gap);
     guess_.slacks.push_back(gap < settings_.XF_tol
                                 ? gap + inside(settings_.XF_tol - gap, settings_.w_xf)
                                 : settings_.XF_tol * 0.99);
+  }
 }
 
 /// Where the barrier alone would hold a slack of this weight: 2 mu / w off its two rows, and at

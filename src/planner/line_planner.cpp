@@ -138,6 +138,17 @@ ocp::Trajectory LinePlanner::shifted(double start, const LineProblem::LineState&
   return result;
 }
 
+void LinePlanner::record(const Recorder& recorder) {
+  recorder_.reset();
+  if (recorder.wanted && recorder.take) recorder_ = recorder;
+}
+
+ocp::Transcription& LinePlanner::posed(const State& X0p) {
+  const double start = task_.road->project({X0p[X], X0p[Y]}).s;
+  update(start, line_.to_line(start, X0p));
+  return *transcription_;
+}
+
 Plan LinePlanner::plan(const Request& request) {
   const Timer timer;
   const world::Point here{request.X0p[X], request.X0p[Y]};
@@ -166,7 +177,14 @@ Plan LinePlanner::attempt(const Request& request, const Timer& timer, const Atte
   options.warm_start = attempt.multipliers;
   options.time_limit = std::max(0., request.time_limit - timer.cpu());
   solver_->solve(*transcription_, start_, options, answer_);
-  return read(request, attempt.start, options);
+  std::optional<Recording> recording;  // reading takes the multipliers of both
+  if (recorder_) recording = recorded(request, false, options, start_, answer_);
+  Plan plan = read(request, attempt.start, options);
+  if (recording && recorder_->wanted(plan.report)) {
+    recording->phi = plan.report.phi;
+    recorder_->take(*recording);
+  }
+  return plan;
 }
 
 Plan LinePlanner::read(const Request& request, double start, const nlp::Options& options) {

@@ -19,7 +19,10 @@ class LinePlanner final : public PlanningMethod {
 
   Plan plan(const Request& request) override;
   void reset() override { last_.reset(); }
-  void record(const Recorder&) override {}
+  void record(const Recorder& recorder) override;
+
+  /// The problem of a cycle that begins in this state, as a solver sees it: for replays.
+  ocp::Transcription& posed(const vehicle::State& X0p);
 
  private:
   /// A plan from which the next solve starts.
@@ -56,6 +59,7 @@ class LinePlanner final : public PlanningMethod {
   nlp::Answer answer_;
   std::optional<double> s_;  ///< of the last cycle [m]
   std::optional<Last> last_;
+  std::optional<Recorder> recorder_;
 };
 
 }  // namespace slalom::planner

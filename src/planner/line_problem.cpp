@@ -222,16 +222,24 @@ LineProblem::Motion LineProblem::to_world(const ocp::Trajectory& found, double s
 
 SpeedProfile::SpeedProfile(const world::Road& road, const Parameters& vehicle, double lateral_share,
                            double braking_share)
+    : SpeedProfile(road, vehicle, lateral_share, braking_share, [&](double s) {
+        return !road.closed() && s >= road.length() ? 0 : vehicle.ux_max;
+      }) {}
+
+SpeedProfile::SpeedProfile(const world::Road& road, const Parameters& vehicle, double lateral_share,
+                           double braking_share, const std::function<double(double)>& limit)
     : closed_(road.closed()) {
   const double parts = std::ceil(road.length() / kKnot);
   step_ = road.length() / parts;
   const auto count = static_cast<std::size_t>(parts) + (closed_ ? 0 : 1);
   const double lateral = lateral_share * most_lateral(vehicle);
   for (std::size_t k = 0; k < count; ++k) {
-    const double kappa = std::fabs(road.at(step_ * static_cast<double>(k)).curvature);
-    speed_.push_back(std::min(vehicle.ux_max, std::sqrt(lateral / std::max(kappa, 1e-9))));
+    const double s =
+        static_cast<double>(k) < parts ? step_ * static_cast<double>(k) : road.length();
+    const double kappa = std::fabs(road.at(s).curvature);
+    speed_.push_back(
+        std::min({vehicle.ux_max, std::sqrt(lateral / std::max(kappa, 1e-9)), limit(s)}));
   }
-  if (!closed_) speed_.back() = 0;
   // What the turn takes of the tyres, braking lacks: a friction ellipse.
   const auto slow_down = [&](std::size_t k, std::size_t next) {
     const double kappa = road.at(step_ * static_cast<double>(k)).curvature;
@@ -248,11 +256,15 @@ SpeedProfile::SpeedProfile(const world::Road& road, const Parameters& vehicle, d
 
 double SpeedProfile::at(double s) const {
   const double length = step_ * static_cast<double>(speed_.size() - (closed_ ? 0 : 1));
-  if (!closed_ && s >= length) return 0;
+  if (!closed_ && s >= length) return speed_.back();
   const double at = closed_ ? around(s, length) / step_ : std::max(s, 0.) / step_;
   const auto k = static_cast<std::size_t>(at) % speed_.size();
   const double share = at - std::floor(at);
   return (1 - share) * speed_[k] + share * speed_[(k + 1) % speed_.size()];
+}
+
+double SpeedProfile::slowest() const {
+  return *std::min_element(speed_.begin(), speed_.end());
 }
 
 }  // namespace slalom::planner

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "slalom/ocp/problem.hpp"
@@ -92,15 +93,19 @@ class LineProblem {
 };
 
 /// Speeds [m/s] from which a vehicle in the middle of the road can drive on, or stop at the end of
-/// a road that is not closed: by the lateral acceleration that tyres and wheel loads allow, and
-/// shares of what it brakes and accelerates with.
+/// a road that is not closed: by the lateral acceleration that
+/// tyres and wheel loads allow, and shares of what it brakes and accelerates with.
 class SpeedProfile {
  public:
   /// Shares of lateral acceleration and of braking.
   SpeedProfile(const world::Road& road, const vehicle::Parameters& vehicle, double lateral_share,
                double braking_share);
-  /// At s, around and around where the road is closed; 0 beyond the end of one that is not.
+  /// Of a road that goes on straight beyond its ends, and no faster than a limit at s [m/s].
+  SpeedProfile(const world::Road& road, const vehicle::Parameters& vehicle, double lateral_share,
+               double braking_share, const std::function<double(double)>& limit);
+  /// At s, around and around where the road is closed; as at its end beyond one that is not.
   double at(double s) const;
+  double slowest() const;  ///< anywhere
 
  private:
   bool closed_;

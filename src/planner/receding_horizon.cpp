@@ -87,8 +87,8 @@ RecedingHorizon::Form::Form(TrajectoryProblem p, const Settings& settings, int i
     : problem(std::move(p)),
       transcription(problem.problem(), ocp::Mesh::uniform(intervals), scheme_of(settings)) {}
 
-void RecedingHorizon::Form::update(const Request& request) {
-  problem.update(request);
+void RecedingHorizon::Form::update(const Request& request, const WayAhead& way) {
+  problem.update(request, way);
   transcription.update(problem.problem());
 }
 
@@ -105,12 +105,14 @@ RecedingHorizon::RecedingHorizon(const Task& task)
 
 Plan RecedingHorizon::plan(const Request& request) {
   const Timer timer;
-  const Cycle cycle{request, goal_in_range(task_, request.X0p), timer};
+  const Cycle cycle{request, look_ahead(request), timer};
   choose(request);
+  // A goal that was passed on the road leaves a plan that has nothing left.
+  if (task_.road && last_ && last_->in_range && !cycle.way.in_range) last_.reset();
   // Multipliers carry over where the plan that they belong to had the same rows.
   const bool warm =
-      last_ && carries_ && last_->in_range == cycle.in_range && same_names(chosen_, of_last_);
-  ocp::Trajectory& guess = guess_(request, cycle.in_range, last_ ? &*last_ : nullptr);
+      last_ && carries_ && last_->in_range == cycle.way.in_range && same_names(chosen_, of_last_);
+  ocp::Trajectory& guess = guess_(request, cycle.way, last_ ? &*last_ : nullptr);
   std::optional<ocp::Trajectory> bendable;
   if (settings_.retry_sides) bendable = guess;
   Attempt best = attempt(cycle, settings_.N, guess, warm);
@@ -134,6 +136,20 @@ RecedingHorizon::Form& RecedingHorizon::form(bool in_range, int intervals) {
   if (found != forms_.end()) return found->second;
   return forms_.try_emplace(key, TrajectoryProblem(task_, chosen_, in_range), settings_, intervals)
       .first->second;
+}
+
+/// The road is followed from where the last cycle began, so that the branch of one that bends back
+/// on itself is the vehicle's.
+WayAhead RecedingHorizon::look_ahead(const Request& request) {
+  if (!task_.road) return {.in_range = goal_in_range(task_, request.X0p)};
+  std::optional<double> hint;
+  if (on_road_) {
+    const double since = request.t_start - on_road_->first;
+    hint = on_road_->second + std::max(0., since) * std::max(0., request.X0p[UX]);
+  }
+  const WayAhead way = way_ahead(task_, request, hint);
+  on_road_ = {request.t_start, way.s};
+  return way;
 }
 
 /// Chooses this cycle's obstacles.
@@ -164,8 +180,18 @@ void RecedingHorizon::place_obstacles(const Request& request, Form& form) const 
 void RecedingHorizon::prepare() {
   for (const bool in_range : {true, false}) {
     Form& form = this->form(in_range, settings_.N);
-    ocp::Trajectory& guess = guess_({}, in_range, nullptr);
-    form.problem.map().to_planner(guess);
+    WayAhead way;
+    Request start;
+    if (task_.road) {
+      const world::RoadPlace at = task_.road->at(0);
+      start.X0p[X] = at.x;
+      start.X0p[Y] = at.y;
+      start.X0p[PSI] = at.psi;
+      way = way_ahead(task_, start, 0);
+    }
+    way.in_range = in_range;
+    ocp::Trajectory& guess = guess_(start, way, nullptr);
+    form.problem.to_problem(way.s, guess);
     start_.x = form.transcription.point(guess);
     nlp::Options options = solver_options(settings_, {});
     options.max_iterations = 0;
@@ -176,9 +202,9 @@ void RecedingHorizon::prepare() {
 /// Solves once from a guess, which is put into the planner's states.
 RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int intervals,
                                                   ocp::Trajectory& guess, bool warm) {
-  Form& form = this->form(cycle.in_range, intervals);
-  form.update(cycle.request);
-  form.problem.map().to_planner(guess);
+  Form& form = this->form(cycle.way.in_range, intervals);
+  form.update(cycle.request, cycle.way);
+  form.problem.to_problem(cycle.way.s, guess);
   start_.x = form.transcription.point(guess);
   if (std::any_of(chosen_.begin(), chosen_.end(), varies)) place_obstacles(cycle.request, form);
   nlp::Options options = solver_options(settings_, cycle.request);
@@ -188,7 +214,8 @@ RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int interv
   solver_->solve(form.transcription, start_, options, answer_);
   const double solved_at = cycle.timer.cpu();
   std::optional<Recording> recording;
-  if (recorder_ && intervals == settings_.N) recording = record_solve(cycle, options);
+  if (recorder_ && intervals == settings_.N)
+    recording = recorded(cycle.request, cycle.way.in_range, options, start_, answer_);
   Attempt attempt = read(cycle, intervals, options);
   if (recording && recorder_->wanted(attempt.plan.report)) {
     recording->phi = attempt.plan.report.phi;
@@ -198,29 +225,18 @@ RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int interv
   return attempt;
 }
 
-/// The last solve, but for what judging it brings.
-Recording RecedingHorizon::record_solve(const Cycle& cycle, const nlp::Options& options) const {
-  const Request& request = cycle.request;
-  Recording r{request.X0p,   request.t0,     request.t_start, cycle.in_range,     current_kernels(),
-              options,       start_,         answer_.status,  answer_.iterations, 0,
-              answer_.cpu_s, answer_.wall_s, answer_.point,   request.obstacles};
-  r.options.stop = nullptr;
-  r.options.stop_data = nullptr;
-  return r;
-}
-
 /// The answer as a plan, judged.
 RecedingHorizon::Attempt RecedingHorizon::read(const Cycle& cycle, int intervals,
                                                const nlp::Options& options) {
-  Form& form = this->form(cycle.in_range, intervals);
+  Form& form = this->form(cycle.way.in_range, intervals);
   Attempt attempt;
   attempt.carries = intervals == settings_.N;
   attempt.cut_short = cut_short(answer_.status);
   attempt.trajectory = form.transcription.trajectory(answer_.point.x);
   const ocp::Trajectory& trajectory = attempt.trajectory;
-  form.problem.map().to_plant(cycle.request.X0p, attempt.trajectory);
+  form.problem.to_plant(cycle.request.X0p, attempt.trajectory);
   Plan& plan = attempt.plan;
-  plan.goal_in_range = cycle.in_range;
+  plan.goal_in_range = cycle.way.in_range;
   plan.t_start = cycle.request.t_start;
   plan.tf = trajectory.tf;
   plan.obstacle_time_held = settings_.moving_avoidance ? -1 : cycle.request.t0;
@@ -332,7 +348,7 @@ void RecedingHorizon::keep(const Cycle& cycle, Attempt& attempt) {
   const SolveReport& report = attempt.plan.report;
   if (!report.solved && !report.best_iterate && !attempt.cut_short) return;
   last_ = LastPlan{attempt.plan.t_start, cycle.request.X0p, std::move(attempt.trajectory),
-                   cycle.in_range};
+                   cycle.way.in_range};
   carries_ = attempt.carries;
   if (!carries_) return;
   if (!same_names(chosen_, of_last_)) of_last_ = chosen_;

@@ -24,7 +24,10 @@ class RecedingHorizon final : public PlanningMethod {
   explicit RecedingHorizon(const Task& task);
 
   Plan plan(const Request& request) override;
-  void reset() override { last_.reset(); }
+  void reset() override {
+    last_.reset();
+    on_road_.reset();
+  }
   void record(const Recorder& recorder) override;
 
  private:
@@ -34,7 +37,7 @@ class RecedingHorizon final : public PlanningMethod {
     ocp::Transcription transcription;
 
     Form(TrajectoryProblem p, const Settings& settings, int intervals);
-    void update(const Request& request);
+    void update(const Request& request, const WayAhead& way);
   };
   /// Whether the goal is in range, and the numbers of obstacles and of mesh intervals.
   using FormKey = std::tuple<bool, std::size_t, int>;
@@ -48,16 +51,16 @@ class RecedingHorizon final : public PlanningMethod {
   /// What a cycle's attempts have in common.
   struct Cycle {
     const Request& request;
-    bool in_range;
+    const WayAhead way;  ///< without a road, whether the goal is in range alone
     const Timer& timer;
   };
 
   Form& form(bool in_range, int intervals);
+  WayAhead look_ahead(const Request& request);
   void choose(const Request& request);
   void place_obstacles(const Request& request, Form& form) const;
   void prepare();
   Attempt attempt(const Cycle& cycle, int intervals, ocp::Trajectory& guess, bool warm);
-  Recording record_solve(const Cycle& cycle, const nlp::Options& options) const;
   Attempt read(const Cycle& cycle, int intervals, const nlp::Options& options);
   std::string what_blocks(const Plan& plan) const;
   void look_between(const Cycle& cycle, Plan& plan) const;
@@ -78,9 +81,10 @@ class RecedingHorizon final : public PlanningMethod {
   std::unique_ptr<nlp::Solver> solver_;
   nlp::Start start_;  ///< its multipliers are the last plan's
   nlp::Answer answer_;
-  std::optional<LastPlan> last_;  ///< where the next solve starts
-  bool carries_ = false;          ///< the multipliers of `start_` belong to it
-  double longest_reading_s_ = 0;  ///< thread time of a cycle after its solve
+  std::optional<LastPlan> last_;                      ///< where the next solve starts
+  bool carries_ = false;                              ///< the multipliers of `start_` belong to it
+  std::optional<std::pair<double, double>> on_road_;  ///< when the last cycle began where along it
+  double longest_reading_s_ = 0;                      ///< thread time of a cycle after its solve
 };
 
 }  // namespace slalom::planner

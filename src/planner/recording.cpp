@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "line_planner.hpp"
 #include "local_frame.hpp"
 #include "obstacle_choice.hpp"
 #include "slalom/base/error.hpp"
@@ -32,28 +33,9 @@ bool cut_off(nlp::Status status) {
   return status == nlp::Status::time_limit || status == nlp::Status::interrupted;
 }
 
-}  // namespace
-
-Replayed replay(const Recording& recording, const Task& task) {
-  select_kernels(recording.kernels);
-  Request request;
-  request.X0p = recording.X0p;
-  request.t0 = recording.t0;
-  request.t_start = recording.t_start;
-  const Settings& settings = task.planner;
-  Task known = LocalFrame(task.goal).to_local(task);
-  if (recording.obstacles) known.obstacles = *recording.obstacles;
-  const world::Footprint footprint(known.vehicle);
-  const auto chosen = choose_obstacles(
-      settings, request, believed(settings, group_obstacles(settings, known.obstacles), request.t0),
-      footprint);
-  TrajectoryProblem problem(known, chosen, recording.goal_in_range);
-  problem.update(request);
-  ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
-                                   scheme_of(settings));
-  problem.set_obstacles(chosen,
-                        obstacle_times(settings, request, transcription, recording.start.x));
-  transcription.update(problem.problem());
+/// A solve of a problem posed as it was then, compared with what was recorded of it.
+Replayed solved_again(const Recording& recording, ocp::Transcription& transcription,
+                      const Settings& settings) {
   nlp::Options options = recording.options;
   options.time_limit = std::numeric_limits<double>::infinity();
   const bool cut = cut_off(recording.status);
@@ -72,6 +54,40 @@ Replayed replay(const Recording& recording, const Task& task) {
   return result;
 }
 
+}  // namespace
+
+Replayed replay(const Recording& recording, const Task& task) {
+  select_kernels(recording.kernels);
+  const Settings& settings = task.planner;
+  Task known = LocalFrame(task.goal).to_local(task);
+  if (settings.method == Method::along_road) {
+    LinePlanner planner(known);
+    return solved_again(recording, planner.posed(recording.X0p), settings);
+  }
+  Request request;
+  request.X0p = recording.X0p;
+  request.t0 = recording.t0;
+  request.t_start = recording.t_start;
+  if (recording.obstacles) known.obstacles = *recording.obstacles;
+  const world::Footprint footprint(known.vehicle);
+  const auto chosen = choose_obstacles(
+      settings, request, believed(settings, group_obstacles(settings, known.obstacles), request.t0),
+      footprint);
+  TrajectoryProblem problem(known, chosen, recording.goal_in_range);
+  problem.update(request);
+  ocp::Transcription transcription(problem.problem(), ocp::Mesh::uniform(settings.N),
+                                   scheme_of(settings));
+  if (known.road) {
+    // Where the cycle was on the road is a state of the start.
+    const double s = transcription.trajectory(recording.start.x).states.front().back();
+    problem.update(request, way_ahead(known, request, s));
+  }
+  problem.set_obstacles(chosen,
+                        obstacle_times(settings, request, transcription, recording.start.x));
+  transcription.update(problem.problem());
+  return solved_again(recording, transcription, settings);
+}
+
 Certificate verify_again(const RecordedPlan& recording, const Task& task) {
   const Task local = LocalFrame(task.goal).to_local(task);
   const vehicle::Plant plant = Verifier::believed_plant(local.vehicle);
@@ -79,7 +95,8 @@ Certificate verify_again(const RecordedPlan& recording, const Task& task) {
   const Motion motion{recording.t, recording.states, recording.controls};
   const Need need{recording.clearance,
                   recording.wheel_load,
-                  {recording.seen_x, recording.seen_y, recording.seen_radius}};
+                  {recording.seen_x, recording.seen_y, recording.seen_radius},
+                  recording.edge};
   return verifier.judge(motion, recording.obstacles, need, recording.tex).certificate;
 }
 

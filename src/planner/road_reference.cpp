@@ -48,7 +48,12 @@ double wanted_offset(double now, const world::RoadPlace& at, const Parameters& v
 
 Motion road_reference(const world::Road& road, const State& X0, double t0, double duration,
                       double deceleration, const Parameters& vehicle) {
-  const world::OnRoad on = road.project({X0[X], X0[Y]});
+  return road_reference(road, road.project({X0[X], X0[Y]}), X0, t0, duration, deceleration,
+                        vehicle);
+}
+
+Motion road_reference(const world::Road& road, const world::OnRoad& on, const State& X0, double t0,
+                      double duration, double deceleration, const Parameters& vehicle) {
   double v = std::max(X0[UX], kCreep), s = on.s, way = 0;
   const double heading = X0[PSI] + std::atan2(X0[V] + vehicle.la * X0[R], v);
   world::RoadPlace at = road.at(s);

@@ -11,6 +11,10 @@ namespace slalom::planner {
 /// creeps: in steady cornering, as reference_of() has it.
 Motion road_reference(const world::Road& road, const vehicle::State& X0, double t0, double duration,
                       double deceleration, const vehicle::Parameters& vehicle);
+/// The same where it is known where X0 is on the road; less than no deceleration is acceleration.
+Motion road_reference(const world::Road& road, const world::OnRoad& on, const vehicle::State& X0,
+                      double t0, double duration, double deceleration,
+                      const vehicle::Parameters& vehicle);
 
 /// `motion`, and then on for `beyond` [s], braking: along the road, or straight where there is
 /// none.

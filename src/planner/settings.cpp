@@ -163,6 +163,10 @@ void add_horizon(Table& table) {
           "road_margin", &S::road_margin, Range::non_negative(), "m",
           "What a plan along a road keeps the body from the road's edges by, for they are kept at "
           "the nodes of its mesh and the plant's path between.")
+      .real("edge_clearance", &S::edge_clearance, Range::non_negative(), "m",
+            "Least distance of the footprint from the road's edges, where there is a road: at the "
+            "nodes of the OCP's mesh, which at a barrier floor keep off them anyway; of a verified "
+            "plan at all times, whose rest keeps on the road.")
       .real("sm_start", &S::sm_start, Range::non_negative(), "m",
             "Margin by which obstacles grow at the first node (sm_1 in paper Eqn. 7).", kTable)
       .real("sm_end", &S::sm_end, Range::non_negative(), "m",
@@ -214,10 +218,6 @@ void add_verification(Table& table) {
       .real("kept_clearance", &S::kept_clearance, Range::non_negative(), "m",
             "Least distance of the rest of a plan where state or obstacles are not those it was "
             "verified for; a new plan keeps this and the greatest error of the last 5 s.")
-      .real(
-          "edge_clearance", &S::edge_clearance, Range::non_negative(), "m",
-          "Least distance of the footprint from the road's edges, where there is a road; the rest "
-          "of a plan keeps on the road.")
       .real("kept_wheel_load", &S::kept_wheel_load, Range::any(), "N",
             "Least wheel load of such a rest.")
       .real("standing_horizon", &S::standing_horizon, Range::positive(), "s",

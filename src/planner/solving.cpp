@@ -42,6 +42,16 @@ SolveReport report_of(const nlp::Answer& answer, ocp::Transcription& transcripti
   return report;
 }
 
+Recording recorded(const Request& request, bool in_range, const nlp::Options& options,
+                   const nlp::Start& start, const nlp::Answer& answer) {
+  Recording r{request.X0p,  request.t0,    request.t_start, in_range,          current_kernels(),
+              options,      start,         answer.status,   answer.iterations, 0,
+              answer.cpu_s, answer.wall_s, answer.point,    request.obstacles};
+  r.options.stop = nullptr;
+  r.options.stop_data = nullptr;
+  return r;
+}
+
 ocp::Mesh mesh_of(const std::vector<double>& lengths) {
   std::vector<double> tau{0};
   for (const double length : lengths) tau.push_back(tau.back() + length);

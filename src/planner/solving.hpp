@@ -7,6 +7,7 @@
 #include "slalom/ocp/scheme.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/planner.hpp"
+#include "slalom/planner/recording.hpp"
 
 namespace slalom::planner {
 
@@ -20,6 +21,10 @@ nlp::Options solver_options(const Settings& settings, const Request& request);
 /// it was solved with.
 SolveReport report_of(const nlp::Answer& answer, ocp::Transcription& transcription,
                       const Request& request, const nlp::Options& options);
+
+/// The last solve of a cycle, but for what judging it brings.
+Recording recorded(const Request& request, bool in_range, const nlp::Options& options,
+                   const nlp::Start& start, const nlp::Answer& answer);
 
 /// The mesh whose intervals are to each other as these lengths.
 ocp::Mesh mesh_of(const std::vector<double>& lengths);

@@ -1,11 +1,14 @@
 #include "trajectory_problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "arrival_end.hpp"
 #include "in_terms_of.hpp"
 #include "local_frame.hpp"
+#include "region_rows.hpp"
 
 namespace slalom::planner {
 
@@ -13,6 +16,13 @@ using ocp::Bounds;
 using ocp::End;
 using ocp::Points;
 using namespace vehicle;
+
+namespace {
+
+/// A radian off the heading asked for at the goal costs as much as so many metres off it.
+constexpr double kHeadingPrice = 10;
+
+}  // namespace
 
 const ocp::Scheme& scheme_of(const Settings& settings) {
   static const ocp::Scheme backward_euler = ocp::backward_euler();
@@ -50,20 +60,23 @@ TrajectoryProblem::TrajectoryProblem(const Task& task,
     box_.emplace(footprint, settings_.cover_excess);
   const Model& model = map_.model();
   add_variables(model, task.region);
-  add_dynamics(model);
+  add_dynamics(model, task);
   add_cost(model);
   add_initial_state(model);
   add_vehicle_limits(model);
   add_obstacles();
   set_obstacles(obstacles, {0});
+  add_region_rows(problem_, task.region, world::Footprint(vehicle_), X_, Points::all);
   add_lidar_region();
   add_goal();
+  if (goal_in_range_) add_arrival();
 }
 
 void TrajectoryProblem::add_variables(const Model& model, const world::Region& region) {
   std::array<Bounds, kStates> bounds;
-  bounds[X] = {region.x_min, region.x_max};
-  bounds[Y] = {region.y_min, region.y_max};
+  const auto place = region_bounds(region, world::Footprint(vehicle_));
+  bounds[X] = place[0];
+  bounds[Y] = place[1];
   bounds[PSI] = {-vehicle_.psi_max, vehicle_.psi_max};
   bounds[SA] = {-vehicle_.sa_max(), vehicle_.sa_max()};
   bounds[UX] = {vehicle_.ux_min, vehicle_.ux_max};
@@ -85,16 +98,30 @@ void TrajectoryProblem::add_variables(const Model& model, const world::Region& r
   t_planning_ = problem_.parameter("t_planning", 0);
   problem_.initial_time(Bounds::equal(0), 0);
   problem_.final_time({settings_.tf_min, settings_.tf_max}, settings_.tf_max / 2);
-  if (goal_in_range_)
-    for (std::size_t i : {0, 1})
-      xfs_[i] =
-          problem_.slack(i == 0 ? "xfs_x" : "xfs_y", End::final, Bounds::at_most(settings_.XF_tol));
 }
 
-void TrajectoryProblem::add_dynamics(const Model& model) {
+void TrajectoryProblem::add_dynamics(const Model& model, const Task& task) {
   const auto rate = in_terms_of(model.derivative, model, X_, U_);
   for (std::size_t i = 0; i < kStates; ++i)
     if (model.role[i] == Role::state) problem_.dynamics(X_[i], rate[i]);
+  if (task.road) {
+    road_.emplace(problem_, task, X_, rate);
+    here_ = road_->here();
+    initial_ = road_->initial();
+    final_ = road_->final();
+    goal_place_ = road_->goal();
+  } else {
+    here_ = {X_[X], X_[Y]};
+    initial_ = {problem_.initial(X_[X]), problem_.initial(X_[Y])};
+    final_ = {problem_.final(X_[X]), problem_.final(X_[Y])};
+    goal_place_ = {goal_.x, goal_.y};
+  }
+  // A goal across the whole road is reached along it alone.
+  const std::size_t axes = road_ && road_->goal_is_across() ? 1 : 2;
+  if (goal_in_range_)
+    for (std::size_t i = 0; i < axes; ++i)
+      xfs_[i] = problem_.slack(std::array{road_ ? "xfs_s" : "xfs_x", road_ ? "xfs_n" : "xfs_y"}[i],
+                               End::final, Bounds::at_most(settings_.XF_tol));
 }
 
 /// The cost functional J, term by term; a term of weight zero is absent.
@@ -104,10 +131,9 @@ void TrajectoryProblem::add_cost(const Model& model) {
   if (s.w_t != 0) problem_.mayer("final_time", s.w_t * tf);
 
   if (!goal_in_range_ && s.w_g != 0) {
-    const Expr to_go =
-        square(problem_.final(X_[X]) - goal_.x) + square(problem_.final(X_[Y]) - goal_.y);
+    const Expr to_go = square(final_[0] - goal_place_[0]) + square(final_[1] - goal_place_[1]);
     const Expr at_start =
-        square(problem_.initial(X_[X]) - goal_.x) + square(problem_.initial(X_[Y]) - goal_.y);
+        square(initial_[0] - goal_place_[0]) + square(initial_[1] - goal_place_[1]);
     problem_.mayer("goal", s.w_g * to_go / (at_start + 0.01));
   }
   if (s.w_ce != 0)
@@ -121,11 +147,14 @@ void TrajectoryProblem::add_cost(const Model& model) {
                       s.w_Fz * (s.wheel_load_cost == WheelLoadCost::shifted ? pair + 2 : pair));
   }
   if (s.w_haf != 0)
-    problem_.lagrange("heading_area", s.w_haf * square(std::sin(goal_.psi) * (X_[X] - goal_.x) -
-                                                       std::cos(goal_.psi) * (X_[Y] - goal_.y)));
+    problem_.lagrange("heading_area",
+                      s.w_haf * square(road_ ? here_[1] - goal_place_[1]
+                                             : std::sin(goal_.psi) * (X_[X] - goal_.x) -
+                                                   std::cos(goal_.psi) * (X_[Y] - goal_.y)));
   if (s.w_ax != 0 && model.role[AX] == Role::state)
     problem_.lagrange("acceleration", s.w_ax * square(X_[AX]));
-  if (s.w_psi != 0) {
+  if (s.w_psi != 0 && road_) problem_.lagrange("heading", s.w_psi * road_->turned(X_[PSI]));
+  if (s.w_psi != 0 && !road_) {
     goal_psi_ = problem_.parameter("goal_psi", goal_.psi);
     problem_.lagrange("heading", s.w_psi * square(X_[PSI] - *goal_psi_));
   }
@@ -133,7 +162,8 @@ void TrajectoryProblem::add_cost(const Model& model) {
   Expr initial_slacks;
   for (std::size_t i = 0; i < kStates; ++i)
     if (model.role[i] == Role::state) initial_slacks += s.w_s0[i] * x0s_[i];
-  problem_.mayer("initial_slack", s.w_ic * initial_slacks);
+  const double price = road_ ? road_->slack_price() : 1;
+  problem_.mayer("initial_slack", s.w_ic * price * initial_slacks);
   if (goal_in_range_) problem_.mayer("final_slack", s.w_xf * (xfs_[0] + xfs_[1]));
 }
 
@@ -218,27 +248,48 @@ void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstac
 /// The trajectory stays in the region the LiDAR sees (the paper's LiDAR region constraint).
 void TrajectoryProblem::add_lidar_region() {
   const double reach = settings_.L_range + settings_.kappa;
-  const Expr distance =
-      square(X_[X] - problem_.initial(X_[X])) + square(X_[Y] - problem_.initial(X_[Y]));
+  const Expr distance = square(here_[0] - initial_[0]) + square(here_[1] - initial_[1]);
   problem_.path("LiDAR region", reach * reach - distance, Bounds::at_least(0), Points::after_first);
 }
 
 /// In range: the goal within xfs. Out of range: the end within kappa of the LiDAR region's edge.
 void TrajectoryProblem::add_goal() {
-  const Expr xf = problem_.final(X_[X]), yf = problem_.final(X_[Y]);
   if (goal_in_range_) {
-    for (const auto& [name, gap, slack] : {std::tuple{"goal x", xf - goal_.x, xfs_[0]},
-                                           std::tuple{"goal y", yf - goal_.y, xfs_[1]}}) {
-      problem_.boundary(std::string(name) + " from below", gap + slack, Bounds::at_least(0));
-      problem_.boundary(std::string(name) + " from above", slack - gap, Bounds::at_least(0));
+    for (const std::size_t i : {0, 1}) {
+      if (i == 1 && road_ && road_->goal_is_across()) break;
+      const Expr gap = final_[i] - goal_place_[i];
+      const std::string name =
+          std::array{road_ ? "goal s" : "goal x", road_ ? "goal n" : "goal y"}[i];
+      problem_.boundary(name + " from below", gap + xfs_[i], Bounds::at_least(0));
+      problem_.boundary(name + " from above", xfs_[i] - gap, Bounds::at_least(0));
     }
     return;
   }
   const double inner = settings_.L_range - settings_.kappa;
   const double outer = settings_.L_range + settings_.kappa;
-  const Expr distance = square(xf - problem_.initial(X_[X])) + square(yf - problem_.initial(X_[Y]));
+  const Expr distance = square(final_[0] - initial_[0]) + square(final_[1] - initial_[1]);
   problem_.boundary("LiDAR edge, inner", distance - inner * inner, Bounds::at_least(0));
   problem_.boundary("LiDAR edge, outer", outer * outer - distance, Bounds::at_least(0));
+}
+
+/// What else is asked of the vehicle at the goal, softly: close to the goal there may be no time
+/// left to meet it.
+void TrajectoryProblem::add_arrival() {
+  const auto& role = map_.model().role;
+  const auto add = [&](const std::string& name, const Expr& value, Bounds bounds, double price) {
+    if (!bounds.bounded()) return;
+    problem_.soften(problem_.boundary(name, value, bounds), {ocp::Norm::l1, price, 0});
+  };
+  if (goal_.psi_tolerance < world::Goal::kAbsent) {  // in whatever turn
+    const double most = std::sin(std::min(goal_.psi_tolerance, M_PI / 2));
+    add("goal heading", sin(problem_.final(X_[PSI]) - goal_.psi), inside_range(-most, most),
+        kHeadingPrice * settings_.w_xf);
+  }
+  if (role[UX] == Role::state)
+    add("goal speed", problem_.final(X_[UX]), inside_range(goal_.ux_min, goal_.ux_max),
+        settings_.w_xf);
+  add("goal time", t_start_ + problem_.final_time(), inside_range(goal_.t_min, goal_.t_max),
+      settings_.w_xf);
 }
 
 void TrajectoryProblem::update(const Request& request) {
@@ -248,6 +299,24 @@ void TrajectoryProblem::update(const Request& request) {
   problem_.set_parameter(t_planning_, request.t0);
   if (goal_psi_)  // in the turn that the start's heading is in
     problem_.set_parameter(*goal_psi_, goal_.psi + whole_turns(request.X0p[PSI] - goal_.psi));
+}
+
+void TrajectoryProblem::update(const Request& request, const WayAhead& way) {
+  update(request);
+  if (road_) road_->set(problem_, way);
+}
+
+void TrajectoryProblem::to_problem(double s, ocp::Trajectory& trajectory) const {
+  if (!road_) return map_.to_planner(trajectory);
+  const auto along = road_->along(s, trajectory);
+  map_.to_planner(trajectory);
+  for (std::size_t k = 0; k < along.size(); ++k) trajectory.states[k].push_back(along[k]);
+}
+
+void TrajectoryProblem::to_plant(const State& X0p, ocp::Trajectory& trajectory) const {
+  if (road_)
+    for (auto& state : trajectory.states) state.pop_back();
+  map_.to_plant(X0p, trajectory);
 }
 
 }  // namespace slalom::planner

@@ -7,6 +7,7 @@
 
 #include "model_map.hpp"
 #include "obstacle_view.hpp"
+#include "road_terms.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "slalom/ocp/transcription.hpp"
@@ -28,7 +29,7 @@ std::vector<double> obstacle_times(const Settings& settings, const Request& requ
 
 /// The trajectory-planning OCP of section 3 of docs/formulation.md (the paper's section II-B), in
 /// one of its two forms: goal within the LiDAR range, or beyond it. What a form does not have is
-/// absent from it, not switched to zero.
+/// absent from it, not switched to zero. On a road its places are those of RoadTerms.
 class TrajectoryProblem {
  public:
   /// Among obstacles as covered() leaves them; the task's are not used.
@@ -41,21 +42,28 @@ class TrajectoryProblem {
                      const std::vector<double>& times);
   /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
   void update(const Request& request);
+  /// And where the cycle begins on the road, where there is one.
+  void update(const Request& request, const WayAhead& way);
 
   const ocp::Problem& problem() const { return problem_; }
   const ModelMap& map() const { return map_; }
+  /// A trajectory of the plant's states, which begins at s along the road [m], with the problem's
+  /// own instead; and back.
+  void to_problem(double s, ocp::Trajectory& trajectory) const;
+  void to_plant(const vehicle::State& X0p, ocp::Trajectory& trajectory) const;
 
  private:
   using Expr = ocp::Expr;
 
   void add_variables(const vehicle::Model& model, const world::Region& region);
-  void add_dynamics(const vehicle::Model& model);
+  void add_dynamics(const vehicle::Model& model, const Task& task);
   void add_cost(const vehicle::Model& model);
   void add_initial_state(const vehicle::Model& model);
   void add_vehicle_limits(const vehicle::Model& model);
   void add_obstacles();
   void add_lidar_region();
   void add_goal();
+  void add_arrival();
 
   const Settings settings_;
   const vehicle::Parameters vehicle_;
@@ -64,8 +72,11 @@ class TrajectoryProblem {
   const ModelMap map_;
 
   ocp::Problem problem_;
+  std::optional<RoadTerms> road_;
   std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
   ocp::ConstraintId obstacle_rows_{};
+  /// Places of the front axle and the goal: x and y, or along and across the road's line.
+  RoadTerms::Place here_, initial_, final_, goal_place_;
   std::array<Expr, vehicle::kStates> X_;    ///< states, and what the model derives from them
   std::array<Expr, vehicle::kControls> U_;  ///< controls; zero where the model has none
   std::array<Expr, vehicle::kStates> X0p_;  ///< predicted state (run-time parameters)

@@ -75,7 +75,7 @@ void VerifiedPlanner::record_plan(const Cycle& cycle, const Plan& plan,
   const Motion& motion = option.motion();
   recorder_->take_plan({plan.rung, cycle.request.t0, cycle.tex(), need.clearance, need.wheel_load,
                         need.seen.x, need.seen.y, need.seen.radius, cycle.obstacles, motion.t,
-                        motion.states, motion.controls, option.certificate()});
+                        motion.states, motion.controls, option.certificate(), need.edge});
 }
 
 /// A state that the vehicle may be in: noise may say that a vehicle at rest goes backwards.
@@ -102,9 +102,13 @@ std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) cons
   auto obstacles = believed(task_.planner, request.obstacles.value_or(task_.obstacles), request.t0);
   if (task_.planner.known == Known::range) {
     const Seen seen = this->seen(request);
+    const world::Footprint footprint(task_.vehicle);
+    State from = request.X0p;
+    from[X] = seen.x;
+    from[Y] = seen.y;
     std::erase_if(obstacles, [&](const auto& o) {
       return !o.present(request.t0, request.t0) ||
-             world::distance(o, seen.x, seen.y, request.t0) > seen.radius;
+             footprint.distance(o, from, request.t0) > seen.radius;
     });
   }
   return obstacles;

@@ -106,7 +106,7 @@ void Verifier::note_limits(double t, const State& x) {
     if (!(excess.load[w] <= allowed.load[w]))
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
-  if (!task_.region.contains(x[X], x[Y])) refuse(t, "outside the region");
+  if (!(footprint_.outside(task_.region, x) <= 0)) refuse(t, "outside the region");
   if (std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y) >
           need_.seen.radius - need_.clearance - footprint_.reach() &&
       certificate.refused.empty()) {
@@ -178,10 +178,28 @@ void Verifier::note_distance(std::size_t obstacle, double distance, double spare
   certificate.nearest = (*obstacles_)[obstacle].name;
 }
 
+/// Creeping on straight the vehicle stays on the road: the distance to its edges falls no faster
+/// than it creeps. Beyond its ends an open road goes on.
+void Verifier::stand_on_road(const Motion& motion) {
+  State x = motion.states.back();
+  const double forward = std::fabs(x[UX]), horizon = task_.planner.standing_horizon;
+  for (double after = 0; after <= horizon;) {
+    const double least = footprint_.edge_distance(*task_.road, x);
+    if (!(least >= need_.edge))
+      return refuse(motion.end() + after, "standing, but creeping off the road");
+    if (forward == 0) return;
+    const double step = std::max(least - need_.edge, kLook) / forward;
+    x[X] += std::cos(x[PSI]) * x[UX] * step;
+    x[Y] += std::sin(x[PSI]) * x[UX] * step;
+    after += step;
+  }
+}
+
 /// After its end the motion goes on straight at the speed it ends with. Distance is looked at as
 /// often as both speeds allow it to fall to what is needed. Margins grow no more: plans to come
 /// know better.
 void Verifier::stand_for_good(const Motion& motion) {
+  if (task_.road) stand_on_road(motion);
   State x = motion.states.back();
   const double x0 = x[X], y0 = x[Y];
   const double forward_x = std::cos(x[PSI]) * x[UX], forward_y = std::sin(x[PSI]) * x[UX];

@@ -16,7 +16,7 @@ namespace slalom::planner {
 /// How a motion ends.
 enum class MotionEnd {
   arrives,  ///< it reaches the goal; it is within a square when the loop looks
-  stands,   ///< it creeps, clear of every obstacle's path for good
+  stands,   ///< it creeps, clear of every obstacle's path and on the road for good
   open      ///< neither
 };
 
@@ -80,6 +80,7 @@ class Verifier {
   void find_end(const Motion& motion, double tex);
   void find_end_by_square(const Motion& motion, double tex);
   void note_distance(std::size_t obstacle, double distance, double spare);
+  void stand_on_road(const Motion& motion);
   void stand_for_good(const Motion& motion);
   void refuse(double t, std::string why);
 

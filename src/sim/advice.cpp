@@ -69,7 +69,7 @@ void passes_between(const Scenario& s, std::vector<std::string>& found) {
 }
 
 void goal_behind(const Scenario& s, std::vector<std::string>& found) {
-  if (verifies(s) || s.arrived(s.start, 0)) return;
+  if (s.road || verifies(s) || s.arrived(s.start, 0)) return;  // roads lead around
   const double bearing = std::atan2(s.goal.y - s.start[Y], s.goal.x - s.start[X]) - s.start[PSI];
   const double off = std::fabs(std::remainder(bearing, 2 * std::numbers::pi));
   if (off <= std::numbers::pi / 2) return;

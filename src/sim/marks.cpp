@@ -1,4 +1,5 @@
 #include "slalom/sim/marks.hpp"
+#include "slalom/world/footprint.hpp"
 
 #include <fmt/format.h>
 
@@ -125,10 +126,9 @@ std::optional<Mark> speed(const Scenario& scenario, const Drive& drive) {
 }
 
 std::optional<Mark> outside(const Scenario& scenario, const Drive& drive) {
-  const auto& r = scenario.region;
+  const world::Footprint footprint(scenario.vehicle);
   const auto beyond = [&](const PlantSample& s) {
-    return std::max(
-        {r.x_min - s.state[X], s.state[X] - r.x_max, r.y_min - s.state[Y], s.state[Y] - r.y_max});
+    return footprint.outside(scenario.region, s.state);
   };
   return broken(drive, "region", kDistance, beyond, [&](const auto& s) {
     return fmt::format("the vehicle was {:.2f} m outside the region at {:.2f} s; plans stay within",

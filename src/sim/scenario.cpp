@@ -97,6 +97,12 @@ void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
   };
   require(X, s.region.x_min, s.region.x_max, {"region.x_min"}, {"region.x_max"}, "the region");
   require(Y, s.region.y_min, s.region.y_max, {"region.y_min"}, {"region.y_max"}, "the region");
+  const world::Footprint footprint(car);
+  if (const double out = footprint.outside(s.region, s.start); !footprint.is_point() && out > 0)
+    throw InvalidValue(where + ": start",
+                       fmt::format("({:.6g}, {:.6g}), its footprint {:.6g} m outside the region",
+                                   s.start[X], s.start[Y], out),
+                       "a footprint within the region", {"start", "region", "vehicle.footprint"});
   const Keys psi = {"vehicle.psi_max"}, sa = {"vehicle.sa_max_deg"};
   require(PSI, -car.psi_max, car.psi_max, psi, psi, "psi_max, in rad, but for whole turns");
   require(SA, -car.sa_max(), car.sa_max(), sa, sa, "sa_max_deg, in rad");
@@ -132,6 +138,23 @@ void check_start_clear(const Scenario& s, const std::string& where) {
   }
 }
 
+/// A place on an open road that a plan along it comes to lies ahead of the start.
+void check_ahead(const Scenario& s, const std::string& where) {
+  if (s.road->closed() || !s.goal.is_place() || s.arrived(s.start, 0) ||
+      s.planner.method == planner::Method::verified)
+    return;
+  const double start = s.road->project({s.start[vehicle::X], s.start[vehicle::Y]}).s;
+  const double goal = s.road->project({s.goal.x, s.goal.y}).s;
+  if (goal < start)
+    throw InvalidValue(
+        where + ": goal",
+        fmt::format("({:.6g}, {:.6g}), {:.6g} m behind the start along the road", s.goal.x,
+                    s.goal.y, start - goal),
+        fmt::format("a goal ahead of the start, for planner {} drives along the road",
+                    s.planner.name),
+        {"goal", "start", "road"});
+}
+
 /// The road is wide enough for the vehicle, and start and goal are on it.
 void check_road(const Scenario& s, const std::string& where) {
   if (s.planner.method == planner::Method::along_road) {
@@ -160,10 +183,12 @@ void check_road(const Scenario& s, const std::string& where) {
                        fmt::format("({:.6g}, {:.6g}), {:.6g} m off the road", s.goal.x, s.goal.y,
                                    -s.road->edge_distance(world::Point{s.goal.x, s.goal.y})),
                        "a goal on the road", {"goal", "road"});
-  if (s.goal.kind() == world::GoalKind::laps && s.planner.method != planner::Method::along_road)
+  if (s.goal.kind() == world::GoalKind::laps && s.planner.method == planner::Method::verified)
     throw InvalidValue(where + ": goal",
                        fmt::format("laps = {:.6g} by planner {}", s.goal.laps, s.planner.name),
-                       "planner P_L, or another of method along_road", {"goal.laps", "planner"});
+                       "planner P_L, or another of the methods along_road and receding_horizon",
+                       {"goal.laps", "planner"});
+  check_ahead(s, where);
 }
 
 /// A plan ends at the goal, within the region and off every obstacle that stands.

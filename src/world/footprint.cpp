@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace slalom::world {
 
@@ -55,6 +56,13 @@ double Footprint::distance(const Obstacle& obstacle, const State& state, double 
 double Footprint::edge_distance(const Road& road, const State& state) const {
   if (is_point()) return road.edge_distance(Point{state[vehicle::X], state[vehicle::Y]});
   return road.edge_distance(at(state));
+}
+
+double Footprint::outside(const Region& region, const State& state) const {
+  if (is_point()) return region.outside(state[vehicle::X], state[vehicle::Y]);
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Point& p : at(state)) most = std::max(most, region.outside(p.x, p.y));
+  return most;
 }
 
 }  // namespace slalom::world

@@ -213,14 +213,14 @@ void PlaceSearch::find_near(const Place& from) {
 }
 
 bool PlaceSearch::is_free(const Motion& at, double after) const {
-  if (!region_.contains(at.x, at.y)) return false;
-  if (body_reach_ == 0) return on_road(at.x, at.y) && is_clear(at.x, at.y, after);
+  if (body_reach_ == 0)
+    return region_.contains(at.x, at.y) && on_road(at.x, at.y) && is_clear(at.x, at.y, after);
   // The front wheels roll where the way leads; the body's axis is off that by their steering.
   double c = at.c, s = at.s;
   turn(c, s, -(vehicle_.la + vehicle_.lb) * at.kappa);
   return std::all_of(ahead_.begin(), ahead_.end(), [&](double ahead) {
     const double x = at.x + ahead * c, y = at.y + ahead * s;
-    return on_road(x, y) && is_clear(x, y, after);
+    return region_.contains(x, y) && on_road(x, y) && is_clear(x, y, after);
   });
 }
 

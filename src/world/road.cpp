@@ -158,7 +158,9 @@ Road::Foot Road::foot(Point p, std::size_t piece) const {
     const double square = dot(first, first), slope = square - dot(off, second);
     const double step = dot(off, first) / (slope > 0.05 * square ? slope : square);
     if (std::fabs(step) < 1e-11) break;
-    v += std::clamp(step, -2., 2.);
+    // Beyond an end the line is straight, and the step goes all the way.
+    const bool beyond = v != on && (v + step < 0 || v + step > one.h);
+    v += beyond ? step : std::clamp(step, -2., 2.);
   }
   const Segment& one = segments_[i];
   const double on = std::clamp(v, 0., one.h);

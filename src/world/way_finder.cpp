@@ -214,12 +214,24 @@ class WayFinder::Impl {
     }
   }
 
+  /// For the centres of the discs that cover the vehicle.
   Region region_for(const PlaceSearch::Place& start, const WaySearch& search) const {
     const auto x = static_cast<double>(start.x), y = static_cast<double>(start.y);
-    return {side_for(region_.x_min - goal_.x, x, search.inset, 1),
-            side_for(region_.x_max - goal_.x, x, search.inset, -1),
-            side_for(region_.y_min - goal_.y, y, search.inset, 1),
-            side_for(region_.y_max - goal_.y, y, search.inset, -1)};
+    const double c = std::cos(static_cast<double>(start.heading)),
+                 s = std::sin(static_cast<double>(start.heading));
+    const auto ahead = [&](double share_x, double share_y, bool least) {
+      double end = least ? 1e9 : -1e9;
+      for (const Disc& disc : body_) {
+        const double at = disc.ahead * (share_x * c + share_y * s);
+        end = least ? std::min(end, at) : std::max(end, at);
+      }
+      return end;
+    };
+    const double inset = search.inset + body_.front().radius;
+    return {side_for(region_.x_min - goal_.x, x + ahead(1, 0, true), inset, 1),
+            side_for(region_.x_max - goal_.x, x + ahead(1, 0, false), inset, -1),
+            side_for(region_.y_min - goal_.y, y + ahead(0, 1, true), inset, 1),
+            side_for(region_.y_max - goal_.y, y + ahead(0, 1, false), inset, -1)};
   }
 
   /// The obstacle as the search counts it.

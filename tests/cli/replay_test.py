@@ -106,6 +106,18 @@ class Replay(ProgramTest):
         self.assert_refused(run("replay", self.write("short.json", json.dumps(recorded))), 2,
                             "controls", "as t has")
 
+    def test_along_a_road(self):
+        for planner, scenario in (("P_D", "circuit"), ("P_E_road", "chicane"), ("P_L", "circuit")):
+            with self.subTest(planner=planner):
+                folder = self.folder / f"road-{planner}"
+                result = run("simulate", scenario, "--planner", planner, *FAST, "--record-failures", folder,
+                             "--record-slow", "0")
+                self.assertEqual(result.code, 0, result.err)
+                files = sorted(folder.glob("cycle-*.json"))
+                self.assertTrue(files)
+                for path in files:
+                    self.assertEqual(run("replay", path).code, 0, path)
+
     def test_bodies_that_turn(self):
         for planner in ("P_D", "P_E"):
             for prediction in ("known", "constant_velocity", "constant_turn"):

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace slalom::planner {
@@ -130,6 +131,33 @@ TEST_F(Scene, MayStandOnlyWhereNothingComesForGood) {
   task.planner.standing_horizon = 20;
   late.x = 0;
   EXPECT_TRUE(judge({late}).certificate.verified);
+}
+
+TEST_F(Scene, ABodyIsWithinTheRegionByItsCorners) {
+  task.region.x_max = 0.9;
+  EXPECT_TRUE(judge().certificate.verified);
+  task.vehicle.footprint = FootprintKind::rectangle;
+  EXPECT_NE(judge().certificate.refused.find("region"), std::string::npos);
+  task.region.x_max = task.vehicle.width / 2 + 0.01;
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+}
+
+TEST_F(Scene, StandsOnlyWhereItCreepsOnTheRoad) {
+  task.goal.y = 500;
+  drive(0.1);  // 6 m in the horizon of 60 s
+  const auto road_of = [](double right) {
+    return std::make_shared<world::Road>(
+        std::vector<world::RoadPoint>{{0, -100, right, 4}, {0, 100, right, 4}}, false,
+        std::vector<std::vector<world::Point>>{}, "road");
+  };
+  task.road = road_of(2);
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+  motion.states.back()[PSI] -= 0.4;  // it creeps to the right, 2.5 m in all
+  EXPECT_NE(judge().certificate.refused.find("creeping off the road"), std::string::npos)
+      << judge().certificate.refused;
+  EXPECT_GT(judge().certificate.refused_at, motion.end() + 30);
+  task.road = road_of(3);
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
 }
 
 }  // namespace

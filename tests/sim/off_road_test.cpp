@@ -138,6 +138,12 @@ TEST(OffRoad, StartGoalAndVehicleMustBeOnTheRoad) {
   off.vehicle.footprint = vehicle::FootprintKind::rectangle;
   EXPECT_NE(refusal(off).find("width"), std::string::npos);
   off = scenario;
+  off.goal.y = -15;
+  EXPECT_NE(refusal(off).find("15 m behind the start along the road"), std::string::npos)
+      << refusal(off);
+  off.planner.method = planner::Method::verified;
+  EXPECT_EQ(refusal(off), "");
+  off = scenario;
   off.goal = {};
   off.goal.laps = 1;
   EXPECT_NE(refusal(off).find("closed road"), std::string::npos);

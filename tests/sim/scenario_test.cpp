@@ -68,6 +68,12 @@ TEST(Scenario, StartOutsideItsBoundsIsRefused) {
   expect_refused([](Scenario& s) { s.start[vehicle::AX] = -6; }, "start: found ax = -6");
   expect_refused([](Scenario& s) { s.region.x_min = .5; }, "start: found x = 0");
   expect_refused([](Scenario& s) { s.region.y_max = -1; }, "start: found y = 0");
+  expect_refused(
+      [](Scenario& s) {
+        s.vehicle.footprint = vehicle::FootprintKind::rectangle;
+        s.region.x_min = -0.5;
+      },
+      "its footprint 0.5 m outside the region");
   expect_refused([](Scenario& s) { s.start[vehicle::V] = kNaN; }, "start: found v = nan");
   expect_refused([](Scenario& s) { s.loop.Fz_failure = 6500; }, "Fz_r");
 }

@@ -85,6 +85,23 @@ TEST(Footprint, ARectangleLiesAheadOfTheFrontAxleByTheOverhang) {
   EXPECT_EQ(Footprint(car).reach(), 0);
 }
 
+TEST(Footprint, IsOutsideARegionByItsFarthestCorner) {
+  const vehicle::Parameters car;
+  State state{};
+  state[vehicle::X] = 10;
+  Region region;
+  EXPECT_LT(body().outside(region, state), 0);
+  region.x_max = 10 + car.front_overhang + 0.1;
+  EXPECT_NEAR(body().outside(region, state), -0.1, 1e-12);
+  region.y_min = -car.width / 2 + 0.2;
+  EXPECT_NEAR(body().outside(region, state), 0.2, 1e-12);
+  EXPECT_NEAR(Footprint(car).outside(region, state),
+              std::max(region.y_min, -car.front_overhang - 0.1), 1e-12);
+  EXPECT_TRUE(region.contains(10, 0));
+  state[vehicle::PSI] = std::numbers::pi / 2;
+  EXPECT_NEAR(body().outside(region, state), car.length - car.front_overhang + region.y_min, 1e-9);
+}
+
 // Of a point: the exact distance to points of the edge.
 TEST(Footprint, DistancesAreThoseOfADenseSearch) {
   const auto car = body();

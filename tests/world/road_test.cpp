@@ -113,6 +113,12 @@ TEST(Road, GoesOnStraightBeyondItsEnds) {
   EXPECT_NEAR(road.project({31, -1}).s, 31, 1e-9);
   EXPECT_NEAR(road.at(31).x, 31, 1e-9);
   EXPECT_NEAR(road.edge_distance({31, -1}), 1, 1e-9);
+  for (const double far : {50., 500.})
+    for (const double x : {20 + far, -far}) {
+      EXPECT_NEAR(road.project({x, -1}).s, x, 1e-9);
+      EXPECT_NEAR(road.project({x, -1}).n, -1, 1e-9);
+      EXPECT_NEAR(road.edge_distance({x, -1}), 1, 1e-9);
+    }
 }
 
 TEST(Road, StaysOnItsBranchByAHint) {

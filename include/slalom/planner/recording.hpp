@@ -39,8 +39,8 @@ struct RecordedPlan {
   Rung rung = Rung::none;
   double t0 = 0;   ///< of the Request
   double tex = 0;  ///< between the loop's looks for arrival [s]
-  // What was asked of it: distance from obstacles' edges [m], wheel loads [N], and to stay within a
-  // disk outside which anything may stand [m].
+  // What was asked of it: distance from obstacles' edges and from the road's [m], wheel loads [N],
+  // and to stay within a disk outside which anything may stand [m].
   double clearance = 0, wheel_load = 0;
   double seen_x = 0, seen_y = 0, seen_radius = std::numeric_limits<double>::infinity();
   std::vector<world::Obstacle> obstacles;  ///< as believed
@@ -48,6 +48,7 @@ struct RecordedPlan {
   std::vector<vehicle::State> states;
   std::vector<vehicle::Control> controls;
   Certificate certificate;
+  double edge = 0;
 };
 
 /// Which solves or plans a planner records, and where to.

@@ -87,7 +87,8 @@ struct Settings {
   double L_range = 50, kappa = 5;     ///< LiDAR range and its relaxation [m]
   double sm_start = 2.5, sm_end = 4;  ///< safety margin at the first and last node [m]
 
-  double road_margin = 0.1;  ///< that a plan along a road keeps from its edges [m]
+  double road_margin = 0.1;   ///< that a plan along a road keeps from its edges [m]
+  double edge_clearance = 0;  ///< that any other plan keeps from them [m]
 
   // Tolerances of the slacked conditions.
   std::array<double, 8> X0_tol = {0.5, 0.5, 0.5, 0.005, 0.5, 0.025, 0.5, 0.5};
@@ -105,7 +106,6 @@ struct Settings {
   double verified_clearance = 2.15;  ///< from obstacles' edges, at all times [m]
   double verified_wheel_load = 400;  ///< [N]
   double kept_clearance = 2.05;      ///< by its rest, where belief was wrong [m]
-  double edge_clearance = 0.05;      ///< from the road's edges; its rest keeps 0 [m]
   double kept_wheel_load = 200;      ///< [N]
   double standing_horizon = 60;      ///< for which standing must be clear of obstacles [s]
   double arrival_margin = 0.3;       ///< of the OCP's obstacles beyond verified_clearance [m]

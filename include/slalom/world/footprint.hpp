@@ -5,6 +5,7 @@
 #include "slalom/vehicle/parameters.hpp"
 #include "slalom/vehicle/state.hpp"
 #include "slalom/world/obstacle.hpp"
+#include "slalom/world/region.hpp"
 #include "slalom/world/road.hpp"
 
 namespace slalom::world {
@@ -15,8 +16,8 @@ struct Disc {
   double ahead = 0, radius = 0;
 };
 
-/// What of a vehicle keeps off obstacles and on the road: the front axle's centre alone, or the
-/// rectangle of the vehicle's length and width (Parameters::footprint).
+/// What of a vehicle keeps off obstacles, on the road and in the region: the front axle's centre
+/// alone, or the rectangle of the vehicle's length and width (Parameters::footprint).
 class Footprint {
  public:
   explicit Footprint(const vehicle::Parameters& vehicle);
@@ -39,6 +40,8 @@ class Footprint {
   /// How far all of the footprint is from the road's nearer edge; negative where a part of it is
   /// off the road (Road::edge_distance).
   double edge_distance(const Road& road, const vehicle::State& state) const;
+  /// How far the part of it that is farthest out is outside a region [m]; at most 0 within.
+  double outside(const Region& region, const vehicle::State& state) const;
 
  private:
   std::vector<Point> corners_;
