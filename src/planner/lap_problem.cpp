@@ -1,6 +1,7 @@
 #include "lap_problem.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -17,6 +18,11 @@ constexpr double kShare = 0.6, kDriving = 0.8;
 constexpr double kStep = 2;
 /// A solve ends after so many iterations.
 constexpr int kIterations = 1500;
+
+/// Typical sizes of n [m], xi [rad], v [m/s], r [rad/s], sa [rad], ux [m/s] and ax [m/s^2] around a
+/// lap. What ocp::with_scales() makes of a horizon of kilometres is off by powers of ten, the
+/// objective's scale with it, and then a solve may not end.
+constexpr std::array<double, LineProblem::kLineStates> kSizes = {1, 0.1, 0.5, 0.5, 0.1, 10, 5};
 
 const world::Road& closed(const world::Road& road) {
   if (!road.closed()) throw InvalidValue("lap", "a road with two ends", "a closed one");
@@ -54,6 +60,8 @@ LapProblem::LapProblem(const world::Road& road, const vehicle::Parameters& vehic
                        const LapSettings& settings)
     : line_(closed(road), vehicle, road.length(), {settings.margin, 1, settings.w_control}) {
   auto& problem = line_.problem();
+  for (std::size_t i = 0; i < kSizes.size(); ++i)
+    problem.set_scale(line_.states()[i], kSizes[i]);
   for (const auto& state : line_.states())
     problem.boundary("closed " + state.name(), problem.final(state) - problem.initial(state),
                      ocp::Bounds::equal(0));
