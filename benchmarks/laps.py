@@ -232,6 +232,7 @@ def main():
     parser.add_argument("--minutes", type=float, default=math.inf, help="no further track is begun after so many")
     args = parser.parse_args()
     tracks = wanted_tracks(args)
+    args.work = args.work.resolve()
     args.work.mkdir(parents=True, exist_ok=True)
     if args.peers != []:
         from contestants import program
