@@ -1,5 +1,5 @@
-// The fastest lap of a scenario's road on one mesh, solved by ours, with all that another solver needs
-// to solve the same: numbers of road, vehicle, mesh and start. JSON into a file.
+// The fastest lap of a scenario's road on one mesh, solved by ours, with all that another solver
+// needs to solve the same: numbers of road, vehicle, mesh and start. JSON into a file.
 //
 //   bench_lap SCENARIO OUT.json [--vehicle NAME] [--intervals N | --interval 6] [--runs R] [--log]
 
@@ -56,9 +56,13 @@ json statement_of(const planner::LapProblem& lap, const planner::LapSettings& se
   };
   note(lap.problem().states());
   note(lap.problem().controls());
-  return {{"length", lap.line().length()}, {"intervals", solve.mesh.intervals()},
-          {"w_control", settings.w_control}, {"vehicle", numbers_of(vehicle)},
-          {"bounds", bounds}, {"road", lap.line().along(s)}, {"guess", points_of(guess)}};
+  return {{"length", lap.line().length()},
+          {"intervals", solve.mesh.intervals()},
+          {"w_control", settings.w_control},
+          {"vehicle", numbers_of(vehicle)},
+          {"bounds", bounds},
+          {"road", lap.line().along(s)},
+          {"guess", points_of(guess)}};
 }
 
 int run(const io::ScenarioRequest& request, const std::string& out, int intervals, double interval,

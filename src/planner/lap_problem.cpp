@@ -60,8 +60,7 @@ LapProblem::LapProblem(const world::Road& road, const vehicle::Parameters& vehic
                        const LapSettings& settings)
     : line_(closed(road), vehicle, road.length(), {settings.margin, 1, settings.w_control}) {
   auto& problem = line_.problem();
-  for (std::size_t i = 0; i < kSizes.size(); ++i)
-    problem.set_scale(line_.states()[i], kSizes[i]);
+  for (std::size_t i = 0; i < kSizes.size(); ++i) problem.set_scale(line_.states()[i], kSizes[i]);
   for (const auto& state : line_.states())
     problem.boundary("closed " + state.name(), problem.final(state) - problem.initial(state),
                      ocp::Bounds::equal(0));
