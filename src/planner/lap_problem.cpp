@@ -31,7 +31,8 @@ const world::Road& closed(const world::Road& road) {
 
 /// In the middle of the road, as fast as the profile allows.
 ocp::Trajectory lap_guess(const LineProblem& line, const SpeedProfile& profile) {
-  const auto count = static_cast<std::size_t>(std::ceil(line.length() / kStep));
+  const auto count =
+      std::max(static_cast<std::size_t>(std::ceil(line.length() / kStep)), std::size_t{1});
   const double step = line.length() / static_cast<double>(count);
   std::vector<double> speed;
   for (std::size_t k = 0; k < count; ++k)
