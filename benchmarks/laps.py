@@ -10,6 +10,7 @@ one is made from requirements.txt. Standard library only.
 """
 import json
 import math
+import os
 import pathlib
 import statistics
 import subprocess
@@ -81,6 +82,7 @@ def measured_row(args, track):
 
     def keep(**more):
         row.update(more)
+        row["loads"] = [*row.get("loads", []), os.getloadavg()[0]]
         write(kept, json.dumps(row))
 
     scenario = scenario_of(track, args.vehicle, args.work)
@@ -184,12 +186,19 @@ def counts(figures):
     return "\n".join(lines)
 
 
+def load_line(rows):
+    """How busy the machine was."""
+    loads = sorted(load for row in rows for load in row.get("loads", []))
+    return (f"Load of the machine meanwhile: {loads[0]:.1f} to {loads[-1]:.1f} on {os.cpu_count()} cores."
+            if loads else "")  # fmt: skip
+
+
 def page(rows, stamped, limit, casadi):
     figures = [figures_of(row) for row in rows]
     text = ["# Laps", "", stamped,
             "The fastest flying lap by `slalom lap` ([laps.md](../laps.md)), the same statement by CasADi with Ipopt, and",
             "two laps in closed loop by planner P_L, of which the second is the flying lap. `circuit` is built in; the",
-            "others are files of race tracks, given to `make laps TRACKS=folder`.", "", counts(figures), "",
+            "others are files of race tracks, given to `make laps TRACKS=folder`.", "", counts(figures), "", load_line(rows), "",
             "## The optimum", "",
             "Meshes of ever shorter intervals, each solved from the calm guess; solves by the clock, all meshes.", "",
             optima(figures)]  # fmt: skip
@@ -217,6 +226,13 @@ def wanted_tracks(args):
             sys.exit(f"'{name}': no such track; there are {', '.join(known)}")
     return [track for track in [BUILT_IN, *files]
             if not args.tracks or (track if track == BUILT_IN else track.stem) in args.tracks]  # fmt: skip
+
+
+def command_of(args):
+    """What makes this page: make's target, or the tool where it was told to leave something out."""
+    less = [f"--{name} {' '.join(values)}" for name in ("tracks", "peers") if (values := getattr(args, name)) is not None]
+    less += ["--no-drives"] * args.no_drives + [f"--minutes {args.minutes:g}"] * math.isfinite(args.minutes)
+    return " ".join(["benchmarks/laps.py FOLDER", *less]) if less else "make laps TRACKS=folder"
 
 
 def main():
@@ -249,7 +265,7 @@ def main():
         rows.append(measured_row(args, track))
         print(json.dumps({k: v for k, v in figures_of(rows[-1]).items() if k not in ("ours", "casadi")}), flush=True)
     casadi = next((r["peer"]["casadi"]["casadi"] for r in rows if (r.get("peer") or {}).get("casadi")), "")
-    write(args.out, page(rows, stamp("make laps TRACKS=folder", args.program), args.limit, casadi))
+    write(args.out, page(rows, stamp(command_of(args), args.program), args.limit, casadi))
 
 
 if __name__ == "__main__":

@@ -35,6 +35,13 @@ class Page(unittest.TestCase):
         self.assertIn("same lap time to 0.0001: 1; ours at least 5 times faster: 1 (from × 6.0 to × 6.0)", text)
         self.assertIn("1 of 1 flying laps within 3%", text)
 
+    def test_it_says_how_busy_the_machine_was_and_what_was_left_out(self):
+        self.assertIn("Load of the machine meanwhile: 0.5 to 7.2 on", self.page(measured(loads=[7.2, 0.5])))
+        args = type("Args", (), {"tracks": None, "peers": ["ring", "circuit"], "no_drives": False, "minutes": math.inf})
+        self.assertEqual(laps.command_of(args), "benchmarks/laps.py FOLDER --peers ring circuit")
+        args.peers = None
+        self.assertEqual(laps.command_of(args), "make laps TRACKS=folder")
+
     def test_it_says_what_falls_short(self):
         row = measured()
         row["peer"]["casadi"] |= {"cpu_s": [1.0], "time_s": 61.0}

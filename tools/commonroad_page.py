@@ -10,6 +10,7 @@ build/commonroad/. What was driven before, in --work, is not driven again. Stand
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -52,6 +53,8 @@ def driven(args, xml):
             return {"name": name, "refused": message}
     if not summary.exists():
         output_of(args.program, "simulate", scenario, "--out", folder, "--force", "--quiet")
+        if folder.exists():
+            (folder / "load").write_text(f"{os.getloadavg()[0]:.1f}")
     if not solution.exists():
         _, _, message = output_of(args.python, "-m", "slalom.exporting", "commonroad", folder, "--scenario", xml,
                                   "--force")  # fmt: skip
@@ -59,7 +62,9 @@ def driven(args, xml):
         _, table, message = output_of(args.judge, CHECKER, xml, solution)
         if name in table:
             verdict.write_text(table)
-    return {"name": name, "notes": notes_of(scenario), "summary": json.loads(summary.read_text()) if summary.exists() else {},
+    load = folder / "load"
+    return {"name": name, "notes": notes_of(scenario), "load": float(load.read_text()) if load.exists() else None,
+             "summary": json.loads(summary.read_text()) if summary.exists() else {},
             "verdict": verdict_of(name, verdict.read_text()) if verdict.exists() else {"message": message}}  # fmt: skip
 
 
@@ -120,13 +125,20 @@ def counts(rows):
             "reach it.")  # fmt: skip
 
 
+def load_line(rows):
+    """How busy the machine was: planning time is thread time, but caches and cores are shared."""
+    loads = sorted(row["load"] for row in rows if row.get("load") is not None)
+    return (f"Load of the machine meanwhile: {loads[0]:.1f} to {loads[-1]:.1f} on {os.cpu_count()} cores."
+            if loads else "")  # fmt: skip
+
+
 def page(rows, stamped):
     left = [[row["name"], brief(row["notes"])] for row in rows if "refused" not in row]
     return "\n".join([
         "# CommonRoad scenarios", "", stamped,
         "Scenarios given to `make commonroad FILES=folder`, imported ([import.md](../import.md)) and driven in closed loop by",
         "the planner that the import names. Distances are the program's own: of the body to the nearest obstacle, and to",
-        "the road's edge, at all times.", "", counts(rows), "",
+        "the road's edge, at all times.", "", counts(rows), "", load_line(rows), "",
         *drives(rows), "",
         "## The independent checker", "",
         "`tools/commonroad_check.py` judges the drives, exported as CommonRoad solutions ([export.md](../export.md)), from the",

@@ -19,7 +19,7 @@ def checked(name, collision="no", off="no", reached="3.10 s"):
 
 
 def row(name, **cells):
-    return {"name": name, "notes": NOTES, "verdict": tool.verdict_of(name, checked(name, **cells)),
+    return {"name": name, "notes": NOTES, "load": 3.5, "verdict": tool.verdict_of(name, checked(name, **cells)),
             "summary": {"outcome": "goal", "time_s": 3.1, "least_clearance_m": 0.41, "least_edge_distance_m": 0.1,
                         "cpu_time_max_s": 0.08}}  # fmt: skip
 
@@ -29,6 +29,7 @@ class Page(unittest.TestCase):
         text = tool.page([row("A_1")], "A stamp.\n")
         self.assertIn("| A_1 | goal | 3.10 | 0.41 | 0.10 | 0.080 |", text)
         self.assertIn("| A_1 | no | no | 0.42 | 3.10 s | – | both |", text)
+        self.assertIn("Load of the machine meanwhile: 3.5 to 3.5 on", text)
         self.assertIn("| A_1 | traffic signs (2); car8: left out |", text)
         self.assertIn("Imported: 1 of 1. Drives that ended at the goal: 1. By the checker: 1 of 1 touch nothing", text)
         self.assertIn("of 1 with a goal 1 reach it", text)
