@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel wheel-elsewhere package docs sweep-scale format clean build
+.PHONY: help run quick test fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel wheel-elsewhere package docs sweep-scale laps commonroad format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -172,6 +172,18 @@ belief-errors: ## P_E with plant and sensors not as believed, 10,000 drives, int
 fuzz: ## feed what reads files, answers, options and requests with millions of inputs, for SECONDS=600
 	tools/setup.sh fuzz
 	tools/fuzz.py --seconds $(or $(SECONDS),600) --jobs $(JOBS)
+
+laps: ## laps of the tracks in TRACKS=folder beside CasADi's and in closed loop, into docs/measured/laps.md (takes an hour)
+	@test -n "$(TRACKS)" || { echo "laps: TRACKS=folder of race tracks as CSV files is wanted (docs/import.md)"; exit 2; }
+	tools/setup.sh bench
+	$(MAKE) --no-print-directory build
+	python3 benchmarks/laps.py "$(TRACKS)" --program build/slalom
+
+commonroad: ## the CommonRoad scenarios in FILES=folder driven and judged, into docs/measured/commonroad.md (takes minutes)
+	@test -n "$(FILES)" || { echo "commonroad: FILES=folder of CommonRoad's XML files is wanted (docs/import.md)"; exit 2; }
+	tools/setup.sh results
+	$(MAKE) --no-print-directory build wheel
+	python3 tools/commonroad_page.py "$(FILES)" --program build/slalom
 
 format: ## format the C++ sources
 	tools/format.sh

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "obstacle_view.hpp"
 #include "slalom/io/scenario_file.hpp"
 
 namespace slalom::bench {
@@ -12,7 +13,10 @@ namespace slalom::bench {
 using namespace vehicle;
 
 Form::Form(const sim::Scenario& scenario, bool goal_in_range)
-    : problem(scenario, scenario.obstacles, goal_in_range),
+    : problem(scenario,
+              planner::covered(scenario.planner, world::Footprint(scenario.vehicle),
+                               scenario.obstacles),
+              goal_in_range),
       transcription(
           [&]() -> const ocp::Problem& {
             problem.update({});

@@ -3,7 +3,8 @@
 with, and what tools that write one share. Standard library only.
 
     tools/measured.py --check      says which pages are older than what they measure; a warning, no error
-    tools/measured.py --targets    make's targets of all pages, in the order of `make docs-measured`
+    tools/measured.py --targets    make's targets of all pages, in the order of `make docs-measured`; of those that
+                                   need files from elsewhere, where TRACKS or FILES names their folder
 """
 
 import argparse
@@ -24,6 +25,7 @@ class Page(NamedTuple):
     name: str  # of the file, without .md
     target: str  # make's
     measures: tuple  # paths; a commit that changes one makes the page stale
+    needs: str = ""  # make's variable that names a folder of files which are not in the repository
 
 
 def modules(names):
@@ -52,11 +54,13 @@ PAGES = (
     Page("paper-sweep", "paper-sweep", DRIVE + PAPER + ("config/studies",)),
     Page("sensitivity", "sensitivity", DRIVE),
     Page("long-solves", "long-solves", PLANNER),
+    Page("commonroad", "commonroad", DRIVE + ("python/slalom/importing", "python/slalom/exporting"), "FILES"),
     Page("solver-profile", "solver-profile", PLANNER),
     Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),
     Page("perturbed", "perturbed", PLANNER),
     Page("peers", "peers", SOLVER + ("python/src", "benchmarks/ocp")),
     Page("any-scenario", "any-scenario", DRIVE + modules("sweep")),
+    Page("laps", "laps", DRIVE, "TRACKS"),
     Page("belief-errors", "belief-errors", DRIVE + modules("sweep")),
     Page("benchmarks", "bench", PLANNER),
 )
@@ -140,8 +144,14 @@ def check(root=ROOT):
     shallow = output_of("git", "-C", root, "rev-parse", "--is-shallow-repository")
     if shallow != "false":
         return ["measured: no history here to compare the pages with"]
-    lines = [f"{page.name}.md {why} (make {page.target})" for page in PAGES if (why := stale(page, root))]
+    lines = [f"{page.name}.md {why} (make {page.target}{f' {page.needs}=folder' if page.needs else ''})"
+             for page in PAGES if (why := stale(page, root))]  # fmt: skip
     return [f"measured: {len(PAGES) - len(lines)} of {len(PAGES)} pages are up to date", *lines]
+
+
+def targets(given):
+    """Make's targets, once each, but those whose folder of files is not given."""
+    return list(dict.fromkeys(page.target for page in PAGES if not page.needs or given.get(page.needs)))
 
 
 # --- what tools share ---------------------------------------------------------------------------
@@ -182,7 +192,7 @@ def main():
     if parser.parse_args().check:
         print("\n".join(check()))
     else:
-        print(" ".join(dict.fromkeys(page.target for page in PAGES)))
+        print(" ".join(targets(os.environ)))
 
 
 if __name__ == "__main__":

@@ -22,6 +22,11 @@ class Table(unittest.TestCase):
             for path in page.measures:
                 self.assertTrue((measured.ROOT / path).exists(), path)
 
+    def test_pages_of_files_from_elsewhere_are_made_where_their_folder_is_given(self):
+        self.assertFalse({"laps", "commonroad"} & set(measured.targets({"TRACKS": ""})))
+        self.assertEqual({"laps", "commonroad"} & set(measured.targets({"TRACKS": "tracks"})), {"laps"})
+        self.assertIn("results", measured.targets({}))
+
     def test_it_has_every_page(self):
         known = {page.name for page in measured.PAGES}
         self.assertEqual({file.stem for file in measured.FOLDER.glob("*.md")} - known, set())

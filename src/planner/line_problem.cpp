@@ -9,6 +9,7 @@
 
 #include "in_terms_of.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/expr/function.hpp"
 #include "slalom/expr/spline.hpp"
 #include "slalom/vehicle/agility.hpp"
 #include "slalom/vehicle/model.hpp"
@@ -159,6 +160,14 @@ void LineProblem::add_edges() {
     const Expr room = left ? width - offset : width + offset;
     add_limit(std::string("edge at ") + names[k], room);
   }
+}
+
+std::vector<std::array<double, 5>> LineProblem::along(const std::vector<double>& s) const {
+  const expr::Function road({}, {start_, problem_.time()},
+                            {kappa_, left_[0], left_[1], right_[0], right_[1]});
+  std::vector<std::array<double, 5>> list(s.size());
+  for (std::size_t k = 0; k < s.size(); ++k) road({}, std::array{0., s[k]}, list[k]);
+  return list;
 }
 
 LineProblem::LineState LineProblem::cornering(double s, double speed, double acceleration) const {

@@ -53,6 +53,10 @@ class LineProblem {
   const std::array<ocp::Expr, kLineStates>& states() const { return x_; }
   const ocp::Expr& start() const { return start_; }
 
+  /// What the road is at places along the line [m]: its curvature [1/m], then the width to the left
+  /// less the margin [m], its slope along the line, and the same to the right.
+  std::vector<std::array<double, 5>> along(const std::vector<double>& s) const;
+
   /// Steady cornering along the line at s [m], without slip of the rear axle: at a speed [m/s] and
   /// an acceleration [m/s^2].
   LineState cornering(double s, double speed, double acceleration) const;

@@ -16,6 +16,8 @@ using namespace vehicle;
 constexpr double kKnot = 0.05;
 /// Beside the body to the road's edge [m].
 constexpr double kSpare = 0.3;
+/// The same of a vehicle that moves over at once, and the way of so many seconds that it takes.
+constexpr double kTightSpare = 0.1, kQuickTime = 0.15;
 /// The vehicle turns into the road's direction within a way of so many seconds at its speed, and so
 /// many metres at the least; it is off that by this at the most [rad].
 constexpr double kTurnTime = 0.5, kTurnLength = 5, kMostOff = 0.6;
@@ -37,30 +39,35 @@ class Offset {
   double wanted_, off_, rate_, length_;
 };
 
-double wanted_offset(double now, const world::RoadPlace& at, const Parameters& vehicle) {
+double wanted_offset(double now, const world::RoadPlace& at, const Parameters& vehicle,
+                     double aside) {
   const bool point = vehicle.footprint == FootprintKind::point;
-  const double half = (point ? 0 : vehicle.width / 2) + kSpare;
+  const double half = (point ? 0 : vehicle.width / 2) + (aside == 0 ? kSpare : kTightSpare);
   const double right = half - at.right, left = at.left - half;
-  return right < left ? std::clamp(now, right, left) : (at.left - at.right) / 2;
+  if (!(right < left)) return (at.left - at.right) / 2;
+  const double here = std::clamp(now, right, left);
+  return here + (aside < 0 ? here - right : left - here) * aside;
 }
 
 }  // namespace
 
 Motion road_reference(const world::Road& road, const State& X0, double t0, double duration,
-                      double deceleration, const Parameters& vehicle) {
-  return road_reference(road, road.project({X0[X], X0[Y]}), X0, t0, duration, deceleration,
-                        vehicle);
+                      double deceleration, const Parameters& vehicle, double aside) {
+  return road_reference(road, road.project({X0[X], X0[Y]}), X0, t0, duration, deceleration, vehicle,
+                        aside);
 }
 
 Motion road_reference(const world::Road& road, const world::OnRoad& on, const State& X0, double t0,
-                      double duration, double deceleration, const Parameters& vehicle) {
+                      double duration, double deceleration, const Parameters& vehicle,
+                      double aside) {
   double v = std::max(X0[UX], kCreep), s = on.s, way = 0;
   const double heading = X0[PSI] + std::atan2(X0[V] + vehicle.la * X0[R], v);
   world::RoadPlace at = road.at(s);
   const double off = std::remainder(heading - at.psi, 2 * std::numbers::pi);
-  const Offset offset(on.n, wanted_offset(on.n, at, vehicle),
-                      std::tan(std::clamp(off, -kMostOff, kMostOff)),
-                      std::max(kTurnLength, kTurnTime * v));
+  const double length =
+      aside == 0 ? std::max(kTurnLength, kTurnTime * v) : std::max(kTurnLength / 2, kQuickTime * v);
+  const Offset offset(on.n, wanted_offset(on.n, at, vehicle, aside),
+                      std::tan(std::clamp(off, -kMostOff, kMostOff)), length);
   world::Way points;
   // Headings go on from that of the start, without jumps of whole turns.
   double last = heading;

@@ -160,9 +160,8 @@ bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal, const Course& co
   cycle.looked_at.push_back({option.proposal.name, option.cost, certificate});
   if (good)
     cycle.good.push_back(std::move(option));
-  else if (option.motion().size() > 1 &&
-           (!cycle.least_bad || certificate.refused_at > cycle.least_bad->certificate().refused_at))
-    cycle.least_bad = std::move(option);
+  else if (option.motion().size() > 1)
+    offer_refused(cycle, std::move(option));
   return good;
 }
 
@@ -200,7 +199,7 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
     if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
   cycle.looked_at.push_back({"rest", cycle.rest->cost, rest.verdict.certificate});
-  if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) cycle.least_bad = cycle.rest;
+  if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) offer_refused(cycle, *cycle.rest);
 }
 
 /// The last plan from where it is to go on; it is tracked where the state is another, and lasts at

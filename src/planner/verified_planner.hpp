@@ -23,7 +23,7 @@ namespace slalom::planner {
 /// each cycle the rest of the last plan comes first, driven anew by the plant from the state
 /// predicted; then, as long as time is left, what Proposals finds, which may take several cycles;
 /// and where nothing leads to the goal, stops. What is driven is the cheapest that is verified,
-/// else the rest, else the motion whose first violation is the latest.
+/// else the rest, else the motion that does harm last, and whose first violation is the latest.
 class VerifiedPlanner final : public PlanningMethod {
  public:
   explicit VerifiedPlanner(const Task& task);
@@ -38,7 +38,8 @@ class VerifiedPlanner final : public PlanningMethod {
   struct Option {
     Proposal proposal;
     double cost = 0;
-    Course course;  ///< whose beginning it drives
+    Course course;                                          ///< whose beginning it drives
+    double harm = std::numeric_limits<double>::infinity();  ///< see harm_of() [s]
 
     const Motion& motion() const { return proposal.motion; }
     const Certificate& certificate() const { return proposal.verdict.certificate; }
@@ -58,7 +59,7 @@ class VerifiedPlanner final : public PlanningMethod {
     std::optional<Option> rest{};       ///< of the last plan, good or not
     bool rest_unchanged = false;        ///< it is that plan's own motion among the same obstacles
     std::vector<Option> good{};         ///< new ones
-    std::optional<Option> least_bad{};  ///< of those refused, the one that goes on longest
+    std::optional<Option> least_bad{};  ///< of those refused, see offer_refused()
     std::vector<Candidate> looked_at{};
     std::optional<double> course_arrival{};  ///< of a course that is good as far as is seen [s]
     int iterations = 0;
@@ -122,9 +123,12 @@ class VerifiedPlanner final : public PlanningMethod {
   void ask(Cycle& cycle);
   void adopt(Cycle& cycle, const Proposal& proposal);
   void stop(Cycle& cycle);
+  void stop_aside(Cycle& cycle);
   Motion settled(Motion motion, double until) const;
   bool consider(Cycle& cycle, Proposal proposal, const Course& course = {});
   Proposal judged(const Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
+  double harm_of(const Cycle& cycle, const Motion& motion);
+  void offer_refused(Cycle& cycle, Option option);
   void follow_course(Cycle& cycle);
   void follow(Cycle& cycle, const Proposal& proposal);
   bool stop_late(Cycle& cycle, const Proposal& proposal);

@@ -1,8 +1,10 @@
-// The stops that a cycle considers when nothing leads to the goal.
+// The stops that a cycle considers when nothing leads to the goal, and what it drives where none is
+// good.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "references.hpp"
@@ -20,6 +22,9 @@ constexpr std::array kStops = {3.4, 2.0, 1.0};
 /// A late stop begins so long before it would have to by its braking alone [s], or half-way there.
 constexpr double kEarlier = 1;
 constexpr std::array kLate = {1., 0.5};
+/// Where the vehicle moves over on the road while it brakes as hard as it can: shares of the room
+/// to the right edge (-) and to the left one.
+constexpr std::array kAside = {-1., 1., -0.5, 0.5};
 
 }  // namespace
 
@@ -128,6 +133,39 @@ void VerifiedPlanner::stop(Cycle& cycle) {
   for (const Stop& stop : stops)
     for (const double deceleration : kStops)
       if (stop_along(cycle, stop, can * deceleration, {})) return;
+  if (task_.road) stop_aside(cycle);
+}
+
+/// Moves over on the road and brakes hard: where something cuts in, there may be room beside it and
+/// none before it.
+void VerifiedPlanner::stop_aside(Cycle& cycle) {
+  const State& X0p = cycle.request.X0p;
+  const double deceleration = kStops[0] * agility(task_.vehicle).braking;
+  for (const double aside : kAside) {
+    const Stop stop{aside < 0 ? "stop to the right" : "stop to the left",
+                    {},
+                    road_reference(*task_.road, X0p, cycle.t_start(), X0p[UX] / deceleration + 1, 0,
+                                   task_.vehicle, aside)};
+    if (stop_along(cycle, stop, deceleration, {})) return;
+  }
+}
+
+/// When a motion that is refused does harm: its body touches an obstacle or leaves the road. Never,
+/// where the footprint is a point: what it keeps stands for the body then.
+double VerifiedPlanner::harm_of(const Cycle& cycle, const Motion& motion) {
+  if (task_.vehicle.footprint == FootprintKind::point)
+    return std::numeric_limits<double>::infinity();
+  const Need bare{0, std::numeric_limits<double>::lowest()};
+  const auto certificate = verifier_.judge(motion, cycle.obstacles, bare, cycle.tex()).certificate;
+  return certificate.verified ? std::numeric_limits<double>::infinity() : certificate.refused_at;
+}
+
+/// Of those refused, the one that does harm last, and of those the one that goes on longest.
+void VerifiedPlanner::offer_refused(Cycle& cycle, Option option) {
+  option.harm = harm_of(cycle, option.motion());
+  const auto& known = cycle.least_bad;
+  const auto when = [](const Option& o) { return std::pair(o.harm, o.certificate().refused_at); };
+  if (!known || when(option) > when(*known)) cycle.least_bad = std::move(option);
 }
 
 }  // namespace slalom::planner

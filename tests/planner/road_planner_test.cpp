@@ -103,13 +103,17 @@ TEST(RoadPlanner, AStopKeepsToTheRoad) {
   EXPECT_GE(least_edge_distance(task, plan), task.planner.edge_clearance);
 }
 
+std::shared_ptr<const world::Road> straight_road() {
+  return std::make_shared<world::Road>(
+      std::vector<world::RoadPoint>{{-50, 0, 4, 4}, {50, 0, 4, 4}, {200, 0, 4, 4}}, false,
+      std::vector<std::vector<world::Point>>{}, "straight");
+}
+
 /// The plant's motion straight on from x = 0 at an offset to the right of the line, on a straight
 /// road of width 2 * 4 m.
 Verdict judged(double offset, double edge) {
   Task task = on_bend();
-  task.road = std::make_shared<world::Road>(
-      std::vector<world::RoadPoint>{{-50, 0, 4, 4}, {50, 0, 4, 4}, {200, 0, 4, 4}}, false,
-      std::vector<std::vector<world::Point>>{}, "straight");
+  task.road = straight_road();
   task.goal = {};
   task.goal.s = 100;
   task.goal = world::placed(task.goal, task.road.get());
@@ -133,6 +137,45 @@ TEST(RoadPlanner, ACentimetreOffTheRoadIsRefusedAndACentimetreOnItIsNot) {
   EXPECT_FALSE(off.certificate.verified);
   EXPECT_NE(off.certificate.refused.find("off the road"), std::string::npos);
   EXPECT_FALSE(judged(4 - half - 0.04, 0.05).certificate.verified);
+}
+
+TEST(RoadPlanner, AReferenceMovesOverByAShareOfTheRoom) {
+  const Task task = on_bend();
+  const auto road = straight_road();
+  const State X0 = {0, 0.5, 0, 0, 0, 0, 12, 0};
+  const double room = 4 - task.vehicle.width / 2 - 0.1;
+  const auto end = [&](double aside) {
+    return road_reference(*road, X0, 0, 3, 3, task.vehicle, aside).states.back()[Y];
+  };
+  EXPECT_NEAR(end(0), 0.5, 1e-9);
+  EXPECT_NEAR(end(-1), -room, 0.02);
+  EXPECT_NEAR(end(1), room, 0.02);
+  EXPECT_NEAR(end(-0.5), (0.5 - room) / 2, 0.02);
+}
+
+/// Where every motion is refused at once, for a neighbour that is too near, the one that touches
+/// nothing is driven: beside what stands in the lane, which no stop along it avoids.
+TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
+  Task task = on_bend();
+  task.road = straight_road();
+  task.goal = {};
+  task.goal.s = 150;
+  task.goal = world::placed(task.goal, task.road.get());
+  task.planner.search_places = 1;
+  task.vehicle.sr_max_deg = 25;
+  const Request request = first();
+  const double t = request.t_start, beside = task.vehicle.width / 2 + 0.1 + 1;
+  task.obstacles = {{"neighbour", -2 - 12 * t, beside - 0.5 * t, 1, 1, 12, 0.5},
+                    {"stands", 18, 1.2, 1, 1, 0, 0}};
+  const Plan plan = Planner(task).plan(request);
+  EXPECT_EQ(plan.rung, Rung::least_bad);
+  EXPECT_FALSE(plan.certificate.verified);
+  const world::Footprint footprint(task.vehicle);
+  for (std::size_t k = 0; k < plan.t.size(); ++k) {
+    EXPECT_GT(footprint.edge_distance(*task.road, plan.states[k]), 0) << plan.t[k];
+    for (const auto& o : task.obstacles)
+      EXPECT_GT(footprint.distance(o, plan.states[k], t + plan.t[k]), 0) << o.name << plan.t[k];
+  }
 }
 
 TEST(RoadPlanner, ACornerCutByACentimetreIsRefused) {
