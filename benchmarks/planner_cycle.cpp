@@ -45,8 +45,10 @@ Form& PlannerCycle::form(bool in_range) {
 
 void PlannerCycle::start(const planner::Request& request, const Last* last, nlp::Start& start) {
   const bool in_range = goal_in_range(request.X0p);
+  planner::WayAhead way;  // there is no road
+  way.in_range = in_range;
   start.x = form(in_range).transcription.point(
-      guess_(request, in_range, last != nullptr ? &last->plan : nullptr));
+      guess_(request, way, last != nullptr ? &last->plan : nullptr));
   const bool same = last != nullptr && last->plan.in_range == in_range;
   for (auto part : {&nlp::Start::y, &nlp::Start::zl, &nlp::Start::zu})
     same ? (void)(start.*part = last->multipliers.*part) : (start.*part).clear();
