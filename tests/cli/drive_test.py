@@ -36,7 +36,7 @@ class Laps(ProgramTest):
 
     def test_what_has_no_laps_is_refused(self):
         self.assertIn("a scenario without a road", run("lap", "E_C").err)
-        self.assertIn("planner P_L", run("check", "circuit", "--planner", "P_D").err)
+        self.assertIn("planner P_L", run("check", "circuit", "--planner", "P_E").err)
         self.assertIn("planner P_L without a road", run("check", "E_C", "--planner", "P_L").err)
 
 
