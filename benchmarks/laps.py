@@ -264,6 +264,7 @@ def main():
             break
         rows.append(measured_row(args, track))
         print(json.dumps({k: v for k, v in figures_of(rows[-1]).items() if k not in ("ours", "casadi")}), flush=True)
+    rows[-1]["loads"] = [*rows[-1].get("loads", []), os.getloadavg()[2]]  # of the last quarter of an hour
     casadi = next((r["peer"]["casadi"]["casadi"] for r in rows if (r.get("peer") or {}).get("casadi")), "")
     write(args.out, page(rows, stamp(command_of(args), args.program), args.limit, casadi))
 

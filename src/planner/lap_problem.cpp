@@ -32,7 +32,7 @@ const world::Road& closed(const world::Road& road) {
 /// In the middle of the road, as fast as the profile allows.
 ocp::Trajectory lap_guess(const LineProblem& line, const SpeedProfile& profile) {
   const auto count =
-      std::max(static_cast<std::size_t>(std::ceil(line.length() / kStep)), std::size_t{1});
+      std::max(static_cast<std::size_t>(std::ceil(line.length() / kStep)), std::size_t{2});
   const double step = line.length() / static_cast<double>(count);
   std::vector<double> speed;
   for (std::size_t k = 0; k < count; ++k)
@@ -45,7 +45,8 @@ ocp::Trajectory lap_guess(const LineProblem& line, const SpeedProfile& profile) 
   ocp::Trajectory guess;
   guess.tf = line.length();
   for (std::size_t k = 0; k <= count; ++k) {
-    const double v = speed[k % count], next = speed[(k + 1) % count];
+    const std::size_t here = k < count ? k : 0, after = here + 1 < count ? here + 1 : 0;
+    const double v = speed[here], next = speed[after];
     const auto x =
         line.cornering(step * static_cast<double>(k), v, (next * next - v * v) / (2 * step));
     guess.tau.push_back(static_cast<double>(k) / static_cast<double>(count));
