@@ -100,7 +100,15 @@ bool PlaceSearch::meets_conditions(const Place& place) const {
   const double off = std::remainder(static_cast<double>(place.heading) - goal_.psi, turn);
   return std::fabs(off) <= kWithin * goal_.psi_tolerance &&
          within(static_cast<double>(place.v), goal_.ux_min, goal_.ux_max) &&
-         within(t_start_ + place.moves * p_.dt, goal_.t_min, goal_.t_max);
+         in_time(t_start_ + place.moves * p_.dt);
+}
+
+/// Within the goal's window, or where that is narrower than a move, at the move's end that is
+/// nearest to its middle: what follows the way comes at a time of its own.
+bool PlaceSearch::in_time(double t) const {
+  const double width = goal_.t_max - goal_.t_min;
+  const double by = std::isinf(width) ? 0 : std::min((1 - kWithin) * width, width - p_.dt) / 2;
+  return t >= goal_.t_min + by && t <= goal_.t_max - by;
 }
 
 bool PlaceSearch::arrived(const Place& place) const {

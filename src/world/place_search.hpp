@@ -72,6 +72,7 @@ class PlaceSearch {
   bool is_clear(double x, double y, double after) const;
   bool arrived(const Place& place) const;
   bool meets_conditions(const Place& place) const;
+  bool in_time(double t) const;
   bool on_road(double x, double y) const;
   double way_left(double x, double y) const;
   void place_start(const Place& start);

@@ -146,6 +146,18 @@ TEST(WayFinder, LooksNoLongerAheadThanItIsToldTo) {
   EXPECT_EQ(f.looked_at(), 0) << "135 m take longer at 28 m/s";
 }
 
+/// Whatever the time it starts at: its moves end .4 s apart.
+TEST(WayFinder, ComesInAWindowNarrowerThanAMove) {
+  World w = northwards();
+  for (const double window : {8.03, 8.13, 8.23, 8.33}) {
+    w.environment.goal.t_min = window - 0.05;
+    w.environment.goal.t_max = window + 0.05;
+    const auto way = w.find();
+    ASSERT_TRUE(way) << window;
+    EXPECT_NEAR(way->back().t, window, 0.2 + 1e-9);
+  }
+}
+
 TEST(WayFinder, TurnsAround) {
   auto w = northwards(80);
   w.start = state(0, 0, -kPi / 2, 4);
