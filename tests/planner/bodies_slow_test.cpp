@@ -23,7 +23,7 @@ Obstacle with(Obstacle o, Polygon outline) {
   return o;
 }
 
-/// A street 13 m wide eastwards.
+/// A street 15 m wide eastwards.
 Task street() {
   Task task;
   task.planner.method = Method::verified;
@@ -31,7 +31,7 @@ Task street() {
   task.planner.kept_clearance = 0.25;
   task.vehicle.footprint = FootprintKind::rectangle;
   task.goal = {.x = 140, .y = 0, .psi = 0, .sigma = 8};
-  task.region = {-20, 170, -6.5, 6.5};
+  task.region = {-20, 170, -7.5, 7.5};
   const auto car = Polygon::rectangle(4.5, 1.8);
   task.obstacles = {
       with({.name = "parked", .x = 35, .y = -2.5, .psi = 0.3}, car),
