@@ -14,6 +14,8 @@ from ._road import Road
 
 PLACES_ALONG = 16
 """Of how many places along the road a rectangle may begin or end."""
+SHORTEST = 0.2
+"""Least side of a rectangle [m]."""
 HEADING = 0.2
 """[rad]"""
 FARTHEST_ACROSS = 10.0
@@ -69,7 +71,15 @@ def rectangle(goal: Wanted, road: Road | None, psi: float) -> tuple[dict[str, fl
         return _named(position, _direction(goal, psi)), False
     if road is None:
         return _box(goal.area, psi), True
-    return _inscribed(goal.area.intersection(road.polygon()), road), True
+    area = goal.area.intersection(road.polygon())
+    own = [_direction(goal, psi)]
+    if hasattr(position, "rect_center"):
+        own.append(_named(position, own[0])["psi"])
+    chords = _chords(area, road) + [chord for each in own for chord in _chords_in(area, each)]
+    interval = _interval(getattr(goal.state, "orientation", None))
+    agreeing = [chord for chord in chords if interval is None or _within(interval, _psi(chord))]
+    box = _inscribed(area, agreeing)
+    return (box if box["length"] and len(agreeing) < len(chords) else _inscribed(area, chords)), True
 
 
 def heading(goal: Wanted, box: dict[str, float], notes: list[str]) -> dict[str, float]:
@@ -138,14 +148,23 @@ def _box(area: Any, psi: float) -> dict[str, float]:
     return {"x": point.x, "y": point.y, "psi": psi, "length": length, "width": width}
 
 
-def _inscribed(area: Any, road: Road) -> dict[str, float]:
-    """The largest rectangle, along a chord of the road, that the area holds."""
+def _psi(chord: tuple[Array, Array]) -> float:
+    return float(np.arctan2(*(chord[1] - chord[0])[::-1]))
+
+
+def _within(interval: tuple[float, float], psi: float) -> bool:
+    off = float(np.angle(np.exp(1j * (psi - (interval[0] + interval[1]) / 2))))
+    return abs(off) < (interval[1] - interval[0]) / 2
+
+
+def _inscribed(area: Any, chords: list[tuple[Array, Array]]) -> dict[str, float]:
+    """The largest rectangle along one of the chords that the area holds."""
     best = {"x": 0.0, "y": 0.0, "psi": 0.0, "length": 0.0, "width": 0.0}
     inside = area.buffer(0.02)
     shapely.prepare(inside)
-    for a, b in _chords(area, road):
+    for a, b in chords:
         length = float(np.hypot(*(b - a)))
-        psi, (x, y) = float(np.arctan2(*(b - a)[::-1])), (a + b) / 2
+        psi, (x, y) = _psi((a, b)), (a + b) / 2
         least, most = best["length"] * best["width"] / length, 2 * FARTHEST_ACROSS
         if not inside.covers(_corners(x, y, psi, length, least + 0.01)):
             continue
@@ -159,6 +178,7 @@ def _inscribed(area: Any, road: Road) -> dict[str, float]:
 
 def _chords(area: Any, road: Road) -> list[tuple[Array, Array]]:
     """Pairs of places along the road, both as far beside its line, between which the area lies."""
+    road = road.near(area)
     psi = np.unwrap(np.arctan2(*np.gradient(road.line, axis=0).T[::-1]))
     normal = np.column_stack([-np.sin(psi), np.cos(psi)])
     s = lengths(road.line)
@@ -169,7 +189,24 @@ def _chords(area: Any, road: Road) -> list[tuple[Array, Array]]:
         if len(held) < 2:
             continue
         grid = np.unique(held[np.linspace(0, len(held) - 1, PLACES_ALONG).round().astype(int)])
-        chords += [(beside[i], beside[j]) for k, i in enumerate(grid) for j in grid[k + 1 :] if s[j] - s[i] > 0.5]
+        chords += [(beside[i], beside[j]) for k, i in enumerate(grid) for j in grid[k + 1 :] if s[j] - s[i] > SHORTEST]
+    return chords
+
+
+def _chords_in(area: Any, psi: float) -> list[tuple[Array, Array]]:
+    """Pairs of places in one direction between which the area lies: the longest on each of some parallel lines."""
+    if area.is_empty:
+        return []
+    along, across = np.array([np.cos(psi), np.sin(psi)]), np.array([-np.sin(psi), np.cos(psi)])
+    middle, size = np.array([area.centroid.x, area.centroid.y]), float(np.hypot(*np.subtract(area.bounds[2:], area.bounds[:2])))
+    chords = []
+    for beside in np.linspace(-size / 2, size / 2, 2 * PLACES_ALONG + 1):
+        line = shapely.LineString([middle + beside * across - size * along, middle + beside * across + size * along])
+        parts = line.intersection(area)
+        for part in getattr(parts, "geoms", [parts]):
+            if part.geom_type == "LineString" and part.length > SHORTEST:
+                a, b = np.asarray(part.coords)[[0, -1]]
+                chords.append((a, b) if (b - a) @ along > 0 else (b, a))
     return chords
 
 
