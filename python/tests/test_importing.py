@@ -124,6 +124,12 @@ def test_a_recorded_drive_of_the_vehicle_is_no_obstacle(tmp_path, version):
                              scenes.state("state", 1, 21.3, 0.1, 0.1))
     scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=itself)))
     assert not any(o["name"] == "car15" for o in scene.obstacles) and any("car15: left out" in n for n in scene.notes)
+    beside = itself.replace("<x>20.1</x>", "<x>21.5</x>").replace("<x>21.3</x>", "<x>22.7</x>")  # told of another point of it
+    scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=beside)))
+    assert any("car15: left out" in n for n in scene.notes)
+    ahead = itself.replace("<x>20.1</x>", "<x>23.9</x>").replace("<x>21.3</x>", "<x>25.1</x>")  # a bumper in its own
+    scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=ahead)))
+    assert any(o["name"] == "car15" for o in scene.obstacles)
     later = itself.replace("<exact>0</exact></time>", "<exact>5</exact></time>").replace("<exact>1</exact></time>", "<exact>6</exact></time>")
     scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=later)))
     assert [row[0] for o in scene.obstacles if o["name"] == "car15" for row in o["table"]] == pytest.approx([0.5, 0.6])

@@ -115,3 +115,16 @@ def test_long_lines_are_smoothed_by_their_bands():
     assert smoothed(points, 12) == pytest.approx(np.linalg.solve(ends + weight * third.T @ third, ends @ points), abs=1e-8)
     long = np.column_stack([np.arange(20_000.0), np.zeros(20_000)])
     assert smoothed(long, 12) == pytest.approx(long, abs=1e-3)
+
+
+def test_of_lanes_over_each_other_the_straight_one_is_taken(tmp_path):
+    """Two lanes begin at the same place, of which one turns off; the vehicle has just come onto both."""
+    a = np.linspace(0, np.pi / 2, 12)
+    bend = [[(20 + (20 - k) * np.sin(t), 20 - (20 - k) * np.cos(t)) for t in a] for k in (2, -2)]
+    left_off = scenes.lanelet(1, bend[0], bend[1])
+    lanes = left_off + scenes.straight(2, 20, 160, 0)
+    for psi, ahead in ((0.02, True), (0.0, True)):
+        scene = scene_of(tmp_path, lanes=lanes, start=start(x=22.5, y=0.1, psi=psi), goal="", parked=(150, 0))
+        assert (scene.points[-1][0] > 80) == ahead
+    middle = start(x=20 + 20 * np.sin(0.6), y=20 - 20 * np.cos(0.6), psi=0.6)
+    assert scene_of(tmp_path, lanes=lanes, start=middle, goal="", parked=(150, 0)).points[-1][0] < 45

@@ -29,6 +29,8 @@ AT_THE_END = 2.0
 """How far the body stays from the end of the lanes [m]."""
 TURNED_AWAY = 10.0
 """What it costs to start in a lane of another direction [m/rad]."""
+TURNS = 2.0
+"""The same of a lane's turn ahead, where several lie under a vehicle without a goal of place."""
 
 
 def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, oncoming: str) -> Scene:
@@ -243,9 +245,15 @@ def _as_far_as_possible(
         way.notes.append("road: the start lies on no lanelet; there is none")
         return {"time": time}, None
     _must_start_on_a_lane(way)
-    first = min(way.starts, key=lambda lane: way.starts[lane])
+    first = min(way.starts, key=lambda lane: way.starts[lane] + TURNS * _turn_ahead(way.lanes[lane], way.place))
     ahead = _reached(way.speed, time) + BEYOND
     return {"time": time}, way.road([way.lanes[first]], ahead, None)
+
+
+def _turn_ahead(lane: Lane, place: Array) -> float:
+    """By how much a lane turns beyond a place on it [rad]."""
+    psi, last = (project(lane.middle, each)[2] for each in (place, lane.middle[-1]))
+    return abs(float(np.angle(np.exp(1j * (last - psi)))))
 
 
 def _reached(speed: float, time: float) -> float:
