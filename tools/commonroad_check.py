@@ -31,12 +31,18 @@ HEAD = (
 
 
 def shape_of(occupancy):
-    """The shapely geometry of an occupancy, of commonroad-io before and from 2026 on."""
+    """The shapely geometry of an occupancy, of commonroad-io before and from 2026 on. Both have circles of half the
+    radius in shapely."""
+    from shapely.geometry import Point
     from shapely.ops import unary_union
 
     shape = getattr(occupancy, "shape", occupancy)
-    parts = getattr(shape, "shapes", None)
-    return unary_union([part.shapely_object for part in parts]) if parts else shape.shapely_object
+    parts = getattr(shape, "shapes", None) or getattr(shape, "occupancies", None)
+    if parts:
+        return unary_union([shape_of(part) for part in parts])
+    if getattr(shape, "radius", None):
+        return Point(getattr(shape, "circle_center", None) or shape.center).buffer(shape.radius)
+    return shape.shapely_object
 
 
 def rectangle(state, length, width):

@@ -128,3 +128,25 @@ def test_of_lanes_over_each_other_the_straight_one_is_taken(tmp_path):
         assert (scene.points[-1][0] > 80) == ahead
     middle = start(x=20 + 20 * np.sin(0.6), y=20 - 20 * np.cos(0.6), psi=0.6)
     assert scene_of(tmp_path, lanes=lanes, start=middle, goal="", parked=(150, 0)).points[-1][0] < 45
+
+
+def test_a_vehicle_whose_middle_is_just_beside_its_lanelet(tmp_path):
+    scene = scene_of(tmp_path, start=start(y=-2.6))
+    assert scene.points[-1][0] > 190 and any("wider about the start" in note for note in scene.notes)
+    with pytest.raises(importing.BadFile, match="off the road: 2.0 m from lanelet 1"):
+        scene_of(tmp_path, start=start(y=-4.0))
+
+
+def test_circles_have_their_radius(tmp_path):
+    """As a goal, where something may be, and before the judge."""
+    circle = "<circle><radius>1.5</radius><center><x>{}</x><y>{}</y></center></circle>"
+    goal = ("<goalState><position>" + circle.format(150, 4) + "</position>"
+            "<time><intervalStart>50</intervalStart><intervalEnd>100</intervalEnd></time></goalState>")
+    more = ('<dynamicObstacle id="14"><type>car</type><shape>' + scenes.box(2, 2) + "</shape>" + scenes.state("initialState", 0, 91, 1)
+            + "<occupancySet><occupancy><shape>" + circle.format(95, 1) + "</shape><time><exact>1</exact></time></occupancy></occupancySet>"
+            + "</dynamicObstacle>")
+    scene = scene_of(tmp_path, goal=goal, more=more)
+    # A circle of half the radius holds no rectangle that long and wide.
+    assert scene.goal["length"] > 1.5 and scene.goal["length"] * scene.goal["width"] > 1.5**2 / 2
+    last = [o for o in scene.obstacles if o["name"].startswith("car14")][-1]
+    assert np.abs(np.array(last["polygon"])[:, 0]).max() == pytest.approx(1.5, abs=0.05)

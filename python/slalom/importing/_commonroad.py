@@ -11,7 +11,7 @@ import shapely
 
 from . import _goal
 from ._files import BadFile
-from ._lanes import Lane, Lanes, at_place, extended, lanes_of, shortest, without_changes
+from ._lanes import Lane, Lanes, at_place, near_place, extended, lanes_of, shortest, without_changes
 from ._line import Array, at, lengths, project, without_doubles
 from ._obstacles import Clock, obstacles_of
 from ._road import Road, holding, joined, road_along
@@ -29,6 +29,8 @@ AT_THE_END = 2.0
 """How far the body stays from the end of the lanes [m]."""
 TURNED_AWAY = 10.0
 """What it costs to start in a lane of another direction [m/rad]."""
+BESIDE_IT = 10.0
+"""What it costs to start in a lane that is beside the vehicle's middle, for each metre."""
 TURNS = 2.0
 """The same of a lane's turn ahead, where several lie under a vehicle without a goal of place."""
 
@@ -115,8 +117,16 @@ class _Way:
         self.place = place_of(state)
         self.psi = exact("its heading", getattr(state, "orientation", 0.0), [])
         self.speed = exact("its speed", getattr(state, "velocity", 0.0), [])
-        self.starts = {
-            lane: TURNED_AWAY * off for lane, off in at_place(lanes, self.place, self.psi).items() if off < np.pi / 2
+        self.starts = self._starts()
+
+    def _starts(self) -> dict[int, float]:
+        """Lanes that the vehicle may be on, with what it costs to begin there [m]: those under its middle, or
+        under its body where they agree more with its direction."""
+        near = near_place(self.lanes, self.place, self.psi, self.car.width)
+        return {
+            lane: TURNED_AWAY * off + BESIDE_IT * away
+            for lane, (off, away) in near.items()
+            if off < np.pi / 2 and (away < 0.01 or self.lanes[lane].for_cars())
         }
 
     def goals(self, wanted: _goal.Wanted) -> dict[int, float]:

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 from ._line import Array, lengths
-from ._obstacles import Clock
+from ._obstacles import Clock, area_of
 from ._road import Road
 
 PLACES_ALONG = 16
@@ -37,7 +37,7 @@ def wanted(problem: Any) -> list[Wanted]:
     lanelets = problem.goal.lanelets_of_goal_position or {}
     for k, state in enumerate(problem.goal.state_list):
         position = getattr(state, "position", None)
-        area = None if position is None else shapely.make_valid(position.shapely_object)
+        area = None if position is None else shapely.make_valid(area_of(position))
         goals.append(Wanted(state, area, tuple(lanelets.get(k, ()))))
     return goals
 

@@ -66,7 +66,16 @@ def _is_the_vehicle(obstacle: Any, clock: Clock, place: Array, psi: float) -> bo
 
 
 def _body(obstacle: Any) -> Any:
-    return obstacle.occupancy_at_time(obstacle.initial_state.time_step).shapely_object
+    return area_of(obstacle.occupancy_at_time(obstacle.initial_state.time_step))
+
+
+def area_of(occupancy: Any) -> Any:
+    """What an occupancy or a goal's place covers. Of a circle, commonroad-io 2026.1 gives one of half the radius."""
+    parts = getattr(occupancy, "occupancies", None)
+    if parts is not None:
+        return shapely.union_all([area_of(part) for part in parts])
+    radius = getattr(occupancy, "radius", None)
+    return occupancy.shapely_object if radius is None else occupancy.circle_center.buffer(radius)
 
 
 def _standing(obstacle: Any, notes: list[str]) -> list[dict[str, Any]]:
@@ -192,7 +201,7 @@ def _ends(time_step: Any) -> tuple[float, float]:
 
 
 def _hull(occupancy: Any) -> Any:
-    return occupancy.shapely_object.convex_hull.simplify(0.02)
+    return area_of(occupancy).convex_hull.simplify(0.02)
 
 
 def _polygon(hull: Any) -> dict[str, Any]:
