@@ -96,8 +96,17 @@ def test_a_goal_at_the_end_of_the_map(tmp_path):
 def test_a_goal_partly_beside_the_road_keeps_its_heading(tmp_path):
     goal = scenes.GOAL.replace("<orientation>0<", "<orientation>0.4<").replace("-0.2<", "0.3<").replace(">0.3</intervalEnd>", ">0.5</intervalEnd>")
     scene = scene_of(tmp_path, goal=goal.replace("<length>10<", "<length>12<"))
-    assert scene.goal["psi"] == pytest.approx(0.4, abs=0.05) and scene.goal["psi_tolerance"] > 0.05
+    assert scene.goal["psi"] == pytest.approx(0.4, abs=0.06) and scene.goal["psi_tolerance"] > 0.04
     assert scene.goal["length"] > 2
+
+
+def test_a_lanelet_whose_direction_is_just_beside_the_heading(tmp_path):
+    """Of the headings that the goal has, that which is nearest to the lane's: along it, not across."""
+    goal = ('<goalState><position><lanelet ref="4"/></position><orientation><intervalStart>0.002</intervalStart>'
+            "<intervalEnd>3.14</intervalEnd></orientation><time><intervalStart>50</intervalStart><intervalEnd>100</intervalEnd></time></goalState>")
+    scene = scene_of(tmp_path, goal=goal)
+    assert 0.05 < scene.goal["psi"] < 0.2 and scene.goal["psi_tolerance"] == pytest.approx(scene.goal["psi"] - 0.002, abs=0.01)
+    assert scene.goal["length"] > 2 * scene.goal["width"] > 1
 
 
 def test_intersections_that_the_reader_refuses(tmp_path):

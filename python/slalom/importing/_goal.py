@@ -16,6 +16,8 @@ PLACES_ALONG = 16
 """Of how many places along the road a rectangle may begin or end."""
 SHORTEST = 0.2
 """Least side of a rectangle [m]."""
+WELL_WITHIN = 0.1
+"""How far from the ends of a goal's heading a direction is to be [rad]."""
 HEADING = 0.2
 """[rad]"""
 FARTHEST_ACROSS = 10.0
@@ -76,8 +78,7 @@ def rectangle(goal: Wanted, road: Road | None, psi: float) -> tuple[dict[str, fl
     if hasattr(position, "rect_center"):
         own.append(_named(position, own[0])["psi"])
     chords = _chords(area, road) + [chord for each in own for chord in _chords_in(area, each)]
-    interval = _interval(getattr(goal.state, "orientation", None))
-    agreeing = [chord for chord in chords if interval is None or _within(interval, _psi(chord))]
+    agreeing = [chord for chord in chords if abs(_direction(goal, _psi(chord)) - _psi(chord)) % (2 * np.pi) < 1e-6]
     box = _inscribed(area, agreeing)
     return (box if box["length"] and len(agreeing) < len(chords) else _inscribed(area, chords)), True
 
@@ -112,8 +113,14 @@ def ahead(box: dict[str, float], distance: float) -> dict[str, float]:
 
 
 def _direction(goal: Wanted, psi: float) -> float:
+    """`psi`, or what is nearest to it well within the heading that the goal has."""
     interval = _interval(getattr(goal.state, "orientation", None))
-    return (interval[0] + interval[1]) / 2 if interval else psi
+    if interval is None:
+        return psi
+    middle, half = (interval[0] + interval[1]) / 2, (interval[1] - interval[0]) / 2
+    off = float(np.angle(np.exp(1j * (psi - middle))))
+    within = half - min(half / 2, WELL_WITHIN)
+    return psi + float(np.clip(off, -within, within)) - off
 
 
 def _named(position: Any, psi: float) -> dict[str, float]:
@@ -150,11 +157,6 @@ def _box(area: Any, psi: float) -> dict[str, float]:
 
 def _psi(chord: tuple[Array, Array]) -> float:
     return float(np.arctan2(*(chord[1] - chord[0])[::-1]))
-
-
-def _within(interval: tuple[float, float], psi: float) -> bool:
-    off = float(np.angle(np.exp(1j * (psi - (interval[0] + interval[1]) / 2))))
-    return abs(off) < (interval[1] - interval[0]) / 2
 
 
 def _inscribed(area: Any, chords: list[tuple[Array, Array]]) -> dict[str, float]:
@@ -206,7 +208,9 @@ def _chords_in(area: Any, psi: float) -> list[tuple[Array, Array]]:
         for part in getattr(parts, "geoms", [parts]):
             if part.geom_type == "LineString" and part.length > SHORTEST:
                 a, b = np.asarray(part.coords)[[0, -1]]
-                chords.append((a, b) if (b - a) @ along > 0 else (b, a))
+                half = along * part.length / 2
+                # The whole of one that ends at slanting sides is in no rectangle.
+                chords += [((a + b) / 2 - share * half, (a + b) / 2 + share * half) for share in (1, 0.75, 0.5, 0.25)]
     return chords
 
 
