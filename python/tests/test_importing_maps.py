@@ -115,6 +115,16 @@ def test_intersections_that_the_reader_refuses(tmp_path):
     assert {f"right of way of intersection {k}: left out" for k in (301, 302)} <= set(scene.notes)
 
 
+def test_headers_that_the_reader_refuses(tmp_path):
+    text = scenes.commonroad()
+    for found, put in (("<scenarioTags><urban/></scenarioTags>", ""), ("<gpsLatitude>999</gpsLatitude>", "<gpsLatitude/>")):
+        assert found in text
+        (tmp_path / "map.xml").write_text(text.replace(found, put))
+        assert len(importing.commonroad(tmp_path / "map.xml").obstacles) == 3
+    (tmp_path / "map.xml").write_text(scenes.commonroad("2018b").replace(' tags="urban"', ""))
+    assert len(importing.commonroad(tmp_path / "map.xml").obstacles) == 3
+
+
 def test_long_lines_are_smoothed_by_their_bands():
     from slalom.importing._line import smoothed
 

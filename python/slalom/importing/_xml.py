@@ -62,7 +62,7 @@ def open_file(file: str | os.PathLike[str]) -> tuple[Any, Any, list[str]]:
             scenario, problems = CommonRoadFileReader(os.fspath(file)).open()
         except Exception as error:  # its messages are of all kinds
             try:
-                scenario, problems = _without_signs(root)
+                scenario, problems = _bare(root)
                 unread = [f"{SIGNS[each.tag]} {each.get('id')}: left out" for each in root if SIGNS.get(each.tag)]
             except Exception:
                 found = f"what commonroad-io cannot read ({type(error).__name__}: {error})"
@@ -71,9 +71,9 @@ def open_file(file: str | os.PathLike[str]) -> tuple[Any, Any, list[str]]:
     return scenario, problems, unread
 
 
-def _without_signs(root: Any) -> tuple[Any, Any]:
+def _bare(root: Any) -> tuple[Any, Any]:
     """The same of what a vehicle drives on and among alone: many a file has signs, lights and intersections that
-    commonroad-io refuses, such as incomings of several intersections with one id."""
+    commonroad-io refuses, such as incomings of several intersections with one id, or no location and tags."""
     import copy
     import tempfile
 
@@ -81,8 +81,11 @@ def _without_signs(root: Any) -> tuple[Any, Any]:
     from lxml import etree
 
     plain = copy.deepcopy(root)
-    for element in [each for each in plain.iter() if each.tag in SIGNS]:
+    for element in [each for each in plain.iter() if each.tag in SIGNS or each.tag in ("location", "scenarioTags")]:
         element.getparent().remove(element)
+    plain.insert(0, etree.Element("scenarioTags"))
+    for name in ("author", "affiliation", "source", "tags", "date"):
+        plain.set(name, plain.get(name) or "")
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "plain.xml")
         etree.ElementTree(plain).write(file)
