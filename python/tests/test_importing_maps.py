@@ -40,6 +40,19 @@ def test_a_vehicle_that_begins_partly_beside_its_lanelets(tmp_path):
     assert not any("wider" in note for note in scene_of(tmp_path, start=start()).notes)
 
 
+def test_a_vehicle_that_turns_into_its_lane(tmp_path):
+    """It begins across its lane, and comes beside it, on that of the other way, before it can be along it."""
+    lanes = scenes.straight(1, 0, 200, 0, '<adjacentLeft ref="5" drivingDir="opposite"/>') + scenes.straight(
+        5, 0, 200, 4, '<adjacentLeft ref="1" drivingDir="opposite"/>', backwards=True)
+    across = {"start": start(y=0.5, psi=0.3, speed=8), "goal": scenes.GOAL.replace("<y>4</y>", "<y>0</y>"), "parked": (150, 20)}
+    scene = scene_of(tmp_path, lanes=lanes, **across)
+    x, right, left = edges(scene)
+    assert 2.3 < left[(x > 22) & (x < 26)].max() < 4 and left[x > 80] == pytest.approx(2, abs=0.01) and right.min() > -2.01
+    assert any("wider about the start" in note for note in scene.notes)
+    alone = scene_of(tmp_path, lanes=lanes.split('<lanelet id="5"')[0].replace('<adjacentLeft ref="5" drivingDir="opposite"/>', ""), **across)
+    assert edges(alone)[2].max() < 2.3  # no lanelet to turn on
+
+
 def test_a_start_beyond_the_vehicle(tmp_path):
     scene = scene_of(tmp_path, start=start(more=scenes.exact("acceleration", 30)))
     assert 0 < scene.start["ax"] < 11.5

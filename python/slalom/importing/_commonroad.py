@@ -16,7 +16,7 @@ from ._line import Array, at, lengths, project, without_doubles
 from ._obstacles import Clock, obstacles_of
 from ._road import Road, holding, joined, road_along
 from ._scene import Scene, Vehicle
-from ._start import body_at, exact, place_of, start_of
+from ._start import exact, place_of, start_of, turning_in
 from ._xml import open_file
 
 ACCELERATION = 4.0
@@ -56,9 +56,11 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
         notes.append(f"road: lanes of the other way beside it are added, since {blocked[0]}")
         blocked = _in_the_way(road, obstacles, car)
     if road:
-        road, added = holding(road, body_at(start, car))
+        road, added = holding(road, _bodies_to_hold(lanes, turning_in(start, car, road.line)))
         if added:
-            way.notes.append(f"road: {added:.2f} m wider about the start, where the vehicle is partly beside its lanelets")
+            way.notes.append(
+                f"road: {added:.2f} m wider about the start, where the vehicle is partly beside its lanes"
+            )
     limits = _within_the_map(road, goal, start, car, way) if road else {}
     notes += way.notes + [f"road: {each}" for each in blocked]
     t_max = goal.get("time", goal.get("t_max"))
@@ -106,6 +108,13 @@ def _left_out(scenario: Any, problems: dict[int, Any], chosen: int) -> list[str]
     if lines:
         notes.append(f"stop lines of lanelets {', '.join(lines)}: left out")
     return notes
+
+
+def _bodies_to_hold(lanes: Lanes, bodies: list[Any]) -> list[Any]:
+    """Of the vehicle's bodies the first, and the others that are on lanelets: elsewhere there is no road to turn on."""
+    near = [lane.polygon.buffer(0.05) for lane in lanes.values() if any(map(lane.polygon.intersects, bodies))]
+    area = shapely.union_all(near)
+    return bodies[:1] + [body for body in bodies[1:] if area.covers(body)]
 
 
 class _Way:
@@ -206,9 +215,12 @@ def _goal_and_road(
     found = [(answer, k) for k, lanes in enumerate(reached) if (answer := shortest(way.lanes, way.starts, lanes))]
     if not found:
         to = sorted({lane for lanes in reached for lane in lanes})
+        if not to:
+            middle = placed[0].area.representative_point()
+            raise _off_the_road(way, "goal", middle.x, middle.y)
         raise BadFile(
             way.file,
-            f"no way from lanelet {_some(way.starts)} to the goal on {'lanelet ' + _some(to) if to else 'no lanelet'}",
+            f"no way from lanelet {_some(way.starts)} to the goal on lanelet {_some(to)}",
             "one over successors and lanes beside each other",
         )
     (_, lanes), k = min(found, key=lambda each: each[0][0])
@@ -278,11 +290,15 @@ def _must_start_on_a_lane(way: _Way) -> None:
     here = at_place(way.lanes, way.place, way.psi)
     if here:
         raise BadFile(way.file, f"a start at ({x:g}, {y:g}) that faces against lanelet {_some(here)}", "one along it")
-    near = min(way.lanes.values(), key=lambda lane: lane.polygon.distance(shapely.Point(x, y)))
-    raise BadFile(
+    raise _off_the_road(way, "start", x, y)
+
+
+def _off_the_road(way: _Way, what: str, x: float, y: float) -> BadFile:
+    point = shapely.Point(x, y)
+    near = min(way.lanes.values(), key=lambda lane: lane.polygon.distance(point))
+    return BadFile(
         way.file,
-        f"a start at ({x:g}, {y:g}), off the road: {near.polygon.distance(shapely.Point(x, y)):.1f} m from "
-        f"lanelet {near.id}",
+        f"a {what} at ({x:g}, {y:g}), off the road: {near.polygon.distance(point):.1f} m from lanelet {near.id}",
         "one on a lanelet",
     )
 

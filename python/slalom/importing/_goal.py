@@ -200,7 +200,8 @@ def _chords_in(area: Any, psi: float) -> list[tuple[Array, Array]]:
     if area.is_empty:
         return []
     along, across = np.array([np.cos(psi), np.sin(psi)]), np.array([-np.sin(psi), np.cos(psi)])
-    middle, size = np.array([area.centroid.x, area.centroid.y]), float(np.hypot(*np.subtract(area.bounds[2:], area.bounds[:2])))
+    middle = np.array([area.centroid.x, area.centroid.y])
+    size = float(np.hypot(*np.subtract(area.bounds[2:], area.bounds[:2])))
     chords = []
     for beside in np.linspace(-size / 2, size / 2, 2 * PLACES_ALONG + 1):
         line = shapely.LineString([middle + beside * across - size * along, middle + beside * across + size * along])

@@ -62,7 +62,7 @@ class Road:
         if len(held) < 2:
             return self
         along = lengths(self.line)[held[[0, -1]]]
-        s = np.linspace(*along, int(min(max((along[1] - along[0]) / 0.25, 4), 4000)) + 1)
+        s = np.linspace(along[0], along[1], int(min(max((along[1] - along[0]) / 0.25, 4), 4000)) + 1)
         whole = lengths(self.line)
         return replace(
             self, line=at(self.line, s), right=np.interp(s, whole, self.right), left=np.interp(s, whole, self.left)
@@ -109,7 +109,8 @@ def road_along(lanes: Lanes, way: list[Lane], line: Array, oncoming: bool) -> Ro
     around, and change no faster than STEEPEST.
     """
     rows = [neighbours(lanes, lane, oncoming) for lane in way]
-    parts = [lane.polygon for row in rows for lane in row] + [each for pair in zip(rows, rows[1:]) for each in _joints(*pair)]
+    parts = [lane.polygon for row in rows for lane in row]
+    parts += [joint for row, following in zip(rows, rows[1:]) for joint in _joints(row, following)]
     area = shapely.union_all([part.buffer(0.05, join_style="mitre") for part in parts])
     area = area.buffer(-0.05, join_style="mitre")
     line = _line_inside(line, area)
@@ -127,12 +128,12 @@ def _joints(row: list[Lane], following: list[Lane]) -> list[Any]:
     return [hull for four in ends if (hull := shapely.MultiPoint(four).convex_hull).area > 1e-3]
 
 
-def holding(road: Road, body: Any) -> tuple[Road, float]:
-    """The road, as much wider as it must be to hold a body that stands partly beside it, and by how much [m].
+def holding(road: Road, bodies: list[Any]) -> tuple[Road, float]:
+    """The road, as much wider as it must be to hold bodies that are partly beside it, and by how much [m].
 
     Widths change by RETURNING from there on, for the vehicle to come back, and stay within a bend's radius.
     """
-    corners = np.asarray(body.exterior.segmentize(FINE_STEP).coords)
+    corners = np.vstack([body.exterior.segmentize(FINE_STEP).coords for body in bodies])
     places = np.array([project(road.line, corner)[:2] for corner in corners])
     away = np.abs(lengths(road.line)[:, None] - places[None, :, 0])
     slope = RETURNING * np.maximum(away - POINT_STEP, 0)
@@ -173,7 +174,8 @@ def joined(lanes: Lanes, way: list[Lane]) -> Array:
                 middle = np.vstack([middle, way[k].middle])
             middle = without_doubles(middle)
             ahead = min(after, max(wanted / 2, wanted - back), lengths(middle)[-1] / 2)
-            points, middle = _up_to(points, lengths(points)[-1] - back), _up_to(middle[::-1], lengths(middle)[-1] - ahead)[::-1]
+            points = _up_to(points, lengths(points)[-1] - back)
+            middle = _up_to(middle[::-1], lengths(middle)[-1] - ahead)[::-1]
         points = np.vstack([points, middle])
         k += 1
     return without_doubles(points)
