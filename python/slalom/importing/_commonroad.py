@@ -56,7 +56,7 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
         notes.append(f"road: lanes of the other way beside it are added, since {blocked[0]}")
         blocked = _in_the_way(road, obstacles, car)
     if road:
-        road, added = holding(road, _bodies_to_hold(lanes, turning_in(start, car, road.line)))
+        road, added = _holding_the_start(road, lanes, turning_in(start, car, road.line))
         if added:
             way.notes.append(
                 f"road: {added:.2f} m wider about the start, where the vehicle is partly beside its lanes"
@@ -110,11 +110,16 @@ def _left_out(scenario: Any, problems: dict[int, Any], chosen: int) -> list[str]
     return notes
 
 
-def _bodies_to_hold(lanes: Lanes, bodies: list[Any]) -> list[Any]:
-    """Of the vehicle's bodies the first, and the others that are on lanelets: elsewhere there is no road to turn on."""
+def _holding_the_start(road: Road, lanes: Lanes, bodies: list[Any]) -> tuple[Road, float]:
+    """The road so wide that it holds the vehicle's body at the start, and on lanelets those with which it turns in."""
+    road, added = holding(road, bodies[:1])
     near = [lane.polygon.buffer(0.05) for lane in lanes.values() if any(map(lane.polygon.intersects, bodies))]
-    area = shapely.union_all(near)
-    return bodies[:1] + [body for body in bodies[1:] if area.covers(body)]
+    area = shapely.union_all(near).buffer(-0.05)
+    turning = [body for body in bodies[1:] if area.buffer(0.1).covers(body)]
+    if not turning:
+        return road, added
+    road, more = holding(road, turning, area)
+    return road, max(added, more)
 
 
 class _Way:

@@ -128,8 +128,9 @@ def _joints(row: list[Lane], following: list[Lane]) -> list[Any]:
     return [hull for four in ends if (hull := shapely.MultiPoint(four).convex_hull).area > 1e-3]
 
 
-def holding(road: Road, bodies: list[Any]) -> tuple[Road, float]:
-    """The road, as much wider as it must be to hold bodies that are partly beside it, and by how much [m].
+def holding(road: Road, bodies: list[Any], area: Any = None) -> tuple[Road, float]:
+    """The road, as much wider as it must be to hold bodies that are partly beside it, and by how much [m]; where an
+    area is given, no wider than that.
 
     Widths change by RETURNING from there on, for the vehicle to come back, and stay within a bend's radius.
     """
@@ -137,9 +138,12 @@ def holding(road: Road, bodies: list[Any]) -> tuple[Road, float]:
     places = np.array([project(road.line, corner)[:2] for corner in corners])
     away = np.abs(lengths(road.line)[:, None] - places[None, :, 0])
     slope = RETURNING * np.maximum(away - POINT_STEP, 0)
-    bend, widths, most = curvature(road.line), [], 0.0
+    psi, bend, widths, most = headings(road.line), curvature(road.line), [], 0.0
+    normal = np.column_stack([-np.sin(psi), np.cos(psi)])
     for width, side, inwards in ((road.right, -1, -bend), (road.left, 1, bend)):
         needed = np.max(side * places[None, :, 1] + BESIDE - slope, axis=1)
+        if area is not None:
+            needed = np.minimum(needed, ray_lengths(road.line, side * normal, _edges(area)))
         with np.errstate(divide="ignore"):
             needed = np.where(inwards > 1e-6, np.minimum(needed, NEAR_RADIUS / inwards), needed)
         most = max(most, float(np.max(needed - width)))
@@ -218,7 +222,7 @@ def _room_to_change(lanes: Lanes, way: list[Lane], k: int) -> tuple[float, float
 def _widths(line: Array, area: Any) -> tuple[Array, Array]:
     psi, bend = headings(line), curvature(line)
     normal = np.column_stack([-np.sin(psi), np.cos(psi)])
-    edges = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in _rings(area)])
+    edges = _edges(area)
     inside = shapely.contains_xy(area.buffer(-0.05), line)
     inner = np.flatnonzero(inside)
     widths = []
@@ -231,6 +235,10 @@ def _widths(line: Array, area: Any) -> tuple[Array, Array]:
             width = np.where(inwards > 1e-6, np.minimum(width, CURVE_SHARE / inwards), width)
         widths.append(_narrowed(width, lengths(line)))
     return widths[0], widths[1]
+
+
+def _edges(area: Any) -> Array:
+    return np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in _rings(area)])
 
 
 def _rings(area: Any) -> list[Array]:
