@@ -254,7 +254,7 @@ def _goal_keys(
         raise BadFile(way.file, "a goal off the road", "one that lies on it")
     if less:
         way.notes.append(f"goal: a rectangle of {box['length']:.1f} m by {box['width']:.1f} m in it, on the road")
-    keys = {**_goal.ahead(box, way.car.centre), **_goal.heading(goal, box, way.notes)}
+    keys = {**_goal.kept_on(road, _goal.ahead(box, way.car.centre)), **_goal.heading(goal, box, way.notes)}
     return {**keys, **_goal.conditions(goal, clock)}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from ._line import Array, lengths
+from ._line import Array, lengths, project
 from ._obstacles import Clock, area_of
 from ._road import Road
 
@@ -16,6 +16,8 @@ PLACES_ALONG = 16
 """Of how many places along the road a rectangle may begin or end."""
 SHORTEST = 0.2
 """Least side of a rectangle [m]."""
+FROM_EDGE = 0.05
+"""How far from the road's edges a rectangle's centre is kept [m]."""
 WELL_WITHIN = 0.1
 """How far from the ends of a goal's heading a direction is to be [rad]."""
 HEADING = 0.2
@@ -109,6 +111,25 @@ def ahead(box: dict[str, float], distance: float) -> dict[str, float]:
         "width": box["width"] - min(2 * distance * float(np.sin(HEADING)), box["width"] / 4),
         "x": box["x"] + distance * float(np.cos(box["psi"])),
         "y": box["y"] + distance * float(np.sin(box["psi"])),
+    }
+
+
+def kept_on(road: Road | None, box: dict[str, float]) -> dict[str, float]:
+    """The rectangle with its centre on the road, as much narrower as it is moved: in a bend, what lies ahead of a
+    place near the edge is beside it."""
+    if road is None:
+        return box
+    s, left, psi = project(road.line, np.array([box["x"], box["y"]]))
+    along = lengths(road.line)
+    most, least = np.interp(s, along, road.left) - FROM_EDGE, FROM_EDGE - np.interp(s, along, road.right)
+    aside = float(np.clip(left, least, most)) - left
+    if not aside or not 0 < s < along[-1]:
+        return box
+    return {
+        **box,
+        "x": box["x"] - aside * float(np.sin(psi)),
+        "y": box["y"] + aside * float(np.cos(psi)),
+        "width": max(box["width"] - 2 * abs(aside), SHORTEST / 2),
     }
 
 

@@ -183,7 +183,8 @@ def _swept(name: str, occupancies: dict[Any, Any], clock: Clock, notes: list[str
         if groups:
             times, before, largest = groups[-1]
             together, largest = before.union(hull).convex_hull, max(largest, hull.area)
-            if together.area <= FULLER * largest:
+            # Where it is when the drive begins stays by itself: the vehicle may stand where it comes later.
+            if together.area <= FULLER * largest and times[1] > clock.first:
                 groups[-1] = ([times[0], max(times[1], last)], together, largest)
                 continue
         groups.append(([first, last], hull, hull.area))
