@@ -169,16 +169,16 @@ def test_a_vehicle_whose_middle_is_just_beside_its_lanelet(tmp_path):
         scene_of(tmp_path, start=start(y=-4.0))
 
 
-def test_a_goal_ahead_of_which_the_road_bends_away(tmp_path):
-    """The front axle's centre is to be on the road, too."""
-    a = np.linspace(0, np.pi / 2, 24)
-    ring = [[(20 + (12 - k) * np.sin(t), 12 - (12 - k) * np.cos(t)) for t in a] for k in (2, -2)]
-    lanes = scenes.straight(1, 0, 20, 0, '<successor ref="2"/>') + scenes.lanelet(2, *ring, '<predecessor ref="1"/>')
-    at = (20 + 13.9 * np.sin(1.0), 12 - 13.9 * np.cos(1.0))
-    goal = (scenes.GOAL.replace("<x>150</x><y>4</y>", f"<x>{at[0]:.3f}</x><y>{at[1]:.3f}</y>").replace("<orientation>0<", "<orientation>1.0<")
-            .replace("<length>10<", "<length>0.6<").replace("<width>2<", "<width>0.6<").replace(">-0.2<", ">0.8<").replace(">0.3<", ">1.2<"))
-    scene = scene_of(tmp_path, lanes=lanes, start=start(x=8), goal=goal, parked=(60, 50))
-    assert np.hypot(scene.goal["x"] - 20, scene.goal["y"] - 12) < 14
+def test_a_goal_whose_centre_is_beside_the_road_for_the_front_axle():
+    from slalom.importing._goal import kept_on
+    from slalom.importing._road import Road
+
+    x = np.arange(0.0, 50.0)
+    road = Road(np.column_stack([x, 0 * x]), 0 * x + 2, 0 * x + 3, None, [])
+    for y, kept in ((3.2, 2.95), (-2.1, -1.95), (2.9, 2.9)):
+        box = kept_on(road, {"x": 20.0, "y": y, "psi": 0.3, "length": 2.0, "width": 1.0})
+        assert (box["x"], box["y"], box["length"]) == pytest.approx((20, kept, 2))
+        assert box["width"] == pytest.approx(1 - 2 * abs(y - kept))
 
 
 def test_circles_have_their_radius(tmp_path):
