@@ -3,8 +3,8 @@
 
 For each scenario NAME.xml of one folder and drive NAME/solution.xml of another, a row of a Markdown table says
 whether the vehicle's rectangle touches an obstacle or leaves the lanelets at any time step, how near it comes to
-an obstacle, and when the goal is reached. Obstacles that begin where the vehicle does are recorded drives of it:
-they are left out, and named under "without". Collision and road are judged by shapely, and again by
+an obstacle, and when the goal is reached. Obstacles that begin where the vehicle does, or whose shape then holds its
+middle, are recorded drives of it: they are left out, and named under "without". Collision and road are judged by shapely, and again by
 commonroad-drivability-checker where it is installed; a row says so where the two differ. The checker needs the
 commonroad-io before 2026:
 
@@ -31,12 +31,18 @@ HEAD = (
 
 
 def shape_of(occupancy):
-    """The shapely geometry of an occupancy, of commonroad-io before and from 2026 on."""
+    """The shapely geometry of an occupancy, of commonroad-io before and from 2026 on. Both have circles of half the
+    radius in shapely."""
+    from shapely.geometry import Point
     from shapely.ops import unary_union
 
     shape = getattr(occupancy, "shape", occupancy)
-    parts = getattr(shape, "shapes", None)
-    return unary_union([part.shapely_object for part in parts]) if parts else shape.shapely_object
+    parts = getattr(shape, "shapes", None) or getattr(shape, "occupancies", None)
+    if parts:
+        return unary_union([shape_of(part) for part in parts])
+    if getattr(shape, "radius", None):
+        return Point(getattr(shape, "circle_center", None) or shape.center).buffer(shape.radius)
+    return shape.shapely_object
 
 
 def rectangle(state, length, width):
@@ -112,12 +118,16 @@ def by_checker(scenario, states, length, width):
 
 def without_the_vehicle(scenario, initial):
     """Leaves out obstacles that begin where the vehicle does: recorded drives of it. Returns their ids."""
+    import shapely
+
     same = []
     for obstacle in list(scenario.dynamic_obstacles):
         state = obstacle.initial_state
         if state.time_step == initial.time_step and not getattr(state, "is_uncertain_position", False):
             gap = ((state.position - initial.position) ** 2).sum() ** 0.5
-            if gap < 0.5 and abs(math.remainder(state.orientation - initial.orientation, 2 * math.pi)) < 0.2:
+            held = shape_of(obstacle.occupancy_at_time(state.time_step)).covers(shapely.Point(initial.position))
+            turned = abs(math.remainder(state.orientation - initial.orientation, 2 * math.pi))
+            if (gap < 0.5 or held) and turned < 0.2:
                 scenario.remove_obstacle(obstacle)
                 same.append(obstacle.obstacle_id)
     return same

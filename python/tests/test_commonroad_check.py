@@ -61,3 +61,15 @@ def test_verdicts(tmp_path):
 def test_nothing_to_judge(tmp_path):
     done = judged(tmp_path, {})
     assert done.returncode == 2 and "found no NAME/solution.xml" in done.stderr
+
+
+def test_circles_have_their_radius(tmp_path):
+    """A walker of .4 m in radius at y = 1.3 beside a drive along y = 0 is .095 m away."""
+    walker = scenes.obstacle("2020a", 15, "static", "pedestrian", "<circle><radius>0.4</radius></circle>",
+                             scenes.state("initialState", 0, 80, 1.3))
+    text = scenes.commonroad(parked=(60, 20), more=walker)
+    (tmp_path / "a.xml").write_text(text)
+    (tmp_path / "solution.xml").write_text(solution(lambda x: 0.0))
+    tool = pathlib.Path(README).parent / "tools" / "commonroad_check.py"
+    done = subprocess.run([sys.executable, tool, tmp_path / "a.xml", tmp_path / "solution.xml"], capture_output=True, text=True)
+    assert float(rows(done.stdout)["a"][5]) == pytest.approx(1.3 - 0.4 - 1.61 / 2, abs=0.01), done.stdout + done.stderr

@@ -124,6 +124,12 @@ def test_a_recorded_drive_of_the_vehicle_is_no_obstacle(tmp_path, version):
                              scenes.state("state", 1, 21.3, 0.1, 0.1))
     scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=itself)))
     assert not any(o["name"] == "car15" for o in scene.obstacles) and any("car15: left out" in n for n in scene.notes)
+    beside = itself.replace("<x>20.1</x>", "<x>21.5</x>").replace("<x>21.3</x>", "<x>22.7</x>")  # told of another point of it
+    scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=beside)))
+    assert any("car15: left out" in n for n in scene.notes)
+    ahead = itself.replace("<x>20.1</x>", "<x>23.9</x>").replace("<x>21.3</x>", "<x>25.1</x>")  # a bumper in its own
+    scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=ahead)))
+    assert any(o["name"] == "car15" for o in scene.obstacles)
     later = itself.replace("<exact>0</exact></time>", "<exact>5</exact></time>").replace("<exact>1</exact></time>", "<exact>6</exact></time>")
     scene = importing.commonroad(written(tmp_path, scenes.commonroad(version, more=later)))
     assert [row[0] for o in scene.obstacles if o["name"] == "car15" for row in o["table"]] == pytest.approx([0.5, 0.6])
@@ -210,7 +216,7 @@ def test_where_an_obstacle_may_be(tmp_path):
      "", "faces against lanelet 1"),
     (lambda text: text.replace("<velocity><exact>12<", "<velocity><exact>-12<"), "", "does not drive backwards"),
     (lambda text: text.replace("<x>150</x><y>4</y>", "<x>50</x><y>8</y>"), "", "no way from lanelet 1"),
-    (lambda text: text.replace("<x>150</x><y>4</y>", "<x>150</x><y>40</y>"), "", "no lanelet"),
+    (lambda text: text.replace("<x>150</x><y>4</y>", "<x>150</x><y>40</y>"), "", "a goal at (150, 40), off the road: 34.0 m from lanelet"),
     (lambda text: text.replace(scenes.LANES, scenes.LANES.replace("<y>2</y>", "<y>0.8</y>").replace("<y>-2</y>", "<y>-0.8</y>")
                                              .replace(' drivingDir="same"', ' drivingDir="opposite"')).replace("<y>4</y></center>", "<y>0</y></center>"),
      "", "m wide at"),

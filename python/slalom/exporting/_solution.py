@@ -44,7 +44,7 @@ def solution(drive: Drive, scenario: str | os.PathLike[str], problem: int | None
         )
     if cost not in CostFunction.__members__:
         raise BadFile("--cost", cost, "one of " + ", ".join(CostFunction.__members__))
-    source, problems = open_file(scenario)
+    source, problems, _ = open_file(scenario)
     chosen = chosen_problem(scenario, problems.planning_problem_dict, problem)
     first = int(chosen.initial_state.time_step)
     states = [STState(time_step=first + k, **values) for k, values in enumerate(_states(drive, float(source.dt)))]

@@ -11,11 +11,12 @@ import shapely
 
 from . import _goal
 from ._files import BadFile
-from ._lanes import Lane, Lanes, at_place, extended, lanes_of, shortest, without_changes
+from ._lanes import Lane, Lanes, at_place, near_place, extended, lanes_of, shortest, without_changes
 from ._line import Array, at, lengths, project, without_doubles
 from ._obstacles import Clock, obstacles_of
-from ._road import Road, joined, road_along
+from ._road import Road, holding, joined, road_along
 from ._scene import Scene, Vehicle
+from ._start import exact, place_of, start_of, turning_in
 from ._xml import open_file
 
 ACCELERATION = 4.0
@@ -28,18 +29,22 @@ AT_THE_END = 2.0
 """How far the body stays from the end of the lanes [m]."""
 TURNED_AWAY = 10.0
 """What it costs to start in a lane of another direction [m/rad]."""
+BESIDE_IT = 10.0
+"""What it costs to start in a lane that is beside the vehicle's middle, for each metre."""
+TURNS = 2.0
+"""The same of a lane's turn ahead, where several lie under a vehicle without a goal of place."""
 
 
 def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, oncoming: str) -> Scene:
     """See `slalom.importing.commonroad`."""
     car = Vehicle.load(vehicle)
-    scenario, problems = open_file(file)
+    scenario, problems, unread = open_file(file)
     chosen = chosen_problem(file, problems.planning_problem_dict, problem)
     initial = chosen.initial_state
     clock = Clock(scenario.dt, initial.time_step)
-    notes = _left_out(scenario, problems.planning_problem_dict, chosen.planning_problem_id)
-    start = _start(file, initial, car, notes)
-    place, psi = _place(initial), _exact("its heading", getattr(initial, "orientation", 0.0), [])
+    notes = _left_out(scenario, problems.planning_problem_dict, chosen.planning_problem_id) + unread
+    start = start_of(file, initial, car, notes)
+    place, psi = place_of(initial), exact("its heading", getattr(initial, "orientation", 0.0), [])
     obstacles = obstacles_of(scenario, clock, place, psi, notes)
     lanes = lanes_of(scenario.lanelet_network)
     way = _Way(file, lanes, car, initial, oncoming == "always")
@@ -50,6 +55,12 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
         goal, road = _goal_and_road(way, chosen, clock, obstacles)
         notes.append(f"road: lanes of the other way beside it are added, since {blocked[0]}")
         blocked = _in_the_way(road, obstacles, car)
+    if road:
+        road, added = _holding_the_start(road, lanes, turning_in(start, car, road.line))
+        if added:
+            way.notes.append(
+                f"road: {added:.2f} m wider about the start, where the vehicle is partly beside its lanes"
+            )
     limits = _within_the_map(road, goal, start, car, way) if road else {}
     notes += way.notes + [f"road: {each}" for each in blocked]
     t_max = goal.get("time", goal.get("t_max"))
@@ -99,49 +110,16 @@ def _left_out(scenario: Any, problems: dict[int, Any], chosen: int) -> list[str]
     return notes
 
 
-def _exact(name: str, value: Any, notes: list[str]) -> float:
-    """A number, or the middle of an interval."""
-    if hasattr(value, "start"):
-        notes.append(f"start: {name} from {value.start:g} to {value.end:g}; its middle is taken")
-        return float(value.start + value.end) / 2
-    return float(value or 0.0)
-
-
-def _start(file: str | os.PathLike[str], state: Any, car: Vehicle, notes: list[str]) -> dict[str, float]:
-    """CommonRoad's state is that of the body's centre; ours has the front axle's place and the speeds of the
-    centre of gravity."""
-    if state.is_uncertain_position:
-        notes.append("start: its place is not certain; the middle is taken")
-    x, y = _place(state).tolist()
-    psi = _exact("its heading", getattr(state, "orientation", 0.0), notes)
-    speed, slip = (
-        _exact(f"its {n}", getattr(state, k, 0.0), notes) for k, n in (("velocity", "speed"), ("slip_angle", "slip"))
-    )
-    r = _exact("its yaw rate", getattr(state, "yaw_rate", 0.0), notes)
-    ux = speed * float(np.cos(slip))
-    if ux < 0:
-        raise BadFile(file, f"a start at {ux:g} m/s", "one that does not drive backwards")
-    if ux < car.ux_min:
-        notes.append(f"start: {ux:g} m/s; begins at the {car.ux_min:g} m/s that are the least of the vehicle")
-        ux = car.ux_min
-    start = {
-        "x": x + car.centre * float(np.cos(psi)),
-        "y": y + car.centre * float(np.sin(psi)),
-        "v": speed * float(np.sin(slip)) + r * (car.centre - car.la),
-        "r": r,
-        "psi": psi,
-        "sa": _exact("its steering", getattr(state, "steering_angle", 0.0), notes),
-        "ux": ux,
-        "ax": _exact("its acceleration", getattr(state, "acceleration", 0.0), notes),
-    }
-    return {key: float(value) for key, value in start.items() if value or key in ("x", "y", "psi", "ux")}
-
-
-def _place(state: Any) -> Array:
-    if state.is_uncertain_position:
-        centre = state.position.center
-        return np.array([centre.x, centre.y])
-    return np.asarray(state.position, dtype=float)
+def _holding_the_start(road: Road, lanes: Lanes, bodies: list[Any]) -> tuple[Road, float]:
+    """The road so wide that it holds the vehicle's body at the start, and on lanelets those with which it turns in."""
+    road, added = holding(road, bodies[:1])
+    near = [lane.polygon.buffer(0.05) for lane in lanes.values() if any(map(lane.polygon.intersects, bodies))]
+    area = shapely.union_all(near).buffer(-0.05)
+    turning = [body for body in bodies[1:] if area.buffer(0.1).covers(body)]
+    if not turning:
+        return road, added
+    road, more = holding(road, turning, area)
+    return road, max(added, more)
 
 
 class _Way:
@@ -150,11 +128,19 @@ class _Way:
     def __init__(self, file: str | os.PathLike[str], lanes: Lanes, car: Vehicle, state: Any, oncoming: bool) -> None:
         self.file, self.lanes, self.car, self.oncoming = file, lanes, car, oncoming
         self.notes: list[str] = []
-        self.place = _place(state)
-        self.psi = _exact("its heading", getattr(state, "orientation", 0.0), [])
-        self.speed = _exact("its speed", getattr(state, "velocity", 0.0), [])
-        self.starts = {
-            lane: TURNED_AWAY * off for lane, off in at_place(lanes, self.place, self.psi).items() if off < np.pi / 2
+        self.place = place_of(state)
+        self.psi = exact("its heading", getattr(state, "orientation", 0.0), [])
+        self.speed = exact("its speed", getattr(state, "velocity", 0.0), [])
+        self.starts = self._starts()
+
+    def _starts(self) -> dict[int, float]:
+        """Lanes that the vehicle may be on, with what it costs to begin there [m]: those under its middle, or
+        under its body where they agree more with its direction."""
+        near = near_place(self.lanes, self.place, self.psi, self.car.width)
+        return {
+            lane: TURNED_AWAY * off + BESIDE_IT * away
+            for lane, (off, away) in near.items()
+            if off < np.pi / 2 and (away < 0.01 or self.lanes[lane].for_cars())
         }
 
     def goals(self, wanted: _goal.Wanted) -> dict[int, float]:
@@ -168,7 +154,7 @@ class _Way:
     def road(self, way: list[Lane], ahead: float, target: Array | None) -> Road:
         """Along a way: from behind the vehicle to `ahead` [m] beyond the target, or beyond the start."""
         way = extended(self.lanes, without_changes(self.lanes, way), self.car.length + BEHIND, ahead)
-        line = self._from_behind(joined(way))
+        line = self._beyond(self._from_behind(joined(self.lanes, way)), target)
         s = project(line, self.place)[0]
         end = project(line, target)[0] if target is not None else s
         total = lengths(line)[-1]
@@ -187,6 +173,17 @@ class _Way:
             return line
         self.notes.append(f"road: begins {s:.1f} m behind the vehicle's middle; {short:.1f} m are added behind it")
         return np.vstack([line[0] - short * np.array([np.cos(psi), np.sin(psi)]), line])
+
+    def _beyond(self, line: Array, target: Array | None) -> Array:
+        """A line that ends before the vehicle's front at the goal is led on straight to beyond it."""
+        if target is None:
+            return line
+        s, _, psi = project(line, target)
+        short = self.car.length / 2 + 2.0 - (lengths(line)[-1] - s)
+        if short <= 0:
+            return line
+        self.notes.append(f"road: ends before the vehicle's front at the goal; {short:.1f} m are added beyond it")
+        return np.vstack([line, line[-1] + short * np.array([np.cos(psi), np.sin(psi)])])
 
     def _wide_enough(self, road: Road, target: Array | None) -> Road:
         """The part about start and target that is wider than the vehicle."""
@@ -223,9 +220,12 @@ def _goal_and_road(
     found = [(answer, k) for k, lanes in enumerate(reached) if (answer := shortest(way.lanes, way.starts, lanes))]
     if not found:
         to = sorted({lane for lanes in reached for lane in lanes})
+        if not to:
+            middle = placed[0].area.representative_point()
+            raise _off_the_road(way, "goal", middle.x, middle.y)
         raise BadFile(
             way.file,
-            f"no way from lanelet {_some(way.starts)} to the goal on {'lanelet ' + _some(to) if to else 'no lanelet'}",
+            f"no way from lanelet {_some(way.starts)} to the goal on lanelet {_some(to)}",
             "one over successors and lanes beside each other",
         )
     (_, lanes), k = min(found, key=lambda each: each[0][0])
@@ -250,11 +250,11 @@ def _goal_keys(
     ]
     goal = goals[k]
     box, less = _goal.rectangle(goal, road, psi)
-    if min(box["length"], box["width"]) < 0.2:
+    if min(box["length"], box["width"]) < _goal.SHORTEST:
         raise BadFile(way.file, "a goal off the road", "one that lies on it")
     if less:
         way.notes.append(f"goal: a rectangle of {box['length']:.1f} m by {box['width']:.1f} m in it, on the road")
-    keys = {**_goal.ahead(box, way.car.centre), **_goal.heading(goal, box, way.notes)}
+    keys = {**_goal.kept_on(road, _goal.ahead(box, way.car.centre)), **_goal.heading(goal, box, way.notes)}
     return {**keys, **_goal.conditions(goal, clock)}
 
 
@@ -272,9 +272,15 @@ def _as_far_as_possible(
         way.notes.append("road: the start lies on no lanelet; there is none")
         return {"time": time}, None
     _must_start_on_a_lane(way)
-    first = min(way.starts, key=lambda lane: way.starts[lane])
+    first = min(way.starts, key=lambda lane: way.starts[lane] + TURNS * _turn_ahead(way.lanes[lane], way.place))
     ahead = _reached(way.speed, time) + BEYOND
     return {"time": time}, way.road([way.lanes[first]], ahead, None)
+
+
+def _turn_ahead(lane: Lane, place: Array) -> float:
+    """By how much a lane turns beyond a place on it [rad]."""
+    psi, last = (project(lane.middle, each)[2] for each in (place, lane.middle[-1]))
+    return abs(float(np.angle(np.exp(1j * (last - psi)))))
 
 
 def _reached(speed: float, time: float) -> float:
@@ -289,11 +295,15 @@ def _must_start_on_a_lane(way: _Way) -> None:
     here = at_place(way.lanes, way.place, way.psi)
     if here:
         raise BadFile(way.file, f"a start at ({x:g}, {y:g}) that faces against lanelet {_some(here)}", "one along it")
-    near = min(way.lanes.values(), key=lambda lane: lane.polygon.distance(shapely.Point(x, y)))
-    raise BadFile(
+    raise _off_the_road(way, "start", x, y)
+
+
+def _off_the_road(way: _Way, what: str, x: float, y: float) -> BadFile:
+    point = shapely.Point(x, y)
+    near = min(way.lanes.values(), key=lambda lane: lane.polygon.distance(point))
+    return BadFile(
         way.file,
-        f"a start at ({x:g}, {y:g}), off the road: {near.polygon.distance(shapely.Point(x, y)):.1f} m from "
-        f"lanelet {near.id}",
+        f"a {what} at ({x:g}, {y:g}), off the road: {near.polygon.distance(point):.1f} m from lanelet {near.id}",
         "one on a lanelet",
     )
 

@@ -8,12 +8,18 @@ from typing import Any
 import numpy as np
 import shapely
 
-from ._line import Array, lengths
-from ._obstacles import Clock
+from ._line import Array, lengths, project
+from ._obstacles import Clock, area_of
 from ._road import Road
 
 PLACES_ALONG = 16
 """Of how many places along the road a rectangle may begin or end."""
+SHORTEST = 0.2
+"""Least side of a rectangle [m]."""
+FROM_EDGE = 0.05
+"""How far from the road's edges a rectangle's centre is kept [m]."""
+WELL_WITHIN = 0.1
+"""How far from the ends of a goal's heading a direction is to be [rad]."""
 HEADING = 0.2
 """[rad]"""
 FARTHEST_ACROSS = 10.0
@@ -35,7 +41,7 @@ def wanted(problem: Any) -> list[Wanted]:
     lanelets = problem.goal.lanelets_of_goal_position or {}
     for k, state in enumerate(problem.goal.state_list):
         position = getattr(state, "position", None)
-        area = None if position is None else shapely.make_valid(position.shapely_object)
+        area = None if position is None else shapely.make_valid(area_of(position))
         goals.append(Wanted(state, area, tuple(lanelets.get(k, ()))))
     return goals
 
@@ -69,7 +75,14 @@ def rectangle(goal: Wanted, road: Road | None, psi: float) -> tuple[dict[str, fl
         return _named(position, _direction(goal, psi)), False
     if road is None:
         return _box(goal.area, psi), True
-    return _inscribed(goal.area.intersection(road.polygon()), road), True
+    area = goal.area.intersection(road.polygon())
+    own = [_direction(goal, psi)]
+    if hasattr(position, "rect_center"):
+        own.append(_named(position, own[0])["psi"])
+    chords = _chords(area, road) + [chord for each in own for chord in _chords_in(area, each)]
+    agreeing = [chord for chord in chords if abs(_direction(goal, _psi(chord)) - _psi(chord)) % (2 * np.pi) < 1e-6]
+    box = _inscribed(area, agreeing)
+    return (box if box["length"] and len(agreeing) < len(chords) else _inscribed(area, chords)), True
 
 
 def heading(goal: Wanted, box: dict[str, float], notes: list[str]) -> dict[str, float]:
@@ -101,9 +114,34 @@ def ahead(box: dict[str, float], distance: float) -> dict[str, float]:
     }
 
 
+def kept_on(road: Road | None, box: dict[str, float]) -> dict[str, float]:
+    """The rectangle with its centre on the road, as much narrower as it is moved: in a bend, what lies ahead of a
+    place near the edge is beside it."""
+    if road is None:
+        return box
+    s, left, psi = project(road.line, np.array([box["x"], box["y"]]))
+    along = lengths(road.line)
+    most, least = np.interp(s, along, road.left) - FROM_EDGE, FROM_EDGE - np.interp(s, along, road.right)
+    aside = float(np.clip(left, least, most)) - left
+    if not aside or not 0 < s < along[-1]:
+        return box
+    return {
+        **box,
+        "x": box["x"] - aside * float(np.sin(psi)),
+        "y": box["y"] + aside * float(np.cos(psi)),
+        "width": max(box["width"] - 2 * abs(aside), SHORTEST / 2),
+    }
+
+
 def _direction(goal: Wanted, psi: float) -> float:
+    """`psi`, or what is nearest to it well within the heading that the goal has."""
     interval = _interval(getattr(goal.state, "orientation", None))
-    return (interval[0] + interval[1]) / 2 if interval else psi
+    if interval is None:
+        return psi
+    middle, half = (interval[0] + interval[1]) / 2, (interval[1] - interval[0]) / 2
+    off = float(np.angle(np.exp(1j * (psi - middle))))
+    within = half - min(half / 2, WELL_WITHIN)
+    return psi + float(np.clip(off, -within, within)) - off
 
 
 def _named(position: Any, psi: float) -> dict[str, float]:
@@ -138,14 +176,18 @@ def _box(area: Any, psi: float) -> dict[str, float]:
     return {"x": point.x, "y": point.y, "psi": psi, "length": length, "width": width}
 
 
-def _inscribed(area: Any, road: Road) -> dict[str, float]:
-    """The largest rectangle, along a chord of the road, that the area holds."""
+def _psi(chord: tuple[Array, Array]) -> float:
+    return float(np.arctan2(*(chord[1] - chord[0])[::-1]))
+
+
+def _inscribed(area: Any, chords: list[tuple[Array, Array]]) -> dict[str, float]:
+    """The largest rectangle along one of the chords that the area holds."""
     best = {"x": 0.0, "y": 0.0, "psi": 0.0, "length": 0.0, "width": 0.0}
     inside = area.buffer(0.02)
     shapely.prepare(inside)
-    for a, b in _chords(area, road):
+    for a, b in chords:
         length = float(np.hypot(*(b - a)))
-        psi, (x, y) = float(np.arctan2(*(b - a)[::-1])), (a + b) / 2
+        psi, (x, y) = _psi((a, b)), (a + b) / 2
         least, most = best["length"] * best["width"] / length, 2 * FARTHEST_ACROSS
         if not inside.covers(_corners(x, y, psi, length, least + 0.01)):
             continue
@@ -159,6 +201,7 @@ def _inscribed(area: Any, road: Road) -> dict[str, float]:
 
 def _chords(area: Any, road: Road) -> list[tuple[Array, Array]]:
     """Pairs of places along the road, both as far beside its line, between which the area lies."""
+    road = road.near(area)
     psi = np.unwrap(np.arctan2(*np.gradient(road.line, axis=0).T[::-1]))
     normal = np.column_stack([-np.sin(psi), np.cos(psi)])
     s = lengths(road.line)
@@ -169,7 +212,27 @@ def _chords(area: Any, road: Road) -> list[tuple[Array, Array]]:
         if len(held) < 2:
             continue
         grid = np.unique(held[np.linspace(0, len(held) - 1, PLACES_ALONG).round().astype(int)])
-        chords += [(beside[i], beside[j]) for k, i in enumerate(grid) for j in grid[k + 1 :] if s[j] - s[i] > 0.5]
+        chords += [(beside[i], beside[j]) for k, i in enumerate(grid) for j in grid[k + 1 :] if s[j] - s[i] > SHORTEST]
+    return chords
+
+
+def _chords_in(area: Any, psi: float) -> list[tuple[Array, Array]]:
+    """Pairs of places in one direction between which the area lies: the longest on each of some parallel lines."""
+    if area.is_empty:
+        return []
+    along, across = np.array([np.cos(psi), np.sin(psi)]), np.array([-np.sin(psi), np.cos(psi)])
+    middle = np.array([area.centroid.x, area.centroid.y])
+    size = float(np.hypot(*np.subtract(area.bounds[2:], area.bounds[:2])))
+    chords = []
+    for beside in np.linspace(-size / 2, size / 2, 2 * PLACES_ALONG + 1):
+        line = shapely.LineString([middle + beside * across - size * along, middle + beside * across + size * along])
+        parts = line.intersection(area)
+        for part in getattr(parts, "geoms", [parts]):
+            if part.geom_type == "LineString" and part.length > SHORTEST:
+                a, b = np.asarray(part.coords)[[0, -1]]
+                half = along * part.length / 2
+                # The whole of one that ends at slanting sides is in no rectangle.
+                chords += [((a + b) / 2 - share * half, (a + b) / 2 + share * half) for share in (1, 0.75, 0.5, 0.25)]
     return chords
 
 

@@ -97,11 +97,18 @@ def neighbours(lanes: Lanes, lane: Lane, oncoming: bool) -> list[Lane]:
 
 def at_place(lanes: Lanes, place: Array, psi: float) -> dict[int, float]:
     """Lanes on which a place lies, with how far each lane's direction there is from `psi` [rad]."""
+    return {lane: off for lane, (off, away) in near_place(lanes, place, psi, 0.01).items()}
+
+
+def near_place(lanes: Lanes, place: Array, psi: float, within: float) -> dict[int, tuple[float, float]]:
+    """Lanes that are at most so far [m] from a place: how far each one's direction is from `psi` [rad], and how
+    far it is away [m]."""
     point = shapely.Point(place)
     found = {}
     for lane in lanes.values():
-        if lane.polygon.buffer(0.01).covers(point):
-            found[lane.id] = abs(float(np.angle(np.exp(1j * (project(lane.middle, place)[2] - psi)))))
+        if (away := float(lane.polygon.distance(point))) <= within:
+            off = float(np.angle(np.exp(1j * (project(lane.middle, place)[2] - psi))))
+            found[lane.id] = (abs(off), away)
     return found
 
 

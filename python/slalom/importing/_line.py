@@ -46,10 +46,33 @@ def smoothed(points: Array, wavelength: float) -> Array:
         return points
     step = lengths(points)[-1] / (count - 1)
     weight = (wavelength / (2 * np.pi * step)) ** 6
-    third = np.diff(np.eye(count), n=3, axis=0)
     at_ends = np.ones(count)
     at_ends[[0, -1]] = 1e6
-    return np.asarray(np.linalg.solve(np.diag(at_ends) + weight * third.T @ third, at_ends[:, None] * points))
+    # The banded matrix of the least squares, upper diagonals by rows: bands[d, k] is entry (k, k + d).
+    third = np.array([-1.0, 3.0, -3.0, 1.0])
+    bands = np.zeros((4, count))
+    for d in range(4):
+        for i in range(4 - d):
+            bands[d, i : count - 3 + i] += weight * third[i] * third[i + d]
+    bands[0] += at_ends
+    return _solved(bands, at_ends[:, None] * points)
+
+
+def _solved(bands: Array, right: Array) -> Array:
+    """x of A x = right, A symmetric and positive definite with `bands[d, k]` its entry (k, k + d): by L D L^T."""
+    bands, x = bands.copy(), right.astype(float)
+    count, width = len(x), len(bands) - 1
+    for k in range(count):
+        for d in range(1, min(width, count - 1 - k) + 1):
+            factor = bands[d, k] / bands[0, k]
+            for e in range(d, min(width, count - 1 - k) + 1):
+                bands[e - d, k + d] -= factor * bands[e, k]
+            x[k + d] -= factor * x[k]
+    for k in range(count - 1, -1, -1):
+        for d in range(1, min(width, count - 1 - k) + 1):
+            x[k] -= bands[d, k] * x[k + d]
+        x[k] /= bands[0, k]
+    return x
 
 
 def headings(points: Array) -> Array:
@@ -94,6 +117,12 @@ def crossings(first: Array, second: Array) -> Array:
 
 def ray_lengths(origins: Array, directions: Array, edges: Array) -> Array:
     """From each origin along its unit direction, the distance to the first of the (m, 2, 2) edges; inf without."""
+    few = max(1_000_000 // max(len(edges), 1), 1)
+    parts = [slice(k, k + few) for k in range(0, len(origins), few)]
+    return np.concatenate([_ray_lengths(origins[part], directions[part], edges) for part in parts])
+
+
+def _ray_lengths(origins: Array, directions: Array, edges: Array) -> Array:
     a, along = edges[:, 0], edges[:, 1] - edges[:, 0]
     gap = a[None] - origins[:, None]
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -37,7 +37,7 @@ def obstacles_of(scenario: Any, clock: Clock, place: Array, psi: float, notes: l
     for obstacle in scenario.static_obstacles:
         made += _standing(obstacle, notes)
     for obstacle in scenario.dynamic_obstacles:
-        if _is_the_vehicle(obstacle.initial_state, clock, place, psi):
+        if _is_the_vehicle(obstacle, clock, place, psi):
             notes.append(f"{_name(obstacle)}: left out, it begins as the vehicle does, and is a drive of it")
         else:
             made += _moving(obstacle, clock, notes)
@@ -52,12 +52,30 @@ def _name(obstacle: Any) -> str:
     return f"{obstacle.obstacle_type.value}{obstacle.obstacle_id}"
 
 
-def _is_the_vehicle(state: Any, clock: Clock, place: Array, psi: float) -> bool:
-    """Whether an obstacle begins where and when the vehicle does: scenarios keep a recorded drive of it so."""
+def _is_the_vehicle(obstacle: Any, clock: Clock, place: Array, psi: float) -> bool:
+    """Whether an obstacle begins where and when the vehicle does: scenarios keep a recorded drive of it so.
+
+    Its place may be told of another point of the body: one whose shape holds the middle of the vehicle is it, too.
+    """
+    state = obstacle.initial_state
     if _uncertain(state) or state.time_step != clock.first:
         return False
     turned = abs(float(np.angle(np.exp(1j * ((getattr(state, "orientation", None) or 0.0) - psi)))))
-    return bool(np.hypot(*(np.asarray(state.position) - place)) < SAME_PLACE and turned < SAME_HEADING)
+    near = np.hypot(*(np.asarray(state.position) - place)) < SAME_PLACE
+    return bool(turned < SAME_HEADING and (near or _body(obstacle).covers(shapely.Point(place))))
+
+
+def _body(obstacle: Any) -> Any:
+    return area_of(obstacle.occupancy_at_time(obstacle.initial_state.time_step))
+
+
+def area_of(occupancy: Any) -> Any:
+    """What an occupancy or a goal's place covers. Of a circle, commonroad-io 2026.1 gives one of half the radius."""
+    parts = getattr(occupancy, "occupancies", None)
+    if parts is not None:
+        return shapely.union_all([area_of(part) for part in parts])
+    radius = getattr(occupancy, "radius", None)
+    return occupancy.shapely_object if radius is None else occupancy.circle_center.buffer(radius)
 
 
 def _standing(obstacle: Any, notes: list[str]) -> list[dict[str, Any]]:
@@ -165,7 +183,8 @@ def _swept(name: str, occupancies: dict[Any, Any], clock: Clock, notes: list[str
         if groups:
             times, before, largest = groups[-1]
             together, largest = before.union(hull).convex_hull, max(largest, hull.area)
-            if together.area <= FULLER * largest:
+            # Where it is when the drive begins stays by itself: the vehicle may stand where it comes later.
+            if together.area <= FULLER * largest and times[1] > clock.first:
                 groups[-1] = ([times[0], max(times[1], last)], together, largest)
                 continue
         groups.append(([first, last], hull, hull.area))
@@ -183,7 +202,7 @@ def _ends(time_step: Any) -> tuple[float, float]:
 
 
 def _hull(occupancy: Any) -> Any:
-    return occupancy.shapely_object.convex_hull.simplify(0.02)
+    return area_of(occupancy).convex_hull.simplify(0.02)
 
 
 def _polygon(hull: Any) -> dict[str, Any]:

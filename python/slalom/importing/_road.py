@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,14 @@ STEEPEST = 0.5
 """By how much a width changes at the most for each metre along the line."""
 CURVE_SHARE = 0.8
 """How much of the radius of a bend its inner side may be wide."""
+NEAR_RADIUS = 0.95
+"""The same where the road must hold the vehicle's body."""
+LEAD = 8.0
+"""How long a change of lanes is, in its widths."""
+RETURNING = 0.05
+"""By how much that changes for each metre beyond the body."""
+BESIDE = 0.1
+"""How much of the road is kept beside a body that it must hold [m]."""
 FARTHEST = 60.0
 WAVELENGTH = 12.0
 """Shortest bends that are kept of the lanes' middle lines [m]."""
@@ -45,6 +53,19 @@ class Road:
         s = np.linspace(first, last, max(int(round((last - first) / POINT_STEP)), 4) + 1)
         return Road(
             at(self.line, s), np.interp(s, along, self.right), np.interp(s, along, self.left), self.area, self.rows
+        )
+
+    def near(self, area: Any) -> Road:
+        """The part beside an area, its points close together where that is short."""
+        box = shapely.box(*area.bounds) if not area.is_empty else area
+        held = np.flatnonzero(shapely.distance(shapely.points(self.line), box) < FARTHEST / 2)
+        if len(held) < 2:
+            return self
+        along = lengths(self.line)[held[[0, -1]]]
+        s = np.linspace(along[0], along[1], int(min(max((along[1] - along[0]) / 0.25, 4), 4000)) + 1)
+        whole = lengths(self.line)
+        return replace(
+            self, line=at(self.line, s), right=np.interp(s, whole, self.right), left=np.interp(s, whole, self.left)
         )
 
     def edges(self) -> tuple[Array, Array]:
@@ -88,13 +109,46 @@ def road_along(lanes: Lanes, way: list[Lane], line: Array, oncoming: bool) -> Ro
     around, and change no faster than STEEPEST.
     """
     rows = [neighbours(lanes, lane, oncoming) for lane in way]
-    area = shapely.union_all([lane.polygon.buffer(0.05, join_style="mitre") for row in rows for lane in row])
+    parts = [lane.polygon for row in rows for lane in row]
+    parts += [joint for row, following in zip(rows, rows[1:]) for joint in _joints(row, following)]
+    area = shapely.union_all([part.buffer(0.05, join_style="mitre") for part in parts])
     area = area.buffer(-0.05, join_style="mitre")
     line = _line_inside(line, area)
     s = np.linspace(0, lengths(line)[-1], int(np.ceil(lengths(line)[-1] / FINE_STEP)) + 1)
     fine = at(line, s)
     right, left = _widths(fine, area)
     return Road(fine, right, left, area, rows)
+
+
+def _joints(row: list[Lane], following: list[Lane]) -> list[Any]:
+    """What lies between the ends of lanes and the beginnings of their successors, which some maps leave open."""
+    pairs = [(a, b) for a in row for b in following if b.id in a.successors]
+    pairs += [(b, a) for a in row for b in following if a.id in b.successors]
+    ends = [[a.left[-1], a.right[-1], b.left[0], b.right[0]] for a, b in pairs]
+    return [hull for four in ends if (hull := shapely.MultiPoint(four).convex_hull).area > 1e-3]
+
+
+def holding(road: Road, bodies: list[Any], area: Any = None) -> tuple[Road, float]:
+    """The road, as much wider as it must be to hold bodies that are partly beside it, and by how much [m]; where an
+    area is given, no wider than that.
+
+    Widths change by RETURNING from there on, for the vehicle to come back, and stay within a bend's radius.
+    """
+    corners = np.vstack([body.exterior.segmentize(FINE_STEP).coords for body in bodies])
+    places = np.array([project(road.line, corner)[:2] for corner in corners])
+    away = np.abs(lengths(road.line)[:, None] - places[None, :, 0])
+    slope = RETURNING * np.maximum(away - POINT_STEP, 0)
+    psi, bend, widths, most = headings(road.line), curvature(road.line), [], 0.0
+    normal = np.column_stack([-np.sin(psi), np.cos(psi)])
+    for width, side, inwards in ((road.right, -1, -bend), (road.left, 1, bend)):
+        needed = np.max(side * places[None, :, 1] + BESIDE - slope, axis=1)
+        if area is not None:
+            needed = np.minimum(needed, ray_lengths(road.line, side * normal, _edges(area)))
+        with np.errstate(divide="ignore"):
+            needed = np.where(inwards > 1e-6, np.minimum(needed, NEAR_RADIUS / inwards), needed)
+        most = max(most, float(np.max(needed - width)))
+        widths.append(np.maximum(width, needed))
+    return replace(road, right=widths[0], left=widths[1]), max(most - BESIDE, 0.0)
 
 
 def _line_inside(line: Array, area: Any) -> Array:
@@ -107,26 +161,68 @@ def _line_inside(line: Array, area: Any) -> Array:
     return raw
 
 
-def joined(way: list[Lane]) -> Array:
-    """Middle lines one after the other; where one does not begin at the last one's end, led over slowly."""
+def joined(lanes: Lanes, way: list[Lane]) -> Array:
+    """Middle lines one after the other; where one does not begin at the last one's end, led over slowly, as far
+    as there are lanes beside each other before and after it."""
     points = way[0].middle
-    for lane in way[1:]:
-        middle = lane.middle
+    k = 1
+    while k < len(way):
+        middle = way[k].middle
         gap = float(np.hypot(*(middle[0] - points[-1])))
         if gap > 0.5:
-            room = min(4 * gap, lengths(points)[-1] / 2, lane.length / 2)
-            points = resampled(points, 1.0)
-            points = points[lengths(points) <= lengths(points)[-1] - room]
-            middle = resampled(middle, 1.0)
-            middle = middle[lengths(middle) >= room]
+            before, after = _room_to_change(lanes, way, k)
+            wanted = LEAD * gap
+            back = min(before, max(wanted / 2, wanted - after), lengths(points)[-1] / 2)
+            while k + 1 < len(way) and lengths(middle)[-1] < 2 * after and _follows(way[k], way[k + 1]):
+                k += 1
+                middle = np.vstack([middle, way[k].middle])
+            middle = without_doubles(middle)
+            ahead = min(after, max(wanted / 2, wanted - back), lengths(middle)[-1] / 2)
+            points = _up_to(points, lengths(points)[-1] - back)
+            middle = _up_to(middle[::-1], lengths(middle)[-1] - ahead)[::-1]
         points = np.vstack([points, middle])
+        k += 1
     return without_doubles(points)
+
+
+def _follows(lane: Lane, other: Lane) -> bool:
+    return float(np.hypot(*(other.middle[0] - lane.middle[-1]))) <= 0.5
+
+
+def _up_to(points: Array, s: float) -> Array:
+    """The points to arc length `s`, there one more."""
+    along = lengths(points)
+    return np.vstack([points[along < s - 0.1], at(points, np.array([s]))])
+
+
+def _room_to_change(lanes: Lanes, way: list[Lane], k: int) -> tuple[float, float]:
+    """How far [m] before and after the beginning of the way's k-th lane both it and that which goes on from the
+    lane before lie beside each other. A lane that begins apart without being beside has half of both."""
+    old, new = way[k - 1], way[k]
+    if new.id in old.successors:
+        return old.length / 2, new.length / 2
+    before = after = 0.0
+    targets = {new.id}
+    for lane in reversed(way[:k]):
+        row = {each.id for each in neighbours(lanes, lane, False)}
+        targets = {p for each in targets for p in lanes[each].predecessors} & row
+        if not targets:
+            break
+        before += lane.length
+    targets = {old.id}
+    for lane in way[k:]:
+        row = {each.id for each in neighbours(lanes, lane, False)}
+        targets = {following for each in targets for following in lanes[each].successors} & row
+        if not targets:
+            break
+        after += lane.length
+    return before, after
 
 
 def _widths(line: Array, area: Any) -> tuple[Array, Array]:
     psi, bend = headings(line), curvature(line)
     normal = np.column_stack([-np.sin(psi), np.cos(psi)])
-    edges = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in _rings(area)])
+    edges = _edges(area)
     inside = shapely.contains_xy(area.buffer(-0.05), line)
     inner = np.flatnonzero(inside)
     widths = []
@@ -141,6 +237,10 @@ def _widths(line: Array, area: Any) -> tuple[Array, Array]:
     return widths[0], widths[1]
 
 
+def _edges(area: Any) -> Array:
+    return np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in _rings(area)])
+
+
 def _rings(area: Any) -> list[Array]:
     polygons = area.geoms if hasattr(area, "geoms") else [area]
     return [
@@ -152,8 +252,13 @@ def _rings(area: Any) -> list[Array]:
 
 
 def _narrowed(width: Array, s: Array) -> Array:
-    """The least within a step of the final points, and no steeper than STEEPEST."""
-    gap = np.abs(s[:, None] - s[None, :])
-    least = np.min(np.where(gap <= POINT_STEP / 2, width[None, :], np.inf), axis=1)
-    narrowed: Array = np.min(least[None, :] + STEEPEST * gap, axis=1)
+    """The least within a step of the final points, and no steeper than STEEPEST; `s` is evenly spaced."""
+    step = s[1] - s[0]
+    reach = int(POINT_STEP / 2 / step + 1e-9)
+    padded = np.pad(width, reach, constant_values=np.inf)
+    least = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).min(axis=1)
+    # By slopes: the least of what came before, seen along a line that rises, and the same from the other end.
+    rising = np.minimum.accumulate(least - STEEPEST * s) + STEEPEST * s
+    falling = np.minimum.accumulate((least + STEEPEST * s)[::-1])[::-1] - STEEPEST * s
+    narrowed: Array = np.minimum(rising, falling)
     return narrowed

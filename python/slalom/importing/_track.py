@@ -14,7 +14,7 @@ from ._scene import Scene, Vehicle
 COLUMNS = "x_m,y_m,w_tr_right_m,w_tr_left_m"
 EXPECTED = f"a race track: CSV with the columns {COLUMNS} [m]"
 MOST_ROWS = 100_000
-MOST_OF_RADIUS, FAR_TOO_MUCH = 0.9, 1.5
+MOST_OF_RADIUS, FAR_TOO_MUCH = 0.9, 2.0
 """How much of a bend's radius the road may be wide inside it, and beyond which share the file is refused."""
 
 

@@ -16,6 +16,14 @@ EXPECTED = f"a CommonRoad scenario, XML of version {' or '.join(VERSIONS)}"
 NUMBERS = frozenset(("x", "y", "exact", "intervalStart", "intervalEnd", "length", "width", "radius", "orientation"))
 SIZES = frozenset(("length", "width", "radius"))
 REFERENCES = frozenset(("successor", "predecessor", "adjacentLeft", "adjacentRight", "lanelet"))
+SIGNS = {
+    "trafficSign": "traffic sign",
+    "trafficLight": "traffic light",
+    "intersection": "right of way of intersection",
+    "trafficSignRef": "",
+    "trafficLightRef": "",
+}
+"""What the vehicle is not told of, and its name."""
 NEEDED = {
     "point": ("x", "y"),
     "center": ("x", "y"),
@@ -38,20 +46,50 @@ class ExtraMissing(ImportError):
     """A package that an importer or exporter needs is not installed; the message says what to install."""
 
 
-def open_file(file: str | os.PathLike[str]) -> tuple[Any, Any]:
-    """Scenario and planning problems as commonroad-io has them. Raises BadFile, and ExtraMissing without it."""
+def open_file(file: str | os.PathLike[str]) -> tuple[Any, Any, list[str]]:
+    """Scenario and planning problems as commonroad-io has them, and what it could not read, by name.
+
+    Raises BadFile, and ExtraMissing without it.
+    """
     try:
         from commonroad.common.file_reader import CommonRoadFileReader
     except ImportError:
         raise ExtraMissing(MISSING) from None
     root = check(file, read(file, EXPECTED))
+    unread: list[str] = []
     with _quiet():
         try:
             scenario, problems = CommonRoadFileReader(os.fspath(file)).open()
         except Exception as error:  # its messages are of all kinds
-            raise BadFile(file, f"what commonroad-io cannot read ({type(error).__name__}: {error})", EXPECTED) from None
+            try:
+                scenario, problems = _bare(root)
+                unread = [f"{SIGNS[each.tag]} {each.get('id')}: left out" for each in root if SIGNS.get(each.tag)]
+            except Exception:
+                found = f"what commonroad-io cannot read ({type(error).__name__}: {error})"
+                raise BadFile(file, found, EXPECTED) from None
     _complete(root, problems.planning_problem_dict)
-    return scenario, problems
+    return scenario, problems, unread
+
+
+def _bare(root: Any) -> tuple[Any, Any]:
+    """The same of what a vehicle drives on and among alone: many a file has signs, lights and intersections that
+    commonroad-io refuses, such as incomings of several intersections with one id, or no location and tags."""
+    import copy
+    import tempfile
+
+    from commonroad.common.file_reader import CommonRoadFileReader
+    from lxml import etree
+
+    plain = copy.deepcopy(root)
+    for element in [each for each in plain.iter() if each.tag in SIGNS or each.tag in ("location", "scenarioTags")]:
+        element.getparent().remove(element)
+    plain.insert(0, etree.Element("scenarioTags"))
+    for name in ("author", "affiliation", "source", "tags", "date"):
+        plain.set(name, plain.get(name) or "")
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "plain.xml")
+        etree.ElementTree(plain).write(file)
+        return CommonRoadFileReader(file).open()  # type: ignore[no-any-return]
 
 
 def _complete(root: Any, problems: dict[int, Any]) -> None:
