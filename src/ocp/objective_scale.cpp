@@ -9,6 +9,8 @@ namespace {
 constexpr double kStep = 0.5;
 /// Times the largest slope at the start: an answer with a smaller one is solved again.
 constexpr double kLeastSlope = 1e-2;
+/// Slopes beside the objective itself, by variables in units of their scales, that are rounding.
+constexpr double kRounding = 1e-14;
 
 /// A problem with `factor` times its objective.
 class Multiplied final : public nlp::Problem {
@@ -48,8 +50,9 @@ nlp::Start scaled(nlp::Start point, double factor) {
   return point;
 }
 
-/// Largest slope at x by one of the variables that `measured` counts; 0 where there is none or a
-/// function is not finite.
+/// Largest slope at x by one of the variables that `measured` counts; 0 where there is none, where
+/// it is no more than rounding of the objective (of one that is constant, such as v² cos² + v²
+/// sin²), or where a function is not finite.
 double slope_at(nlp::Problem& problem, const std::vector<double>& x,
                 const std::vector<char>& measured) {
   nlp::Evaluation at;
@@ -57,7 +60,7 @@ double slope_at(nlp::Problem& problem, const std::vector<double>& x,
   double most = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (measured[i]) most = std::max(most, std::fabs(at.gradient[i]));
-  return most;
+  return most > kRounding * std::fabs(at.objective) ? most : 0;
 }
 
 /// x with every variable moved up by half its scale, or down where its bound is nearer: where a

@@ -8,10 +8,12 @@
 #include "lookup.hpp"
 #include "moved.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/moments.hpp"
 #include "slalom/ocp/scaling.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "solved.hpp"
+#include "unwind.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -78,8 +80,10 @@ Solution solve_once(const Problem& problem, const SolveSettings& settings) {
                                 : start_of(transcription, beginning);
   const auto solver = nlp::make_solver(settings.backend);
   Solution solution;
-  const auto point = run(transcription, *solver, settings.options, start,
-                         transcription.regular_variables(), solution);
+  auto point = run(transcription, *solver, settings.options, start,
+                   transcription.regular_variables(), solution);
+  unwind(scaled, transcription, point.x);
+  solution.point = to_user(point, transcription.structure());
   describe(scaled, grid, Tables(scaled), transcription, point, solution);
   return solution;
 }
@@ -118,7 +122,14 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
     start = from_user(settings.warm_start, transcription.structure());
   const auto solver = nlp::make_solver(settings.backend);
   PhasedSolution solution;
-  const auto point = run(transcription, *solver, settings.options, start, regular, solution);
+  nlp::Start point = run(transcription, *solver, settings.options, start, regular, solution);
+  auto first = point.x.begin();  // of the phase's variables, which follow those of the phase before
+  for (std::size_t p = 0; p < phases; ++p) {
+    std::vector<double> x = transcription.part_of(p, point).x;
+    unwind(scaled.phases()[p], transcription.phase(p), x);
+    first = std::copy(x.begin(), x.end(), first);
+  }
+  solution.point = to_user(point, transcription.structure());
   describe(scaled, grids, transcription, point, solution);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
   return solution;
@@ -132,10 +143,45 @@ bool ends_locally(const Answer& answer, const Settings& settings) {
          settings.warm_start.x.empty();
 }
 
+/// Whether a function is not finite at the first point, which nobody has asked for.
+template <class Answer>
+bool fails_at_once(const Answer& answer) {
+  return answer.status == nlp::Status::invalid_number && answer.iterations == 0;
+}
+
+SolveSettings held(const Problem& problem, SolveSettings settings) {
+  settings.guess = held_guess(problem);
+  return settings;
+}
+PhasedSettings held(const PhasedProblem& problem, PhasedSettings settings) {
+  settings.guesses.resize(problem.phases().size());
+  for (std::size_t p = 0; p < problem.phases().size(); ++p)
+    if (settings.guesses[p].tau.empty()) settings.guesses[p] = held_guess(problem.phases()[p]);
+  return settings;
+}
+bool without_guess(const SolveSettings& settings) {
+  return settings.guess.tau.empty() && settings.previous == nullptr &&
+         settings.warm_start.x.empty();
+}
+bool without_guess(const PhasedSettings& settings) {
+  return settings.previous == nullptr && settings.warm_start.x.empty() &&
+         (settings.guesses.empty() ||
+          std::any_of(settings.guesses.begin(), settings.guesses.end(),
+                      [](const Trajectory& guess) { return guess.tau.empty(); }));
+}
+
 /// Tries again from elsewhere where violation was least but not zero, within the same limits.
 template <class Answer, class Problem, class Settings>
-Answer solve_with_tries(const Problem& problem, const Settings& settings) {
+Answer solve_with_tries(const Problem& problem, const Settings& given) {
+  Settings settings = given;
   Answer answer = solve_once(problem, settings);
+  if (fails_at_once(answer) && without_guess(settings)) {
+    Answer other = solve_once(problem, held(problem, settings));
+    if (!fails_at_once(other)) {
+      settings = held(problem, settings);
+      answer = std::move(other);
+    }
+  }
   int iterations = answer.iterations;
   double wall_s = answer.wall_s;
   for (std::uint64_t seed = 1; seed <= kMoreTries && ends_locally(answer, settings); ++seed) {

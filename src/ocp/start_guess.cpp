@@ -23,6 +23,11 @@ Bounds intersection(Bounds a, Bounds b) {
   return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
 }
 
+/// Whether bounds say where between them a value is.
+bool told(Bounds bounds) {
+  return std::isfinite(bounds.lower) && std::isfinite(bounds.upper);
+}
+
 std::string place(const Problem& problem) {
   return problem.name() + ": guess";
 }
@@ -73,6 +78,20 @@ Trajectory straight_guess(const Problem& problem) {
   }
   for (auto& controls : guess.controls)
     for (const auto& control : problem.controls()) controls.push_back(middle(control.bounds));
+  return guess;
+}
+
+Trajectory held_guess(const Problem& problem) {
+  Trajectory guess = straight_guess(problem);
+  for (std::size_t i = 0; i < problem.states().size(); ++i) {
+    const auto& state = problem.states()[i];
+    const Bounds ends[] = {intersection(state.bounds, state.initial),
+                           intersection(state.bounds, state.final)};
+    for (const int end : {0, 1})
+      if (told(ends[1 - end]) && !told(ends[end]))
+        guess.states[end][i] =
+            std::clamp(guess.states[1 - end][i], ends[end].lower, ends[end].upper);
+  }
   return guess;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ocp/pushed_mass.hpp"
+#include "slalom/ocp/errors.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/phases.hpp"
 #include "slalom/ocp/solve.hpp"
@@ -118,6 +119,69 @@ TEST(HardStarts, ABoundThatALinkHoldsHasNoInterior) {
     found.push_back(solution.objective);
   }
   for (const double each : found) EXPECT_NEAR(each, found.front(), 1e-5);
+}
+
+/// Of v² cos² + v² sin² only rounding is left of a slope: multiplied until that is 1, it led
+/// nowhere.
+TEST(HardStarts, RoundingOfAConstantObjectiveIsNoSlope) {
+  Problem p("obstacles");
+  const Expr x = p.state("x", {0, 2}), y = p.state("y", {0, 2}), a = p.control("a", {-10, 10});
+  const Expr vx = 2.138 * cos(a), vy = 2.138 * sin(a);
+  p.dynamics(x, vx);
+  p.dynamics(y, vy);
+  p.fix(x, 0, 1.2);
+  p.fix(y, 0, 1.6);
+  p.path("first", square(x - 0.4) + square(y - 0.5), Bounds::at_least(0.1));
+  p.path("second", square(x - 0.8) + square(y - 1.5), Bounds::at_least(0.1));
+  p.lagrange("effort", square(vx) + square(vy));
+  const Solution solution = solve(p, {.guess = Guess(p).constant("a", 1)});
+  EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+  EXPECT_LE(solution.iterations, 100);
+}
+
+/// Bryson & Ho 1975, section 2.7: the farthest slide in a given time. At rest, as in the guess, the
+/// heading has no effect to first order, and the rows contradict each other.
+Problem farthest_slide() {
+  Problem p("farthest slide");
+  const Expr x = p.state("x"), y = p.state("y"), v = p.state("v"), heading = p.control("heading");
+  p.dynamics(x, v * cos(heading));
+  p.dynamics(y, v * sin(heading));
+  p.dynamics(v, 0.5 - sin(heading));
+  for (const Expr& each : {x, y, v}) p.initial_bounds(each, Bounds::equal(0));
+  p.final_bounds(y, Bounds::equal(0.1));
+  p.final_time(Bounds::equal(2), 2);
+  p.mayer("range", -p.final(x));
+  return p;
+}
+
+/// Headings some full turns apart say the same at the points, but not between them.
+TEST(HardStarts, FullTurnsOfAHeadingAreTakenOff) {
+  Problem p = farthest_slide();
+  const Solution solution = solve(p);
+  ASSERT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+  EXPECT_NEAR(solution.objective, -1.7123149, 1e-6);
+  const std::vector<double> heading = solution.control("heading");
+  for (std::size_t k = 1; k < heading.size(); ++k)
+    EXPECT_LE(std::fabs(heading[k] - heading[k - 1]), 3.2) << k;
+  EXPECT_LE(estimate_errors(p, solution).largest, 1e-5);
+  // The point is the trajectory's, and still meets all rows.
+  const Solution again = solve(p, {.warm_start = solution.point});
+  EXPECT_TRUE(again.solved());
+  EXPECT_NEAR(again.objective, solution.objective, 1e-7);
+}
+
+/// Without a guess, a free final volume would go to 0 on a straight line.
+TEST(HardStarts, AStateThatOneEndTellsIsHeldWhereALineFails) {
+  Problem p("filling");
+  const Expr v = p.state("v"), c = p.state("c"), u = p.control("u", {0, 1});
+  p.dynamics(v, u);
+  p.dynamics(c, (1 - c) * u / v);
+  p.initial_bounds(v, Bounds::equal(1));
+  p.initial_bounds(c, Bounds::equal(0));
+  p.mayer("concentration", -p.final(c));
+  const Solution solution = solve(p);
+  EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+  EXPECT_NEAR(solution.objective, -0.5, 1e-6);  // c = 1 - 1 / v
 }
 
 }  // namespace

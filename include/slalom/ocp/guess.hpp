@@ -16,6 +16,10 @@ namespace slalom::ocp {
 /// in the middle of their bounds; t0 and tf as the problem guesses them.
 Trajectory straight_guess(const Problem& problem);
 
+/// The same, but states that only one end's bounds tell stay there: what solve() begins with where
+/// a function is not finite on the straight guess, as where a volume or a mass goes to 0 on it.
+Trajectory held_guess(const Problem& problem);
+
 /// Throws InvalidValue unless `guess` fits `problem`: as many states and controls at each point as
 /// the problem has, no more static parameters, slacks and integrals than it has, finite numbers,
 /// taus that do not fall, tf not before t0.
