@@ -50,15 +50,23 @@ std::vector<world::Obstacle> measured_at(double t0, std::vector<world::Obstacle>
   return obstacles;
 }
 
-Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
-          std::optional<double> tex, double time_limit, double best_iterate_tol,
-          const std::optional<std::vector<world::Obstacle>>& obstacles) {
+planner::Request request_of(const ScenarioPlanner& self, const std::vector<double>& state,
+                            const std::string& where, double t0, std::optional<double> tex,
+                            double time_limit, double best_iterate_tol) {
   planner::Request request;
-  request.X0p = state_of(state, "plan: state");
+  request.X0p = state_of(state, where.c_str());
   request.t0 = t0;
   request.t_start = t0 + tex.value_or(self.tex);
   request.time_limit = time_limit;
   request.best_iterate_tol = best_iterate_tol;
+  return request;
+}
+
+Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
+          std::optional<double> tex, double time_limit, double best_iterate_tol,
+          const std::optional<std::vector<world::Obstacle>>& obstacles) {
+  planner::Request request =
+      request_of(self, state, "plan: state", t0, tex, time_limit, best_iterate_tol);
   if (obstacles) request.obstacles = measured_at(t0, *obstacles);
   Released released;
   request.interrupted = [&released] { return released.interrupted(); };
@@ -76,14 +84,9 @@ std::vector<Plan> plan_many(ScenarioPlanner& self, const std::vector<std::vector
                             double t0, std::optional<double> tex, double time_limit,
                             double best_iterate_tol, int threads) {
   std::vector<planner::Request> requests;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    planner::Request& request = requests.emplace_back();
-    request.X0p = state_of(states[i], ("plan_many: states[" + std::to_string(i) + "]").c_str());
-    request.t0 = t0;
-    request.t_start = t0 + tex.value_or(self.tex);
-    request.time_limit = time_limit;
-    request.best_iterate_tol = best_iterate_tol;
-  }
+  for (std::size_t i = 0; i < states.size(); ++i)
+    requests.push_back(request_of(self, states[i], "plan_many: states[" + std::to_string(i) + "]",
+                                  t0, tex, time_limit, best_iterate_tol));
   Released released;
   std::vector<Plan> plans;
   {

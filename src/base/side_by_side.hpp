@@ -8,9 +8,12 @@
 #include <functional>
 #include <limits>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "slalom/base/error.hpp"
 
 namespace slalom {
 
@@ -24,9 +27,10 @@ class SideBySide {
   using MakeWorker = std::function<Worker()>;
 
   /// `threads`: 0 for as many as there are processors; no more are used than there are pieces.
-  /// `poll`, which may be empty, says whether to end soon; it is called on this thread alone.
-  SideBySide(std::size_t count, int threads, std::function<bool()> poll)
-      : count_(count), threads_(threads_for(threads)), poll_(std::move(poll)) {}
+  /// Throws InvalidValue for a negative number, with `where`. `poll`, which may be empty, says
+  /// whether to end soon; it is called on this thread alone.
+  SideBySide(const std::string& where, std::size_t count, int threads, std::function<bool()> poll)
+      : count_(count), threads_(threads_for(where, threads)), poll_(std::move(poll)) {}
 
   /// Whether the work is to end soon: a piece failed, or `poll` said so. For the workers to ask.
   bool ending() {
@@ -75,7 +79,10 @@ class SideBySide {
       lock.lock();
     }
   }
-  static int threads_for(int asked) {
+  static int threads_for(const std::string& where, int asked) {
+    if (asked < 0)
+      throw InvalidValue(where + ": threads", std::to_string(asked),
+                         "a number of threads, or 0 for as many as there are processors");
     if (asked > 0) return asked;
     const unsigned processors = std::thread::hardware_concurrency();
     return processors > 0 ? static_cast<int>(processors) : 1;

@@ -56,9 +56,6 @@ class Numbers {
 
 std::vector<Solution> solve_many(const Problem& problem, const SolveSettings& settings,
                                  const std::vector<Variation>& variations, int threads) {
-  if (threads < 0)
-    throw InvalidValue(problem.name() + ": many: threads", std::to_string(threads),
-                       "a number of threads, or 0 for as many as there are processors");
   if (!settings.warm_start.x.empty())
     throw InvalidValue(problem.name() + ": many", "a warm start",
                        "none, or the solution as `previous`");
@@ -69,7 +66,7 @@ std::vector<Solution> solve_many(const Problem& problem, const SolveSettings& se
 
   std::vector<Solution> answers(varied.count());
   const nlp::Options& options = settings.options;
-  SideBySide pieces(answers.size(), threads,
+  SideBySide pieces(problem.name() + ": many", answers.size(), threads,
                     [&] { return options.stop != nullptr && options.stop(options.stop_data); });
   SolveSettings each = settings;
   each.options.stop = [](void* all) { return static_cast<SideBySide*>(all)->ending(); };

@@ -82,8 +82,8 @@ Solution solve_once(const Problem& problem, const SolveSettings& settings) {
   Solution solution;
   auto point = run(transcription, *solver, settings.options, start,
                    transcription.regular_variables(), solution);
-  unwind(scaled, transcription, point.x);
-  solution.point = to_user(point, transcription.structure());
+  if (unwind(scaled, transcription, point.x))
+    solution.point = to_user(point, transcription.structure());
   describe(scaled, grid, Tables(scaled), transcription, point, solution);
   return solution;
 }
@@ -123,13 +123,14 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
   const auto solver = nlp::make_solver(settings.backend);
   PhasedSolution solution;
   nlp::Start point = run(transcription, *solver, settings.options, start, regular, solution);
+  bool unwound = false;
   auto first = point.x.begin();  // of the phase's variables, which follow those of the phase before
   for (std::size_t p = 0; p < phases; ++p) {
     std::vector<double> x = transcription.part_of(p, point).x;
-    unwind(scaled.phases()[p], transcription.phase(p), x);
+    unwound = unwind(scaled.phases()[p], transcription.phase(p), x) || unwound;
     first = std::copy(x.begin(), x.end(), first);
   }
-  solution.point = to_user(point, transcription.structure());
+  if (unwound) solution.point = to_user(point, transcription.structure());
   describe(scaled, grids, transcription, point, solution);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
   return solution;
@@ -176,9 +177,10 @@ Answer solve_with_tries(const Problem& problem, const Settings& given) {
   Settings settings = given;
   Answer answer = solve_once(problem, settings);
   if (fails_at_once(answer) && without_guess(settings)) {
-    Answer other = solve_once(problem, held(problem, settings));
+    Settings again = held(problem, settings);
+    Answer other = solve_once(problem, again);
     if (!fails_at_once(other)) {
-      settings = held(problem, settings);
+      settings = std::move(again);
       answer = std::move(other);
     }
   }

@@ -44,9 +44,10 @@ bool says_the_same(Transcription& transcription, const std::vector<double>& a,
 
 }  // namespace
 
-void unwind(const Problem& problem, Transcription& transcription, std::vector<double>& x) {
+bool unwind(const Problem& problem, Transcription& transcription, std::vector<double>& x) {
   const Trajectory wound = transcription.trajectory(x);
   const auto& scale = transcription.structure().variable_scale;
+  bool any = false;
   for (std::size_t i = 0; i < problem.controls().size(); ++i) {
     std::vector<double> values;
     for (const auto& controls : wound.controls) values.push_back(controls[i]);
@@ -66,8 +67,11 @@ void unwind(const Problem& problem, Transcription& transcription, std::vector<do
     std::vector<double> unwound = x;
     for (std::size_t v = 0; v < x.size(); ++v)
       unwound[v] += kTurn * std::round((after[v] - before[v]) * scale[v]) / scale[v];
-    if (says_the_same(transcription, x, unwound)) x = std::move(unwound);
+    if (!says_the_same(transcription, x, unwound)) continue;
+    x = std::move(unwound);
+    any = true;
   }
+  return any;
 }
 
 }  // namespace slalom::ocp

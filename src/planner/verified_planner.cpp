@@ -161,7 +161,7 @@ bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal, const Course& co
   if (good)
     cycle.good.push_back(std::move(option));
   else if (option.motion().size() > 1)
-    offer_refused(cycle, std::move(option));
+    cycle.refused.push_back(std::move(option));
   return good;
 }
 
@@ -199,7 +199,7 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
     if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
   cycle.looked_at.push_back({"rest", cycle.rest->cost, rest.verdict.certificate});
-  if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) offer_refused(cycle, *cycle.rest);
+  if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) cycle.refused.push_back(*cycle.rest);
 }
 
 /// The last plan from where it is to go on; it is tracked where the state is another, and lasts at
@@ -351,7 +351,7 @@ const VerifiedPlanner::Option* VerifiedPlanner::chosen(const Cycle& cycle, Rung&
   }
   rung = rest ? Rung::rest : Rung::least_bad;
   if (rest) return rest;
-  return task_.planner.fallback && cycle.least_bad ? &*cycle.least_bad : nullptr;
+  return task_.planner.fallback ? least_bad(cycle) : nullptr;
 }
 
 Plan VerifiedPlanner::choose(Cycle& cycle) {

@@ -38,8 +38,7 @@ class VerifiedPlanner final : public PlanningMethod {
   struct Option {
     Proposal proposal;
     double cost = 0;
-    Course course;                                          ///< whose beginning it drives
-    double harm = std::numeric_limits<double>::infinity();  ///< see harm_of() [s]
+    Course course;  ///< whose beginning it drives
 
     const Motion& motion() const { return proposal.motion; }
     const Certificate& certificate() const { return proposal.verdict.certificate; }
@@ -56,10 +55,10 @@ class VerifiedPlanner final : public PlanningMethod {
     std::vector<world::Obstacle> obstacles;
     const bool verification;
     Timer timer{};
-    std::optional<Option> rest{};       ///< of the last plan, good or not
-    bool rest_unchanged = false;        ///< it is that plan's own motion among the same obstacles
-    std::vector<Option> good{};         ///< new ones
-    std::optional<Option> least_bad{};  ///< of those refused, see offer_refused()
+    std::optional<Option> rest{};  ///< of the last plan, good or not
+    bool rest_unchanged = false;   ///< it is that plan's own motion among the same obstacles
+    std::vector<Option> good{};    ///< new ones
+    std::vector<Option> refused{};
     std::vector<Candidate> looked_at{};
     std::optional<double> course_arrival{};  ///< of a course that is good as far as is seen [s]
     int iterations = 0;
@@ -128,7 +127,7 @@ class VerifiedPlanner final : public PlanningMethod {
   bool consider(Cycle& cycle, Proposal proposal, const Course& course = {});
   Proposal judged(const Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
   double harm_of(const Cycle& cycle, const Motion& motion);
-  void offer_refused(Cycle& cycle, Option option);
+  const Option* least_bad(const Cycle& cycle);
   void follow_course(Cycle& cycle);
   void follow(Cycle& cycle, const Proposal& proposal);
   bool stop_late(Cycle& cycle, const Proposal& proposal);

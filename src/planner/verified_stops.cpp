@@ -161,11 +161,16 @@ double VerifiedPlanner::harm_of(const Cycle& cycle, const Motion& motion) {
 }
 
 /// Of those refused, the one that does harm last, and of those the one that goes on longest.
-void VerifiedPlanner::offer_refused(Cycle& cycle, Option option) {
-  option.harm = harm_of(cycle, option.motion());
-  const auto& known = cycle.least_bad;
-  const auto when = [](const Option& o) { return std::pair(o.harm, o.certificate().refused_at); };
-  if (!known || when(option) > when(*known)) cycle.least_bad = std::move(option);
+const VerifiedPlanner::Option* VerifiedPlanner::least_bad(const Cycle& cycle) {
+  const Option* least = nullptr;
+  std::pair<double, double> latest;
+  for (const Option& option : cycle.refused) {
+    const std::pair when(harm_of(cycle, option.motion()), option.certificate().refused_at);
+    if (least != nullptr && !(when > latest)) continue;
+    least = &option;
+    latest = when;
+  }
+  return least;
 }
 
 }  // namespace slalom::planner

@@ -11,6 +11,7 @@
 #include "../../src/planner/road_terms.hpp"
 #include "../../src/planner/road_way.hpp"
 #include "../../src/planner/trajectory_problem.hpp"
+#include "edge_distance.hpp"
 #include "scenes.hpp"
 #include "slalom/expr/function.hpp"
 #include "slalom/planner/planner.hpp"
@@ -66,14 +67,6 @@ int edges_of(const Task& task) {
   return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const auto& row) {
     return row.name.find("edge of the road") != std::string::npos;
   }));
-}
-
-double least_edge_distance(const Task& task, const Plan& plan) {
-  const world::Footprint footprint(task.vehicle);
-  double least = 1e9;
-  for (const State& x : plan.states)
-    least = std::min(least, footprint.edge_distance(*task.road, x));
-  return least;
 }
 
 TEST(RoadHorizon, AStraightRoadGivesThePlanWithoutIt) {

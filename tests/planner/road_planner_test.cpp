@@ -9,6 +9,7 @@
 
 #include "../../src/planner/road_reference.hpp"
 #include "../../src/planner/verifier.hpp"
+#include "planner/edge_distance.hpp"
 #include "slalom/planner/planner.hpp"
 
 namespace slalom::planner {
@@ -48,14 +49,6 @@ Request first() {
   Request request;
   request.X0p = {0, 0, 0, 0, 0, 0, 12, 0};
   return request;
-}
-
-double least_edge_distance(const Task& task, const Plan& plan) {
-  const world::Footprint footprint(task.vehicle);
-  double least = 1e9;
-  for (const State& x : plan.states)
-    least = std::min(least, footprint.edge_distance(*task.road, x));
-  return least;
 }
 
 TEST(RoadPlanner, DrivesAlongABendToALine) {
