@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel wheel-elsewhere package docs sweep-scale laps commonroad format clean build
+.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel wheel-elsewhere package docs sweep-scale laps commonroad format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -29,6 +29,12 @@ quick: ## build and run the unit tests of what changed, with format and layers
 test: ## set up, build, and run every test and check, with sanitizers too
 	tools/setup.sh test
 	tools/run_tests.sh
+
+threads: ## the unit tests of threads with the thread sanitizer, which needs a build of its own
+	tools/setup.sh test
+	cmake --preset tsan -DSLALOM_TESTS=ON
+	cmake --build --preset tsan -j $(JOBS)
+	ctest --preset tsan -j $(JOBS)
 
 tidy: ## clang-tidy on every source by itself, and with the analyzer, which `make test` leaves out
 	cmake --preset release -DSLALOM_TESTS=ON

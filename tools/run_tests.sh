@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds and runs every test: the unit tests with sanitizers, those of threads with the thread
-# sanitizer, then the release build with all checks. Goes on after a failure, sums up what failed and
-# how long each part took, and fails if anything did. A build that fails counts as one failure.
+# Builds and runs every test: the unit tests with sanitizers, then the release build with all checks.
+# Goes on after a failure, sums up what failed and how long each part took, and fails if anything did.
+# A build that fails counts as one failure.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -59,14 +59,14 @@ step() { # TITLE COMMAND...
   return 1
 }
 
-configure() { # all three at once: each by itself keeps less than one processor busy
+configure() { # both at once: each by itself keeps less than one processor busy
   local preset pids=() code=0
-  for preset in asan tsan release; do
+  for preset in asan release; do
     cmake --preset "$preset" -DSLALOM_TESTS=ON >"$logs/$preset" 2>&1 &
     pids+=($!)
   done
   for pid in "${pids[@]}"; do wait "$pid" || code=1; done
-  cat "$logs"/{asan,tsan,release}
+  cat "$logs"/{asan,release}
   return $code
 }
 build() { cmake --build --preset "$1" -j "$jobs"; }
@@ -78,9 +78,6 @@ trap 'rm -rf "$logs"' EXIT
 start=$SECONDS
 step "configure" configure
 if step "build with sanitizers" build asan; then run_ctest asan "unit tests with sanitizers" "$jobs"; fi
-if step "build with the thread sanitizer" build tsan; then
-  run_ctest tsan "tests of threads with the thread sanitizer" "$jobs"
-fi
 # One more than there are processors: the wheel's and the command line's tests wait now and then.
 if step "release build" build release; then
   run_ctest release "tests and checks of the release build" $((jobs + 1))
