@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "conflicts.hpp"
@@ -20,6 +21,13 @@ namespace {
 
 /// Starts beside the first, where that ends at a point that is stationary for the violation.
 constexpr std::uint64_t kMoreTries = 5;
+
+/// Intervals of the meshes by which a solve that failed is tried again. On so few there is little
+/// to lose one's way in, and an answer is most of the way to one on a finer mesh (Betts 2010,
+/// section 4.6, begins on coarse meshes for that reason).
+constexpr int kCoarseMeshes[] = {4, 10};
+/// A limit below is there to see how a solve begins.
+constexpr int kEnoughIterations = 100;
 
 }  // namespace
 
@@ -171,36 +179,118 @@ bool without_guess(const PhasedSettings& settings) {
                       [](const Trajectory& guess) { return guess.tau.empty(); }));
 }
 
-/// Tries again from elsewhere where violation was least but not zero, within the same limits.
+/// Whether the method has lost its way, of which a coarse mesh has fewer.
+template <class Answer, class Settings>
+bool lost_its_way(const Answer& answer, const Settings& settings) {
+  const bool lost = answer.status == nlp::Status::iteration_limit ||
+                    answer.status == nlp::Status::numerical_failure ||
+                    ends_locally(answer, settings);
+  return lost && settings.options.floor == 0 &&
+         settings.options.max_iterations >= kEnoughIterations && settings.previous == nullptr &&
+         settings.warm_start.x.empty();
+}
+
+std::size_t most_intervals(const Problem&, const SolveSettings& settings) {
+  return settings.mesh.intervals();
+}
+std::size_t most_intervals(const PhasedProblem& problem, const PhasedSettings& settings) {
+  if (settings.grids.empty() && !problem.phases().empty()) return SolveSettings().mesh.intervals();
+  std::size_t most = 0;
+  for (const auto& grid : settings.grids) most = std::max(most, grid.mesh.intervals());
+  return most;
+}
+void set_grid(const Problem&, const PhasedTranscription::Grid& grid, SolveSettings& settings) {
+  settings.mesh = grid.mesh;
+  settings.scheme = grid.schemes;
+}
+void set_grid(const PhasedProblem& problem, const PhasedTranscription::Grid& grid,
+              PhasedSettings& settings) {
+  settings.grids.assign(problem.phases().size(), grid);
+}
+
+/// Solves of one problem within one limit of time, and what they took together.
+template <class Answer, class Problem, class Settings>
+class Tries {
+ public:
+  Tries(const Problem& problem, double time_limit) : problem_(problem), left_s_(time_limit) {}
+
+  /// Another solve; none where no time or iteration is left for one.
+  std::optional<Answer> solve(Settings settings) {
+    settings.options.time_limit = left_s_;
+    if (iterations_ > 0 && (settings.options.max_iterations <= 0 || !(left_s_ > 0)))
+      return std::nullopt;
+    Answer answer = solve_once(problem_, settings);
+    iterations_ += answer.iterations;
+    wall_s_ += answer.wall_s;
+    left_s_ -= answer.wall_s;
+    interrupted_ = answer.status == nlp::Status::interrupted;
+    return answer;
+  }
+
+  /// Again from elsewhere, as long as violation ends where it is least but not zero; within the
+  /// iterations of the settings, of which the answer has had its own.
+  void from_elsewhere(const Settings& settings, Answer& answer) {
+    int left = settings.options.max_iterations - answer.iterations;
+    for (std::uint64_t seed = 1; seed <= kMoreTries && ends_locally(answer, settings); ++seed) {
+      Settings again = moved(problem_, settings, seed);
+      again.options.max_iterations = left;
+      std::optional<Answer> other = solve(std::move(again));
+      if (!other) return;
+      left -= other->iterations;
+      if (other->solved()) answer = std::move(*other);
+      if (interrupted_) return;
+    }
+  }
+
+  /// By coarse meshes, whose answer the whole mesh then begins with. Each solve has the iterations
+  /// of the settings anew.
+  void by_coarse_meshes(const Settings& settings, Answer& answer) {
+    for (const int intervals : kCoarseMeshes) {
+      if (most_intervals(problem_, settings) <= static_cast<std::size_t>(intervals)) return;
+      Settings coarse = settings;
+      set_grid(problem_, {Mesh::uniform(intervals), hermite_simpson()}, coarse);
+      std::optional<Answer> rough = solve(coarse);
+      if (rough) from_elsewhere(coarse, *rough);
+      if (!rough || interrupted_) return;
+      if (!rough->solved()) continue;
+      Settings fine = settings;
+      fine.previous = &*rough;
+      std::optional<Answer> found = solve(std::move(fine));
+      if (found && found->solved()) answer = std::move(*found);
+      if (!found || answer.solved() || interrupted_) return;
+    }
+  }
+
+  bool interrupted() const { return interrupted_; }
+  int iterations() const { return iterations_; }
+  double wall_s() const { return wall_s_; }
+
+ private:
+  const Problem& problem_;
+  double left_s_, wall_s_ = 0;
+  int iterations_ = 0;
+  bool interrupted_ = false;
+};
+
+/// Tries again where the method lost its way, and where violation was least but not zero.
 template <class Answer, class Problem, class Settings>
 Answer solve_with_tries(const Problem& problem, const Settings& given) {
   Settings settings = given;
-  Answer answer = solve_once(problem, settings);
+  Tries<Answer, Problem, Settings> tries(problem, settings.options.time_limit);
+  Answer answer = *tries.solve(settings);
   if (fails_at_once(answer) && without_guess(settings)) {
     Settings again = held(problem, settings);
-    Answer other = solve_once(problem, again);
+    Answer other = *tries.solve(again);
     if (!fails_at_once(other)) {
       settings = std::move(again);
       answer = std::move(other);
     }
   }
-  int iterations = answer.iterations;
-  double wall_s = answer.wall_s;
-  for (std::uint64_t seed = 1; seed <= kMoreTries && ends_locally(answer, settings); ++seed) {
-    Settings again = moved(problem, settings, seed);
-    again.options.max_iterations -= iterations;
-    again.options.time_limit -= wall_s;
-    if (again.options.max_iterations <= 0 || !(again.options.time_limit > 0)) break;
-    Answer other = solve_once(problem, again);
-    iterations += other.iterations;
-    wall_s += other.wall_s;
-    const bool interrupted = other.status == nlp::Status::interrupted;
-    if (other.solved()) answer = std::move(other);
-    if (interrupted) break;
-  }
+  if (lost_its_way(answer, settings)) tries.by_coarse_meshes(settings, answer);
+  if (!tries.interrupted()) tries.from_elsewhere(settings, answer);
   answer.options = settings.options;
-  answer.iterations = iterations;
-  answer.wall_s = wall_s;
+  answer.iterations = tries.iterations();
+  answer.wall_s = tries.wall_s();
   return answer;
 }
 

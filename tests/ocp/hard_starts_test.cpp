@@ -184,5 +184,44 @@ TEST(HardStarts, AStateThatOneEndTellsIsHeldWhereALineFails) {
   EXPECT_NEAR(solution.objective, -0.5, 1e-6);  // c = 1 - 1 / v
 }
 
+/// Rayleigh's equation to rest in least time (Maurer & Augustin 2001): bang-bang, and on the whole
+/// mesh the method loses its way from straight lines.
+Problem rayleigh_in_least_time() {
+  Problem p("rayleigh");
+  const Expr x = p.state("x"), y = p.state("y"), u = p.control("u", {-1, 1});
+  p.final_time({0.5, 20}, 3);
+  p.dynamics(x, y);
+  p.dynamics(y, -x + y * (1.4 - 0.14 * square(y)) + 4 * u);
+  p.fix(x, -5, 0);
+  p.fix(y, -5, 0);
+  p.mayer("duration", p.final_time());
+  return p;
+}
+
+TEST(HardStarts, WhatAFineMeshLosesACoarseOneFinds) {
+  SolveSettings settings{.mesh = Mesh::uniform(20), .scheme = lgr(4)};
+  const Solution solution = solve(rayleigh_in_least_time(), settings);
+  EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+  EXPECT_NEAR(solution.tf(), 3.66817339, 1e-3);
+  EXPECT_EQ(solution.mesh.intervals(), 20u);
+  EXPECT_EQ(solution.options.max_iterations, settings.options.max_iterations);
+
+  PhasedProblem one("one phase");
+  one.add(rayleigh_in_least_time());
+  const PhasedSolution phased = solve(one, {.grids = {{Mesh::uniform(20), lgr(4)}}});
+  EXPECT_TRUE(phased.solved());
+  EXPECT_EQ(phased.phases[0].mesh.intervals(), 20u);
+  EXPECT_NEAR(phased.phases[0].tf(), solution.tf(), 1e-6);
+}
+
+/// A user's limit on iterations that shows how a solve begins is kept to.
+TEST(HardStarts, AShortLimitIsKept) {
+  SolveSettings settings{.mesh = Mesh::uniform(20), .scheme = lgr(4)};
+  settings.options.max_iterations = 30;
+  const Solution solution = solve(rayleigh_in_least_time(), settings);
+  EXPECT_EQ(solution.status, nlp::Status::iteration_limit);
+  EXPECT_EQ(solution.iterations, 30);
+}
+
 }  // namespace
 }  // namespace slalom::ocp
