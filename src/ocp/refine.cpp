@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "conflicts.hpp"
 #include "slalom/base/error.hpp"
 #include "solved.hpp"
 
@@ -376,6 +377,7 @@ Refined refine(const Problem& problem, const SolveSettings& start, const RefineR
   std::vector<ErrorEstimate> errors;
   result.status = run(Single(problem, start), rules, result.solution, errors, result.meshes);
   if (!errors.empty()) result.errors = std::move(errors.front());
+  if (result.status != RefineStatus::converged) result.solution.high_index = high_index(problem);
   return result;
 }
 
@@ -384,6 +386,9 @@ PhasedRefined refine(const PhasedProblem& problem, const PhasedSettings& start,
   PhasedRefined result;
   result.status =
       run(Several(problem, start), rules, result.solution, result.errors, result.meshes);
+  if (result.status == RefineStatus::converged) return result;
+  for (std::size_t p = 0; p < result.solution.phases.size(); ++p)
+    result.solution.phases[p].high_index = high_index(problem.phases()[p]);
   return result;
 }
 

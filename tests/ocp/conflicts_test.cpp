@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/refine.hpp"
 #include "slalom/ocp/solve.hpp"
 
 namespace slalom::ocp {
@@ -198,6 +199,21 @@ TEST(HighIndex, IsSaidOfWhatIsNotSolvedByIt) {
   const auto& end = stated.trajectory.states.back();
   EXPECT_NEAR(end[0] * end[0] + end[1] * end[1], 1, 1e-4);
   EXPECT_TRUE(solve(pendulum(true), {.options = few}).high_index.empty());
+}
+
+TEST(HighIndex, IsSaidOfWhatNoMeshRefines) {
+  const RefineRules rules{.max_meshes = 2};
+  const Refined refined = refine(pendulum(false), {.mesh = Mesh::uniform(10)}, rules);
+  EXPECT_NE(refined.status, RefineStatus::converged);
+  ASSERT_EQ(refined.solution.high_index.size(), 1u);
+  EXPECT_EQ(refined.solution.high_index[0].name, "length");
+
+  PhasedProblem one("one phase");
+  one.add(pendulum(false));
+  const PhasedRefined phased =
+      refine(one, {.grids = {{Mesh::uniform(10), hermite_simpson()}}}, rules);
+  EXPECT_NE(phased.status, RefineStatus::converged);
+  EXPECT_EQ(phased.solution.phases.at(0).high_index.size(), 1u);
 }
 
 }  // namespace

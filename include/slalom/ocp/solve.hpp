@@ -64,9 +64,9 @@ struct Solution {
   /// Of an infeasible problem or one with too few freedoms, as interior_point finds them: what
   /// stands against each other, first what would have to give least in its own scale.
   std::vector<Conflict> conflicts;
-  /// Of an answer that is not solved: what Newton's method can seldom solve as it stands. Hold the
-  /// derivative that a control meets instead, and the equation and its lower derivatives at t0
-  /// (Gear & Petzold, SIAM J. Numer. Anal. 21, 1984).
+  /// Of an answer that is not solved, or that no mesh refines: what Newton's method can seldom
+  /// solve as it stands. Hold the derivative that a control meets instead, and the equation and its
+  /// lower derivatives at t0 (Gear & Petzold, SIAM J. Numer. Anal. 21, 1984).
   std::vector<HighIndex> high_index;
   nlp::Options options;  ///< those it was solved with
   std::string backend;   ///< the one that solved it, with its factorisation
