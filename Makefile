@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile docs-measured wheel wheel-elsewhere package docs sweep-scale laps commonroad format clean build
+.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile growth docs-measured wheel wheel-elsewhere package docs sweep-scale laps commonroad format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -56,6 +56,10 @@ perturbed: ## thousands of perturbed cycles by ours and by Ipopt, into docs/meas
 solver-profile: ## where a solve's time goes, by perf, into docs/measured/solver-profile.md (takes minutes)
 	tools/setup.sh bench
 	python3 benchmarks/profile.py
+
+growth: ## an iteration's time against intervals, obstacles, phases and points, into docs/measured/growth.md (takes minutes)
+	tools/setup.sh bench
+	python3 benchmarks/growth.py
 
 reproduce: ## all drives of the paper's figures into run/reproduce/, ours beside the paper's
 	tools/setup.sh run

@@ -1,7 +1,7 @@
-// Time of an iteration against the number of intervals and of phases, on a problem that has all a
-// structured solver may stumble over; a line of JSON each.
+// Time of an iteration against the number of intervals, of phases, and of collocation points in an
+// interval, on a problem that has all a structured solver may stumble over; JSON.
 //
-//   bench_growth [--N 10,20,40,80] [--phases 1,2,4,8] [--scheme hermite_simpson]
+//   bench_growth [--N 10,20,40,80] [--phases 1,2,4,8] [--scheme hermite_simpson] [--points 3,5,10]
 //
 // Each phase is a chain of four oscillators driven by two forces, with a free final time, static
 // parameters that all phases share by links, an integral constraint, and, from the last phase to
@@ -97,6 +97,7 @@ nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme) {
   return {{"phases", phases},
           {"N", N},
           {"scheme", scheme.name},
+          {"points", scheme.points.size() - 1},
           {"stages", shape.stages},
           {"variables", shape.variables},
           {"rows", shape.rows},
@@ -111,15 +112,19 @@ nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme) {
 int main(int argc, char** argv) try {
   std::vector<int> N = {10, 20, 40, 80};
   std::vector<std::size_t> phases = {1, 2, 4, 8};
+  std::vector<int> points = {};
   std::string scheme = "hermite_simpson";
   CLI::App app("Times an iteration against intervals and phases.");
   app.add_option("--N", N, "numbers of intervals of each of four phases")->delimiter(',');
   app.add_option("--phases", phases, "numbers of phases of 20 intervals")->delimiter(',');
   app.add_option("--scheme", scheme, "collocation scheme");
+  app.add_option("--points", points, "LGR points in each of four intervals of one phase")
+      ->delimiter(',');
   CLI11_PARSE(app, argc, argv);
   nlohmann::json all = nlohmann::json::array();
   for (const int n : N) all.push_back(measure(4, n, ocp::scheme(scheme)));
   for (const std::size_t p : phases) all.push_back(measure(p, 20, ocp::scheme(scheme)));
+  for (const int n : points) all.push_back(measure(1, 4, ocp::lgr(n)));
   std::cout << all.dump() << "\n";
   return 0;
 } catch (const std::exception& error) {

@@ -5,7 +5,6 @@ Steps, all of them by default, each of which may be run by itself:
   setup      build our programs, install the peers, generate and compile their C
   record     begin a run: drive, and write its cycles
   measure    each contestant on each environment, level and start, chunk by chunk, in turn
-  growth     other meshes, schemes, numbers of obstacles and of phases
   functions  one evaluation of the functions beside CasADi's
   report     tables of the run, on standard output and in docs/measured/benchmarks.md
 
@@ -30,11 +29,10 @@ from measured import FOLDER, commit, write
 from summary import summarise
 from tables import markdown
 
-STEPS = ("setup", "record", "measure", "growth", "functions", "report")
+STEPS = ("setup", "record", "measure", "functions", "report")
 RUNS = BUILD / "runs"
 STARTS = ("warm", "cold")
 CHUNK = 250
-GROWTH = ["--N", "15,30,60,120,240,480", "--obstacles", "0,38,100,300,1000"]
 
 
 def say(text):
@@ -65,7 +63,8 @@ def build_ours():
     quiet = {"check": True, "stdout": subprocess.DEVNULL}
     subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), "-DCMAKE_BUILD_TYPE=Release",
                     "-DSLALOM_BENCHMARKS=ON", "-DSLALOM_TESTS=OFF"], **quiet)  # fmt: skip
-    targets = ["bench_" + name for name in ("record", "solve", "judge", "functions", "growth", "perturb", "lap", "generated")]
+    targets = ["bench_" + name for name in ("record", "solve", "judge", "functions", "growth", "interleaved", "perturb",
+                                          "lap", "generated")]
     subprocess.run(["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count()), "--target",
                     *targets], **quiet)  # fmt: skip
 
@@ -151,17 +150,6 @@ def measure(args):
                      lambda: CONTESTANTS[name].run(job, cycles))  # fmt: skip
 
 
-def growth(args):
-    folder = current_run(args)
-    say("growth")
-    command = [program("bench_solve"), "--growth", "--cycles", str(folder / "E_C.cycles"),
-               "--backend", "interior_point", "--floor", str(LEVELS["floor"].floor), *GROWTH]  # fmt: skip
-    write_result(folder, "growth", {}, lambda: json.loads(run_command(command)))
-    for scheme in ("trapezoidal", "hermite_simpson", "lgr"):
-        write_result(folder, f"phases_{scheme}", {}, lambda: {"phases": json.loads(
-            run_command([program("bench_growth"), "--scheme", scheme]))})  # fmt: skip
-
-
 def functions(args):
     """One evaluation of all functions in E_C: ours, and CasADi's C and VM."""
     folder = current_run(args)
@@ -214,7 +202,7 @@ def main():
     os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     everywhere = os.sched_getaffinity(0)
     for step in args.steps:
-        alone = step in ("measure", "growth", "functions")
+        alone = step in ("measure", "functions")
         os.sched_setaffinity(0, {args.core} if alone else everywhere)
         globals()[step](args)
 

@@ -100,23 +100,6 @@ def compare(ours, theirs, at_floor):
     return result
 
 
-def growth(results):
-    """Rows of the growth study, one a size."""
-    rows = []
-    for size in results.get("growth", {}).get("growth", []):
-        row = {k: size[k] for k in ("N", "obstacles", "setup_s")}
-        for e in size["cycles"]:
-            e["solved"] = solved(e, "floor")
-        good = [e for e in size["cycles"] if e["solved"]]
-        row |= {"of": len(size["cycles"]), "solved": len(good)}
-        if good:
-            row["cpu_ms"] = spread([1e3 * e["cpu_s"] for e in good])
-            row["iterations"] = quantile([e["iterations"] for e in good], 0.5)
-            row["us_per_iteration"] = per_iteration(good)
-        rows.append(row)
-    return rows
-
-
 def functions(results):
     """[place][quantity][contestant] -> microseconds, all samples' median and 95th percentile."""
     ours, theirs = results.get("functions_slalom", {}), results.get("functions_casadi", {})
@@ -139,9 +122,7 @@ def summarise(about, results):
     summary = {"about": about, "errors": measured.errors, "limit_ms": LIMIT_MS,
                "versions": sorted({r["version"] for r in results.values()}),
                "load": max((r["load"] for r in results.values()), default=0),
-               "environments": {}, "growth": growth(results),
-               "phases": [row for name, r in sorted(results.items()) if name.startswith("phases_")
-                          for row in r.get("phases", [])], "functions": functions(results)}  # fmt: skip
+               "environments": {}, "functions": functions(results)}  # fmt: skip
     kernels = {r["kernels"] for r in results.values() if "kernels" in r}
     summary["kernels"] = ", ".join(sorted(kernels))
     for environment in ENVIRONMENTS:

@@ -86,69 +86,6 @@ def environment_markdown(name, part):
     return "\n\n".join(parts)
 
 
-def growth_markdown(rows):
-    if not rows:
-        return "Not measured in this run."
-    base = next((r["us_per_iteration"] for r in rows if "cpu_ms" in r), None)
-    lines = []
-    for r in rows:
-        figures = ["–"] * 5 if "cpu_ms" not in r else [number(v) for v in (
-            r["cpu_ms"]["median"], r["cpu_ms"]["max"], r["iterations"], r["us_per_iteration"],
-            r["us_per_iteration"] / base)]  # fmt: skip
-        lines.append([str(r["N"]), str(r["obstacles"]), *figures, f"{r['solved']}/{r['of']}",
-                      number(1e3 * r["setup_s"])])  # fmt: skip
-    return table(["N", "obstacles", "median [ms]", "max", "iterations", "µs an iteration",
-                  "× the first row's", "solved", "set-up [ms]"], lines) + marginal(rows)  # fmt: skip
-
-
-def phases_markdown(rows):
-    if not rows:
-        return "Not measured in this run."
-    lines = []
-    for r in rows:
-        quarter = [q["iteration_s"] for q in rows if q["scheme"] == r["scheme"]
-                   and q["phases"] == r["phases"] and 4 * q["N"] == r["N"]]  # fmt: skip
-        lines.append([r["scheme"], str(r["phases"]), str(r["N"]), str(r["variables"]),
-                      number(1e6 * r["iteration_s"]),
-                      number(r["iteration_s"] / quarter[0]) if quarter else ""])  # fmt: skip
-    return table(["scheme", "phases", "N of each", "variables", "µs an iteration",
-                  "× that of N / 4"], lines)  # fmt: skip
-
-
-def marginal(rows):
-    """Cost of an obstacle's row in an iteration, between two numbers of obstacles."""
-    found = {r["obstacles"]: r for r in rows if r.get("us_per_iteration") and r["N"] <= 15}
-    if 1000 not in found or 38 not in found:
-        return ""
-    extra = found[1000]["us_per_iteration"] - found[38]["us_per_iteration"]
-    return (f"\n\nFrom 38 to 1000 obstacles a row costs "
-            f"{1e3 * extra / (962 * found[38]['N']):.1f} ns an iteration.")  # fmt: skip
-
-
-def functions_markdown(functions):
-    parts = []
-    for place, by_quantity in functions.items():
-        names = list(next(iter(by_quantity.values())))
-        rows = []
-        for quantity, row in by_quantity.items():
-            ours = min(row[n]["median"] for n in names if n.startswith("slalom"))
-            best = min(row[n]["median"] for n in names if not n.startswith("slalom"))
-            rows.append([QUANTITIES[quantity], *(f"{number(row[n]['median'])} / "
-                                                 f"{number(row[n]['p95'])}" for n in names),
-                         ratio(best, ours)])  # fmt: skip
-        parts.append(f"{PLACES[place].capitalize()}, microseconds, median / p95:\n\n" +
-                     table(["one evaluation of", *names, "best CasADi / ours"], rows))  # fmt: skip
-    return "\n\n".join(parts) or "Not measured in this run."
-
-
-def levels_markdown():
-    return table(["level", "floor", "tolerance asked", "violation", "stationarity",
-                  "complementarity"],
-                 [[AT[k], number(v.floor), f"{v.tol:.0e}" if not v.floor else "–",
-                   f"{v.violation:.0e}", f"{v.stationarity:.0e}", f"{v.complementarity:.0e}"]
-                  for k, v in LEVELS.items()])  # fmt: skip
-
-
 def markdown(summary, program):
     about = summary["about"]
     machine = about["machine"] | {
@@ -162,9 +99,7 @@ def markdown(summary, program):
     stamped = stamp("make bench", program, about["commit"])
     return PAGE.format(about=about, stamp=stamped, warnings="\n".join(f"- {w}" for w in warnings),
                        limit=number(summary["limit_ms"]), levels=levels_markdown(),
-                       environments=environments, growth=growth_markdown(summary["growth"]),
-                       phases=phases_markdown(summary["phases"]),
-                       functions=functions_markdown(summary["functions"]),
+                       environments=environments, functions=functions_markdown(summary["functions"]),
                        machine=table(["", ""], [[k, v] for k, v in machine.items()]))  # fmt: skip
 
 
@@ -194,18 +129,6 @@ in an interval and no floor. They get the same nodes to start from, but no multi
 our problem. Their answers are judged against their own problem, with the multipliers that suit them best.
 
 {environments}
-
-## Growth
-In E_C at the floor, the first cycles of a drive, each from the last one's plan, the first from straight
-on; obstacles beyond the environment's own stand beside the road and count like any other.
-
-{growth}
-
-More phases, on a chain of driven oscillators (`benchmarks/growth.cpp`): each phase has a free final time,
-an integral constraint and 15 static parameters that all phases share by links; the last phase's end is
-linked to the first one's begin. Least of five solves.
-
-{phases}
 
 ## One evaluation of the functions
 In E_C. CasADi's C is called from C, its virtual machine through its own buffers. *One function* gives

@@ -56,6 +56,7 @@ PAGES = (
     Page("long-solves", "long-solves", PLANNER),
     Page("commonroad", "commonroad", DRIVE + ("python/slalom/importing", "python/slalom/exporting"), "FILES"),
     Page("solver-profile", "solver-profile", PLANNER),
+    Page("growth", "growth", PLANNER),
     Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),
     Page("perturbed", "perturbed", PLANNER),
     Page("peers", "peers", SOLVER + ("python/src", "benchmarks/ocp")),
