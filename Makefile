@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile growth docs-measured wheel wheel-elsewhere package docs sweep-scale laps commonroad format clean build
+.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile growth docs-measured wheel wheel-elsewhere package docs sweep-scale kills laps commonroad format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -76,6 +76,11 @@ sweep-scale: ## 100,000 very short trials: rate, memory, how soon a sweep goes o
 	tools/setup.sh bench
 	$(MAKE) --no-print-directory build
 	python3 benchmarks/sweep_scale.py --program build/slalom
+
+kills: ## sweeps, shards and merges killed at random moments and run on, into docs/measured/kills.md (takes minutes)
+	tools/setup.sh run
+	$(MAKE) --no-print-directory build
+	python3 tools/kills.py --program build/slalom
 
 results: ## the paper's drives into docs/measured/results.md, paper-index.md and figures/
 	tools/setup.sh results

@@ -57,6 +57,7 @@ PAGES = (
     Page("commonroad", "commonroad", DRIVE + ("python/slalom/importing", "python/slalom/exporting"), "FILES"),
     Page("solver-profile", "solver-profile", PLANNER),
     Page("growth", "growth", PLANNER),
+    Page("kills", "kills", modules("sweep") + ("apps/slalom",)),
     Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),
     Page("perturbed", "perturbed", PLANNER),
     Page("peers", "peers", SOLVER + ("python/src", "benchmarks/ocp")),

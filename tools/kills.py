@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+"""Kills sweeps, their workers, shards, merges and replacements at random moments, goes on, and looks whether anything
+is lost, doubled, or recorded as failed; into docs/measured/kills.md. Standard library only; Linux.
+
+    tools/kills.py [--program build/slalom] [--kills 100]
+"""
+
+import collections
+import contextlib
+import csv
+import os
+import pathlib
+import random
+import shutil
+import signal
+import sqlite3
+import subprocess
+import tempfile
+import time
+
+from measured import page_parser, stamp, write
+
+SEED = 1
+TRIALS = 40
+# Drives that end where they begin, after one cycle.
+SCENARIO = """name: at the goal
+vehicle: hmmwv
+planner: {base: P_D, N: 5, w_t: 0}
+start: {x: 0, y: 0, ux: 10}
+goal: {x: 0, y: 3, sigma: 5}
+loop: {tex: 0.1, warm_up: false}
+"""
+STUDY = f"""title: {{title}}
+scenario: scenario.yaml
+retries: 0
+axes:
+  - key: start.ux
+    range: {{{{from: {{first}}, to: 15, count: {TRIALS}}}}}
+"""
+MEASURED = {"max_solve_time_s", "median_solve_time_s", "max_cpu_time_s", "p99_cpu_time_s", "median_cpu_time_s"}
+ENDS = {0, 3, 130, -signal.SIGKILL, -signal.SIGTERM}  # done, refused, interrupted, killed
+
+
+class Fault(Exception):
+    """What must not happen."""
+
+
+class Bench:
+    """A folder with the studies, and how they end undisturbed."""
+
+    def __init__(self, program, folder):
+        self.program, self.folder = str(pathlib.Path(program).resolve()), folder
+        (folder / "scenario.yaml").write_text(SCENARIO)
+        self.tables = {}
+        for name, first in (("study", 10), ("other", 11.5)):
+            (folder / f"{name}.yaml").write_text(STUDY.format(title=name, first=first))
+            begin = time.monotonic()
+            self.finish("alone-" + name, name)
+            self.takes_s = time.monotonic() - begin
+            self.tables[name] = table(folder / ("alone-" + name))
+
+    def start(self, *arguments):
+        return subprocess.Popen([self.program, *map(str, arguments), "--quiet"], cwd=self.folder,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)  # fmt: skip
+
+    def sweep(self, out, study="study", *options):
+        return self.start("sweep", f"{study}.yaml", "--out", out, "--jobs", "2", *options)
+
+    def finish(self, out, study="study", *options):
+        """Goes on until all is done."""
+        for _ in range(5):
+            process = self.sweep(out, study, *options)
+            message = process.communicate()[1].decode()
+            if process.returncode == 0:
+                return
+            if process.returncode != 130:
+                raise Fault(f"going on ended with {process.returncode}: {message.strip()}")
+        raise Fault("going on five times was not enough")
+
+    def judge(self, out, kept=(), study="study"):
+        """The table is the undisturbed one's, and what was recorded before is as it was."""
+        found = table(self.folder / out)
+        if found != self.tables[study]:
+            failed = sum(row["outcome"] == "failed" for row in found)
+            raise Fault(f"the table differs: {len(found)} of {TRIALS} trials, {failed} failed")
+        now = {row[0]: row for row in recorded(self.folder / out)}
+        if changed := [row[0] for row in kept if now.get(row[0]) != row]:
+            raise Fault(f"{len(changed)} recorded trials were run again")
+
+
+def table(folder):
+    """The rows of trials.csv without what is measured."""
+    with (folder / "trials.csv").open(newline="") as file:
+        return [{k: v for k, v in row.items() if k not in MEASURED} for row in csv.DictReader(file)]
+
+
+def recorded(folder):
+    """All rows of the stores of a folder."""
+    rows = []
+    for store in sorted(folder.glob("trials*.sqlite")) if folder.is_dir() else ():
+        with contextlib.closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as database:
+            with contextlib.suppress(sqlite3.OperationalError):  # killed as it was made
+                rows += database.execute("SELECT * FROM trials").fetchall()
+    return rows
+
+
+def workers_of(process):
+    """Numbers of its child processes."""
+    listing = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    return [int(number) for number in listing.read_text().split()] if listing.exists() else []
+
+
+def after_a_while(draw, bench, process, strike):
+    """Strikes at a random moment of an undisturbed run's time, and waits for the end."""
+    moment = draw.random() ** 2 * bench.takes_s  # more often early, where stores are made
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(moment)
+    if process.poll() is None:
+        with contextlib.suppress(ProcessLookupError):
+            strike()
+    message = process.communicate()[1].decode()
+    if process.returncode not in ENDS:
+        raise Fault(f"ended with {process.returncode}: {message.strip()}")
+
+
+# --- what is killed -------------------------------------------------------------------------------
+
+
+def supervisor(draw, bench, out):
+    process = bench.sweep(out)
+    after_a_while(draw, bench, process, process.kill)
+    kept = recorded(bench.folder / out)
+    bench.finish(out)
+    bench.judge(out, kept)
+
+
+def worker(draw, bench, out):
+    process = bench.sweep(out)
+
+    def strike():
+        for number in workers_of(process)[: draw.choice((1, 2))]:
+            os.kill(number, draw.choice((signal.SIGKILL, signal.SIGTERM)))
+
+    after_a_while(draw, bench, process, strike)
+    kept = recorded(bench.folder / out)
+    bench.finish(out)
+    bench.judge(out, kept)
+
+
+def group(draw, bench, out):
+    process = bench.sweep(out)
+    after_a_while(draw, bench, process, lambda: os.killpg(process.pid, signal.SIGTERM))
+    kept = recorded(bench.folder / out)
+    bench.finish(out)
+    bench.judge(out, kept)
+
+
+def shard(draw, bench, out):
+    """One of two at work in one folder."""
+    both = [bench.sweep(out, "study", "--shard", f"{k}/2") for k in (1, 2)]
+    after_a_while(draw, bench, both[0], both[0].kill)
+    after_a_while(draw, bench, both[1], lambda: None)
+    kept = recorded(bench.folder / out)
+    for k in (1, 2):
+        bench.finish(out, "study", "--shard", f"{k}/2")
+    bench.judge(out, kept)
+
+
+def replacement(draw, bench, out):
+    """--force over another study."""
+    shutil.copytree(bench.folder / "alone-other", bench.folder / out)
+    process = bench.sweep(out, "study", "--force")
+    after_a_while(draw, bench, process, process.kill)
+    rows, study = recorded(bench.folder / out), "study"
+    if {row[1] for row in rows} <= {row[1] for row in recorded(bench.folder / "alone-other")} and len(rows) == TRIALS:
+        study = "other"  # before anything was replaced: the old results stand
+    bench.finish(out, study)
+    bench.judge(out, rows, study)
+
+
+def merge(draw, bench, out):
+    process = bench.start("merge", "half-1", "half-2", "--out", out)
+    after_a_while(draw, bench, process, process.kill)
+    process = bench.start("merge", "half-1", "half-2", "--out", out, "--force")
+    after_a_while(draw, bench, process, lambda: None)
+    if process.returncode != 0:
+        raise Fault(f"merging again ended with {process.returncode}")
+    bench.judge(out, recorded(bench.folder / "half-1") + recorded(bench.folder / "half-2"))
+
+
+def two_studies(draw, bench, out):
+    """Two studies into one folder at once, one of them killed: one has it, or neither yet."""
+    both = {name: bench.sweep(out, name) for name in ("study", "other")}
+    killed = draw.choice(list(both))
+    after_a_while(draw, bench, both[killed], both[killed].kill)
+    left = next(name for name in both if name != killed)
+    after_a_while(draw, bench, both[left], lambda: None)
+    if both[killed].returncode == both[left].returncode == 0:
+        raise Fault("both were taken")
+    kept = recorded(bench.folder / out)
+    of_left = {row[1] for row in recorded(bench.folder / f"alone-{left}")}
+    owner = left if not kept or kept[0][1] in of_left else killed
+    # Of a store killed before its first trial nobody can see from outside whose it is.
+    bench.finish(out, owner, *(() if kept else ("--force",)))
+    bench.judge(out, kept, owner)
+
+
+KINDS = {
+    "the supervisor": supervisor,
+    "workers": worker,
+    "the process group, by SIGTERM": group,
+    "one of two shards": shard,
+    "`--force` over another study": replacement,
+    "`merge`, merged again by `--force`": merge,
+    "one of two studies begun into one folder": two_studies,
+}
+
+
+def run_all(program, kills, folder):
+    """Kind -> Counter of ends, and all faults as sentences."""
+    bench = Bench(program, folder)
+    for k in (1, 2):
+        bench.finish(f"half-{k}", "study", "--shard", f"{k}/2")
+    draw, faults, done = random.Random(SEED), [], collections.Counter()
+    for number in range(kills):
+        for name, kind in KINDS.items():
+            out = f"out-{number}"
+            try:
+                kind(draw, bench, out)
+                done[name] += 1
+            except Fault as fault:
+                faults.append(f"{name}, number {number}: {fault}")
+            shutil.rmtree(folder / out, ignore_errors=True)
+    return done, faults
+
+
+def page(kills, done, faults, stamped):
+    lines = ["# Kills", "", stamped,
+             f"A study of {TRIALS} very short trials with `retries: 0` on two workers, killed at moments drawn at random (seed",
+             f"{SEED}, more often early, where stores are made), then run on until it is done. Clean: each run ended in one of the",
+             "ways that are documented, the table is that of an undisturbed run, no trial was recorded as failed, and no recorded",
+             "trial was run again.", "", "| killed | times | clean |", "|---|---|---|"]  # fmt: skip
+    lines += [f"| {name} | {kills} | {done[name]} |" for name in KINDS]
+    if faults:
+        lines += ["", "What was not clean:", "", *(f"- {fault}" for fault in faults)]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = page_parser("kills", __doc__)
+    parser.add_argument("--kills", type=int, default=100, help="of each kind")
+    args = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        done, faults = run_all(args.program, args.kills, pathlib.Path(folder))
+    write(args.out, page(args.kills, done, faults, stamp("make kills", args.program)))
+
+
+if __name__ == "__main__":
+    main()
