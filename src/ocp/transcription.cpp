@@ -50,6 +50,12 @@ void check_same(const Problem& before, const Problem& now) {
     if (!same_soft(before.constraints()[i].soft, now.constraints()[i].soft))
       throw InvalidValue(before.name(), now.constraints()[i].name + " softened otherwise",
                          "the norm and tolerance that were transcribed; else a new transcription");
+  for (std::size_t i = 0; i < now.constraints().size(); ++i) {
+    const Bounds &was = before.constraints()[i].bounds, is = now.constraints()[i].bounds;
+    if (was.lower != is.lower || was.upper != is.upper)
+      throw InvalidValue(before.name(), "other bounds of " + now.constraints()[i].name,
+                         "those that were transcribed; else a new transcription");
+  }
   if (now.moments() != before.moments())
     throw InvalidValue(before.name(), "another moment of a row or a cost term",
                        "those that were transcribed; else a new transcription");

@@ -46,6 +46,21 @@ TEST(PreparedProblems, TranscribeAnewWhatAnUpdateCannotCarry) {
   EXPECT_EQ(with.multiplier("wall").values.size(), 61u);
 }
 
+/// A row's bounds are part of the structure: a problem stated with others is transcribed anew.
+TEST(PreparedProblems, TakeARowsOtherBounds) {
+  const auto limited = [](double most) {
+    Problem p = bryson_denham(1.0).problem;  // its own limit is far off
+    p.path("wall", p.states()[0].symbol, Bounds::at_most(most));
+    return p;
+  };
+  Prepared prepared(limited(1.0 / 6), {.mesh = Mesh::uniform(30)});
+  const double loose = prepared.solve().objective;
+  prepared.update(limited(1.0 / 9));
+  const double tight = prepared.solve().objective;
+  EXPECT_GT(tight, loose + 0.1);
+  EXPECT_NEAR(tight, solve(limited(1.0 / 9), {.mesh = Mesh::uniform(30)}).objective, 1e-6);
+}
+
 TEST(PreparedProblems, RefuseABadUpdateAndGoOnAfterAGoodOne) {
   auto form = least_energy();
   Problem& p = form.problem;
