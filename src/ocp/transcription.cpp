@@ -51,7 +51,8 @@ void check_same(const Problem& before, const Problem& now) {
       throw InvalidValue(before.name(), now.constraints()[i].name + " softened otherwise",
                          "the norm and tolerance that were transcribed; else a new transcription");
   for (std::size_t i = 0; i < now.constraints().size(); ++i) {
-    const Bounds &was = before.constraints()[i].bounds, is = now.constraints()[i].bounds;
+    const Bounds was = before.constraints()[i].bounds;
+    const Bounds is = now.constraints()[i].bounds;
     if (was.lower != is.lower || was.upper != is.upper)
       throw InvalidValue(before.name(), "other bounds of " + now.constraints()[i].name,
                          "those that were transcribed; else a new transcription");
