@@ -80,6 +80,15 @@ Expr Expr::apply(Op op, const Expr& a, const Expr& b, const Expr& c) {
 }
 
 double Steps::at(double x) const {
+  // Where the steps are about evenly wide, as a table's mostly are, their number follows from x.
+  if (const std::size_t count = begins.size(); count > 3) {
+    const double share = (x - begins[1]) / (begins.back() - begins[1]);
+    if (share > 0 && share < 1) {
+      const auto k =
+          std::min(1 + static_cast<std::size_t>(share * static_cast<double>(count - 2)), count - 2);
+      if (begins[k] < x && x <= begins[k + 1]) return values[k];
+    }
+  }
   const auto next = std::lower_bound(begins.begin() + 1, begins.end(), x);
   return values[static_cast<std::size_t>(next - begins.begin()) - 1];
 }

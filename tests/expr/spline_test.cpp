@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -183,6 +184,33 @@ TEST(Spline, TablesInAGraphSayHowMuchRoomTheyHave) {
   // What tells a table costs nothing: the function is that of the spline alone.
   const Expr wave = sin(x);
   EXPECT_EQ(simplified({select(x, wave, wave)}).front().node()->op(), Op::sin);
+}
+
+/// The guess at where x lies is no more than one: as a search through all steps has it.
+TEST(StepFunctions, GiveTheStepThatASearchFinds) {
+  std::mt19937 random(5);
+  for (const bool even : {true, false}) {
+    for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 80u}) {
+      Steps steps;
+      double begin = -3;
+      for (std::size_t k = 0; k < count; ++k) {
+        steps.begins.push_back(begin);
+        steps.values.push_back(static_cast<double>(k));
+        begin += even ? 0.7 : 1e-3 * std::pow(1.1, static_cast<double>(random() % 100));
+      }
+      std::vector<double> places = {-1e300, -4, 1e300, begin};
+      for (const double at : steps.begins)
+        for (const double x : {at, std::nextafter(at, -1e9), std::nextafter(at, 1e9)})
+          places.push_back(x);
+      for (int k = 0; k < 200; ++k)
+        places.push_back(-3 + (begin + 3) * static_cast<double>(random() % 1000) / 999);
+      for (const double x : places) {
+        std::size_t k = 0;
+        while (k + 1 < count && steps.begins[k + 1] < x) ++k;
+        ASSERT_EQ(steps.at(x), static_cast<double>(k)) << count << " steps at " << x;
+      }
+    }
+  }
 }
 
 }  // namespace
