@@ -80,8 +80,11 @@ RoadTables::RoadTables(const world::Road& road, double radius, double margin, do
 }
 
 Expr RoadTables::table(const Expr& s, std::size_t column, bool goes_on) const {
-  return expr::cubic_spline(s, knots_, columns_[column],
-                            goes_on ? expr::Beyond::line : expr::Beyond::hold);
+  // Of a straight, and of one width: a number, of which all that follows is worked out beforehand.
+  const auto& values = columns_[column];
+  if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); }))
+    return values.front();
+  return expr::cubic_spline(s, knots_, values, goes_on ? expr::Beyond::line : expr::Beyond::hold);
 }
 
 RoadTables::At RoadTables::at(const Expr& s) const {
