@@ -11,6 +11,7 @@ import re
 import statistics
 from typing import NamedTuple
 
+from first_sight import saved
 from measured import ROOT, command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios, of_family, sweep
 from sweeps import driven, head, interval, mcnemar, row, setting, swept
@@ -41,6 +42,8 @@ OFFLINE = {"loop.deadline": "off", "loop.latency": "paper", "loop.solve_time_lim
 EVERY = 3  # of the sweep's speeds, one in so many is driven offline
 RANGES = (90, 200)  # [m]; the paper's range in E_C is the first
 RANGE_TEXES, RANGE_POINTS = (0.48,), 7
+STANDING = {"O1": (6, 281), "O2": (18, 650)}  # where E_C's round obstacles are at t = 0 [m]
+RADIUS = 6  # [m]
 
 HEAD = """# The planner that verifies
 
@@ -224,9 +227,27 @@ def by_range(options):
             text += row([unseen, far, len(own), len(there), crashes, len(own) - len(there) - crashes,
                          sum(int(t["failed_cycles"]) for t in own),
                          number(statistics.median(float(t["goal_time_s"]) for t in there), 1) if there else "–"])
-            lost += "".join(f"- {unseen}, {far} m, tex {t['loop.tex']}, vy {float(t['obstacles.O2.vy']):.4g}: {t['message']}\n"
-                            for t in own if not arrives(t))
-    return text + ("\nThese do not arrive:\n\n" + lost if lost else "\nAll arrive.\n")
+            for t in (t for t in own if not arrives(t)):
+                lost += f"- {unseen}, {far} m, tex {t['loop.tex']}, vy {float(t['obstacles.O2.vy']):.4g}: {t['message']}"
+                lost += first_sight(options, t, settings | {"planner.unseen": unseen})
+    return text + (f"\nThese do not arrive. A crash is followed by what becomes of the vehicle's state where the "
+                   "first plan begins that knows of what is hit, when all is known from there on and a way is searched for "
+                   "without a clock, as offline above.\n\n" + lost if lost else "\nAll arrive.\n")
+
+
+def first_sight(options, trial, settings):
+    """What is said of a crash: whether a way was there once the obstacle was seen."""
+    name = trial["hit"]
+    if trial["outcome"] != "crash" or name not in STANDING:
+        return "\n"
+    keys = ("planner.L_range", "loop.tex", "obstacles.O2.vy")
+    speed = float(trial["obstacles.O2.vy"]) if name == "O2" else 0
+    found = saved(options.program, ROOT / "config/scenarios/E_C.yaml", settings | {k: trial[k] for k in keys},
+                  (name, STANDING[name], (0, speed), RADIUS), OFFLINE | {"planner.known": "all"})
+    if found is None:
+        return "; hit before such a plan begins\n"
+    moment, outcome = found
+    return f"; from {moment:.2f} s: {'a way to the goal' if outcome == 'goal' else f'no way found, {outcome}'}\n"
 
 
 def by_family(trials, families):
