@@ -17,8 +17,8 @@
 namespace slalom::planner {
 
 /// The paper's planner: its OCP up to the edge of the LiDAR's range, solved in each cycle from the
-/// last plan. As its settings say, a plan that goes through an obstacle between its nodes is solved
-/// again on finer meshes, and a cycle without a plan from guesses on either side.
+/// last plan. As its settings say, a plan that goes through an obstacle or an edge between its
+/// nodes is solved again on finer meshes, and a cycle without a plan from guesses on either side.
 class RecedingHorizon final : public PlanningMethod {
  public:
   explicit RecedingHorizon(const Task& task);
