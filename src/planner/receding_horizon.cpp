@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "between_nodes.hpp"
+#include "free_way.hpp"
 #include "obstacle_choice.hpp"
 #include "solving.hpp"
 
@@ -118,6 +119,7 @@ Plan RecedingHorizon::plan(const Request& request) {
   if (settings_.retry_sides) bendable = guess;
   Attempt best = attempt(cycle, settings_.N, guess, warm);
   if (bendable && !best.plan.report.solved) try_sides(cycle, *bendable, best);
+  if (task_.road && !best.plan.report.solved && !best.cut_short) try_free_way(cycle, best);
   if (settings_.between_nodes == BetweenNodes::refine) refine(cycle, best);
   keep(cycle, best);
   best.plan.report.planning_cpu_s = timer.cpu();
@@ -337,6 +339,19 @@ void RecedingHorizon::try_sides(const Cycle& cycle, const ocp::Trajectory& guess
     if (!best.plan.report.solved || other.plan.report.cost < best.plan.report.cost)
       best = std::move(other);
   }
+}
+
+/// Where a cycle on a road has no plan: from a guess on the side of obstacles that is free.
+void RecedingHorizon::try_free_way(const Cycle& cycle, Attempt& best) {
+  ocp::Trajectory& along = guess_(cycle.request, cycle.way, nullptr);
+  const ToPass pass{known_, std::max(settings_.sm_start, settings_.sm_end),
+                    settings_.edge_clearance};
+  auto start = free_way(along, *task_.road, footprint_, cycle.request.t_start, pass);
+  best.carries = false;  // what is tried takes the multipliers' place
+  Attempt other = attempt(cycle, settings_.N, start, false);
+  if (!other.plan.report.solved) return;
+  other.carries = false;
+  best = std::move(other);
 }
 
 /// On finer meshes, whose rows stand closer, until the plan stays out of obstacles and on its
