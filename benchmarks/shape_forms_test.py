@@ -37,7 +37,7 @@ class Page(unittest.TestCase):
     def test_only_forms_of_an_equal_gap_are_compared(self):
         text = page(answer("line"), answer("line", start="straight"), answer("dual", solve_s=0.03, gap=0.31),
                     answer("dual", start="straight", solved=False), answer("discs-0.2", gap=0.45),
-                    answer("discs-0.2", start="straight"))  # fmt: skip
+                    answer("discs-0.2", start="straight", gap=0.45))  # fmt: skip
         equal = text.split("## At an equal gap")[1]
         self.assertIn("| `dual` | 1, 0 of 1 | × 3.00 (1) |  | × 1.00 (1) |", equal)
         self.assertIn("| `line` | 1, 1 of 1 | × 1.00 (1) |", equal)
