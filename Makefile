@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile growth docs-measured wheel wheel-elsewhere package docs sweep-scale kills laps commonroad format clean build
+.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves shape-forms verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile growth docs-measured wheel wheel-elsewhere package docs sweep-scale kills laps commonroad format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -106,6 +106,10 @@ long-solves: ## long cold plans beside CasADi with Ipopt, into docs/measured/lon
 	tools/setup.sh bench
 	$(MAKE) --no-print-directory build
 	python3 benchmarks/long_solves.py --program build/slalom
+
+shape-forms: ## ways to keep a rectangle off rectangles in an OCP, into docs/measured/shape-forms.md (takes a quarter of an hour)
+	tools/setup.sh bench
+	python3 benchmarks/shape_forms.py
 
 robustness: ## outcomes over floors, starts and horizons into docs/measured/robustness.csv, .svg and .md (takes minutes)
 	tools/setup.sh results

@@ -54,6 +54,8 @@ PAGES = (
     Page("paper-sweep", "paper-sweep", DRIVE + PAPER + ("config/studies",)),
     Page("sensitivity", "sensitivity", DRIVE),
     Page("long-solves", "long-solves", PLANNER),
+    Page("shape-forms", "shape-forms", SOLVER + modules("world") + tuple(
+        f"benchmarks/shape_{name}" for name in ("forms.cpp", "rows.cpp", "rows.hpp", "scenes.hpp"))),
     Page("commonroad", "commonroad", DRIVE + ("python/slalom/importing", "python/slalom/exporting"), "FILES"),
     Page("solver-profile", "solver-profile", PLANNER),
     Page("growth", "growth", PLANNER),

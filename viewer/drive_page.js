@@ -78,6 +78,7 @@
       ${cycle.start_slack[0] > 0.005 || cycle.start_slack[1] > 0.05 ? fact('Begins', `${number(cycle.start_slack[0], 2)} m and ${number(cycle.start_slack[1], 1)}° beside the vehicle`) : ''}
       ${cycle.blocks ? fact('What blocks', escape(cycle.blocks)) : ''}
       ${cycle.passage ? fact('Between nodes', `${number(cycle.passage[0], 2)} m into the margin of ${escape(cycle.passage[1])}`) : ''}
+      ${cycle.road_exit ? fact('Between nodes', `${number(cycle.road_exit[0], 2)} m off the road at its ${cycle.road_exit[1]} edge`) : ''}
       ${fact('Goal', cycle.goal_in_range ? 'in range' : 'out of range')}
       ${fact('Obstacles', plan.held !== null ? `held where they are at ${number(plan.held, 2)} s` : 'move as predicted')}
       ${cycle.worst ? fact('Largest violation', `${escape(cycle.worst)} <small>${cycle.violation === null ? '' : cycle.violation.toExponential(1)}</small>`) : ''}

@@ -99,7 +99,7 @@ std::string cycles_csv(const sim::Drive& drive) {
       ",worst_constraint,worst_violation,stationarity,complementarity,phi,tf,goal_in_range,used,"
       "backend,best_iterate,planning_cpu_s,charged_s,t_swap,start_slack_m,start_slack_deg,passage_"
       "m,"
-      "passage_obstacle";
+      "passage_obstacle,road_exit_m,road_exit_edge";
   const bool verifies = sim::verification(drive).has_value();
   if (verifies)
     text +=
@@ -119,8 +119,10 @@ std::string cycles_csv(const sim::Drive& drive) {
                     csv_cell(report.backend), report.best_iterate ? 1 : 0, report.planning_cpu_s,
                     cycle.charged, cycle.t_swap);
     const sim::StartSlack slack = sim::start_slack(cycle);
-    text += fmt::format(",{},{},{},{}", slack.distance, slack.heading * 180 / std::numbers::pi,
-                        report.passage.depth, csv_cell(report.passage.obstacle));
+    text +=
+        fmt::format(",{},{},{},{},{},{}", slack.distance, slack.heading * 180 / std::numbers::pi,
+                    report.passage.depth, csv_cell(report.passage.obstacle), report.road_exit.depth,
+                    report.road_exit.edge());
     text += verifies ? verification_cells(cycle.plan) + "\n" : "\n";
   }
   return text;

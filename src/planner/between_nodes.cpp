@@ -45,7 +45,36 @@ struct Interval {
     const Vector middle = (p1 - p0) * (3 / length) - v0 - v1;
     return std::max({v0.norm(), middle.norm(), v1.norm()});
   }
+  /// The most that any point within `reach` [m] of the place accelerates by [m/s^2]: a cubic's
+  /// second derivative is linear, so that its ends bound it.
+  double most_acceleration(double reach) const {
+    const Vector chord = (p1 - p0) * (6 / length);
+    const double turned = (psi1 - psi0) * (6 / length), turn = fastest_turn();
+    const double place =
+        std::max((chord - v0 * 4 - v1 * 2).norm(), (v0 * 2 + v1 * 4 - chord).norm());
+    const double heading =
+        std::max(std::fabs(turned - 4 * r0 - 2 * r1), std::fabs(2 * r0 + 4 * r1 - turned));
+    return (place + heading * reach) / length + turn * turn * reach;
+  }
 };
+
+/// From node k of a plan to the next.
+Interval interval(const Plan& plan, std::size_t k, double la) {
+  Interval i;
+  i.t0 = plan.t_start + plan.t[k];
+  i.length = plan.t[k + 1] - plan.t[k];
+  const State &a = plan.states[k], &b = plan.states[k + 1];
+  i.p0 = {a[X], a[Y]};
+  i.p1 = {b[X], b[Y]};
+  i.v0 = velocity(a, la);
+  i.v1 = velocity(b, la);
+  i.psi0 = a[PSI];
+  i.psi1 = b[PSI];
+  i.r0 = a[R];
+  i.r1 = b[R];
+  i.most_speed = i.fastest();
+  return i;
+}
 
 /// Looks for where an interval is deepest within an obstacle's margin.
 class Search {
@@ -104,30 +133,83 @@ class Search {
   double rate_ = 0;  ///< the most that depth changes by along the interval [m]
 };
 
+/// Looks for where an interval is farthest beyond an edge of the road. Between two moments each
+/// point of the footprint is off its chord, and an edge bends away from its own, by at most the
+/// second derivatives' bounds times the square of the duration over 8, as in Verifier.
+class EdgeSearch {
+ public:
+  EdgeSearch(const Interval& interval, const world::Road& road, const world::Footprint& footprint,
+             RoadExit& farthest)
+      : interval_(interval), road_(road), footprint_(footprint), farthest_(farthest) {
+    const double reach = footprint.reach();
+    const double fast = interval.most_speed + interval.fastest_turn() * reach;
+    bend_ = (interval.most_acceleration(reach) + road.sharpest() * fast * fast) * interval.length *
+            interval.length / 8;
+  }
+
+  /// Its ends are nodes, where the rows of the edges hold; what they leave is not reported.
+  void run() { split(0, beyond(0), 1, beyond(1)); }
+
+ private:
+  double beyond(double share) const {
+    return -footprint_.edge_distance(road_, interval_.at(share));
+  }
+  void split(double s0, double d0, double s1, double d1) {
+    const double off = bend_ * (s1 - s0) * (s1 - s0);
+    const double wanted = std::max(farthest_.depth, kPassageResolution / 2);
+    if (std::max(d0, d1) + off <= wanted + kPassageResolution / 2) return;
+    if (off < kPassageResolution / 2) return;
+    const double middle = (s0 + s1) / 2, d = beyond(middle);
+    if (d > wanted + kPassageResolution / 2) note(middle, d);
+    split(s0, d0, middle, d);
+    split(middle, d, s1, d1);
+  }
+  void note(double share, double depth) {
+    const State state = interval_.at(share);
+    auto corners = footprint_.at(state);
+    if (corners.empty()) corners.push_back({state[X], state[Y]});
+    farthest_ = {depth, false, interval_.t0 + share * interval_.length};
+    double most = -INFINITY;
+    for (const Vector& corner : corners) {
+      const world::OnRoad on = road_.project(corner);
+      const world::RoadPlace at = road_.at(on.s);
+      const bool left = on.n - at.left > -on.n - at.right;
+      const double out = left ? on.n - at.left : -on.n - at.right;
+      if (out <= most) continue;
+      most = out;
+      farthest_.left = left;
+    }
+  }
+
+  const Interval& interval_;
+  const world::Road& road_;
+  const world::Footprint& footprint_;
+  RoadExit& farthest_;
+  double bend_ = 0;  ///< of the distance to an edge, along the whole interval [m]
+};
+
 }  // namespace
 
 Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
                         double margin, const world::Footprint& footprint, double la) {
   Passage deepest;
   for (std::size_t k = 0; k + 1 < plan.t.size(); ++k) {
-    Interval i;
-    i.t0 = plan.t_start + plan.t[k];
-    i.length = plan.t[k + 1] - plan.t[k];
-    if (!(i.length > 0)) return deepest;
-    const State &a = plan.states[k], &b = plan.states[k + 1];
-    i.p0 = {a[X], a[Y]};
-    i.p1 = {b[X], b[Y]};
-    i.v0 = velocity(a, la);
-    i.v1 = velocity(b, la);
-    i.psi0 = a[PSI];
-    i.psi1 = b[PSI];
-    i.r0 = a[R];
-    i.r1 = b[R];
-    i.most_speed = i.fastest();
+    if (!(plan.t[k + 1] > plan.t[k])) return deepest;
+    const Interval i = interval(plan, k, la);
     for (const auto& o : obstacles)
       Search(i, footprint, o, plan.obstacle_time_held, margin, deepest).run();
   }
   return deepest;
+}
+
+RoadExit farthest_exit(const Plan& plan, const world::Road& road, const world::Footprint& footprint,
+                       double la) {
+  RoadExit farthest;
+  for (std::size_t k = 0; k + 1 < plan.t.size() && plan.t[k + 1] > plan.t[k]; ++k) {
+    const Interval i = interval(plan, k, la);
+    EdgeSearch(i, road, footprint, farthest).run();
+  }
+  return farthest;
 }
 
 }  // namespace slalom::planner

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "between_nodes.hpp"
+#include "free_way.hpp"
 #include "obstacle_choice.hpp"
 #include "solving.hpp"
 
@@ -17,7 +18,8 @@ namespace {
 
 using namespace vehicle;
 
-/// A plan that goes through an obstacle is solved again on meshes of so many times the intervals.
+/// A plan that passes through between its nodes is solved again on meshes of so many times the
+/// intervals.
 constexpr int kRefined[] = {2, 4, 8};
 
 /// The task with its obstacles grouped as its settings say, once these are found to be sound.
@@ -117,6 +119,7 @@ Plan RecedingHorizon::plan(const Request& request) {
   if (settings_.retry_sides) bendable = guess;
   Attempt best = attempt(cycle, settings_.N, guess, warm);
   if (bendable && !best.plan.report.solved) try_sides(cycle, *bendable, best);
+  if (task_.road && !best.plan.report.solved && !best.cut_short) try_free_way(cycle, best);
   if (settings_.between_nodes == BetweenNodes::refine) refine(cycle, best);
   keep(cycle, best);
   best.plan.report.planning_cpu_s = timer.cpu();
@@ -287,20 +290,31 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
 }
 
 /// Notes how deep a plan goes into an obstacle between its nodes, also into one that the OCP leaves
-/// out.
+/// out, and how far beyond the edges of its road.
 void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
-  if (settings_.obstacle_constraint == ObstacleConstraint::soft) return;
   SolveReport& report = plan.report;
-  const auto known =
-      believed(settings_, cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles,
-               cycle.request.t0);
-  report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
-                                   footprint_, task_.vehicle.la);
-  if (report.status != PlanStatus::solved || report.passage.depth <= settings_.passage_depth)
-    return;
+  std::string found;
+  if (settings_.obstacle_constraint == ObstacleConstraint::hard) {
+    const auto known =
+        believed(settings_, cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles,
+                 cycle.request.t0);
+    report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
+                                     footprint_, task_.vehicle.la);
+    const Passage& deepest = report.passage;
+    if (deepest.depth > settings_.passage_depth)
+      found = fmt::format("{:.2f} m deep into the margin of {} at {:.2f} s", deepest.depth,
+                          deepest.obstacle, deepest.t);
+  }
+  if (task_.road) {
+    report.road_exit = farthest_exit(plan, *task_.road, footprint_, task_.vehicle.la);
+    const RoadExit& exit = report.road_exit;
+    if (exit.depth > 0)
+      found += fmt::format("{}{:.2f} m off the road at its {} edge at {:.2f} s",
+                           found.empty() ? "" : " and ", exit.depth, exit.edge(), exit.t);
+  }
+  if (report.status != PlanStatus::solved || found.empty()) return;
   report.status = PlanStatus::passes_through;
-  report.detail = fmt::format("{:.2f} m deep into the margin of {} at {:.2f} s",
-                              report.passage.depth, report.passage.obstacle, report.passage.t);
+  report.detail = found;
 }
 
 /// Where the cycle has no plan: from the guess bent to the left and to the right of the obstacle
@@ -327,8 +341,21 @@ void RecedingHorizon::try_sides(const Cycle& cycle, const ocp::Trajectory& guess
   }
 }
 
-/// On finer meshes, whose rows stand closer, until the plan stays out of obstacles; a plan that
-/// never does is not solved.
+/// Where a cycle on a road has no plan: from a guess on the side of obstacles that is free.
+void RecedingHorizon::try_free_way(const Cycle& cycle, Attempt& best) {
+  ocp::Trajectory& along = guess_(cycle.request, cycle.way, nullptr);
+  const ToPass pass{known_, std::max(settings_.sm_start, settings_.sm_end),
+                    settings_.edge_clearance};
+  auto start = free_way(along, *task_.road, footprint_, cycle.request.t_start, pass);
+  best.carries = false;  // what is tried takes the multipliers' place
+  Attempt other = attempt(cycle, settings_.N, start, false);
+  if (!other.plan.report.solved) return;
+  other.carries = false;
+  best = std::move(other);
+}
+
+/// On finer meshes, whose rows stand closer, until the plan stays out of obstacles and on its
+/// road; a plan that never does is not solved.
 void RecedingHorizon::refine(const Cycle& cycle, Attempt& best) {
   if (best.plan.report.status != PlanStatus::passes_through) return;
   best.carries = false;  // what is tried takes the multipliers' place

@@ -17,8 +17,9 @@
 namespace slalom::planner {
 
 /// The paper's planner: its OCP up to the edge of the LiDAR's range, solved in each cycle from the
-/// last plan. As its settings say, a plan that goes through an obstacle between its nodes is solved
-/// again on finer meshes, and a cycle without a plan from guesses on either side.
+/// last plan. As its settings say, a plan that goes through an obstacle or an edge between its
+/// nodes is solved again on finer meshes, and a cycle without a plan from guesses on either side;
+/// on a road, such a cycle from a guess where obstacles leave room.
 class RecedingHorizon final : public PlanningMethod {
  public:
   explicit RecedingHorizon(const Task& task);
@@ -65,6 +66,7 @@ class RecedingHorizon final : public PlanningMethod {
   std::string what_blocks(const Plan& plan) const;
   void look_between(const Cycle& cycle, Plan& plan) const;
   void try_sides(const Cycle& cycle, const ocp::Trajectory& guess, Attempt& best);
+  void try_free_way(const Cycle& cycle, Attempt& best);
   void refine(const Cycle& cycle, Attempt& best);
   void keep(const Cycle& cycle, Attempt& attempt);
 

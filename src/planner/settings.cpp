@@ -78,9 +78,10 @@ void add_what_tells_planners_apart(Table& table) {
           "exact shapes.")
       .choice(
           "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
-          "Rows of obstacles hold at nodes alone, as in the paper. A plan that between them goes "
-          "deeper than passage_depth into the margin of an obstacle, by the smaller of sm_start "
-          "and sm_end: report: has the status passes_through, and is driven; refine: is solved "
+          "Rows of obstacles, and of the edges of a road, hold at nodes alone, as in the paper. A "
+          "plan that between them goes deeper than passage_depth into the margin of an obstacle, "
+          "by the smaller of sm_start and sm_end, or whose footprint leaves the road: report: has "
+          "the status passes_through, and is driven; refine: is solved "
           "again on finer meshes, up to eight times the intervals, and is not solved if that "
           "does not help; ignore: is not looked for.")
       .real(

@@ -313,6 +313,8 @@ Json cycle_data(const sim::Cycle& cycle, std::size_t cycles) {
   json["start_slack"] = {rounded(slack.distance, 3), rounded(slack.heading * 180 / M_PI, 2)};
   if (report.passage.depth > 0)
     json["passage"] = {rounded(report.passage.depth, 3), report.passage.obstacle};
+  if (report.road_exit.depth > 0)
+    json["road_exit"] = {rounded(report.road_exit.depth, 3), report.road_exit.edge()};
   add_verification(json, cycle.plan);
   json["plan"] = plan_data(cycle.plan, kMostNodes / cycles);
   return json;

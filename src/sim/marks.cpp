@@ -41,22 +41,47 @@ std::string plans(std::size_t count, const char* one, const char* several) {
   return count == 1 ? fmt::format("1 plan {}", one) : fmt::format("{} plans {}", count, several);
 }
 
-std::optional<Mark> passing(const Drive& drive) {
-  Cases<std::pair<int, planner::Passage>> cases;
+/// Plans that pass through something between their nodes: of `depth` [m] in the gravest, which
+/// `text` says.
+std::optional<Mark> passing(const Drive& drive, const char* kind,
+                            const std::function<double(const planner::SolveReport&)>& depth,
+                            const std::function<std::string(std::size_t, const Cycle&)>& text) {
+  Cases<const Cycle*> cases;
   for (const auto& cycle : drive.cycles) {
     const auto& report = cycle.plan.report;
-    if (cycle.index > 0 && report.status == planner::PlanStatus::passes_through)
-      cases.add(cycle.t_swap, report.passage.depth, {cycle.index, report.passage});
+    if (cycle.index == 0 || report.status != planner::PlanStatus::passes_through) continue;
+    if (const double size = depth(report); size > 0) cases.add(cycle.t_swap, size, &cycle);
   }
   if (cases.times.empty()) return std::nullopt;
-  const auto& [index, passage] = cases.gravest;
-  return Mark{
-      "passes_through",
-      fmt::format("{} through an obstacle between nodes, the deepest {:.2f} m into the margin of "
-                  "{} at {:.2f} s (cycle {}); planner.between_nodes: refine would solve again",
-                  plans(cases.times.size(), "goes", "go"), passage.depth, passage.obstacle,
-                  passage.t, index),
-      cases.times};
+  return Mark{kind,
+              fmt::format("{} (cycle {}); planner.between_nodes: refine would solve again",
+                          text(cases.times.size(), *cases.gravest), cases.gravest->index),
+              cases.times};
+}
+
+std::optional<Mark> through_obstacles(const Scenario& scenario, const Drive& drive) {
+  const double allowed = scenario.planner.passage_depth;
+  return passing(
+      drive, "passes_through",
+      [&](const auto& report) { return report.passage.depth > allowed ? report.passage.depth : 0; },
+      [](std::size_t count, const Cycle& cycle) {
+        const auto& passage = cycle.plan.report.passage;
+        return fmt::format(
+            "{} through an obstacle between nodes, the deepest {:.2f} m into the margin of {} at "
+            "{:.2f} s",
+            plans(count, "goes", "go"), passage.depth, passage.obstacle, passage.t);
+      });
+}
+
+std::optional<Mark> through_edges(const Drive& drive) {
+  return passing(
+      drive, "plan_off_road", [](const auto& report) { return report.road_exit.depth; },
+      [](std::size_t count, const Cycle& cycle) {
+        const auto& exit = cycle.plan.report.road_exit;
+        return fmt::format(
+            "{} the road between nodes, the farthest by {:.2f} m at its {} edge at {:.2f} s",
+            plans(count, "leaves", "leave"), exit.depth, exit.edge(), exit.t);
+      });
 }
 
 std::optional<Mark> beside(const Drive& drive) {
@@ -171,8 +196,9 @@ StartSlack start_slack(const Cycle& cycle) {
 
 std::vector<Mark> marks(const Scenario& scenario, const Drive& drive) {
   std::vector<Mark> result;
-  for (auto& mark : {passing(drive), beside(drive), low_load(scenario, drive),
-                     speed(scenario, drive), outside(scenario, drive), away(scenario, drive)})
+  for (auto& mark : {through_obstacles(scenario, drive), through_edges(drive), beside(drive),
+                     low_load(scenario, drive), speed(scenario, drive), outside(scenario, drive),
+                     away(scenario, drive)})
     if (mark) result.push_back(*mark);
   return result;
 }

@@ -135,7 +135,7 @@ double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, dou
   return holds_centre ? std::min(least, -std::min(obstacle.a, obstacle.b)) : least;
 }
 
-std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess) {
+std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess, int most) {
   if (obstacle.is_plain() || (!obstacle.outline && obstacle.a == obstacle.b)) return {obstacle};
   double left = -obstacle.a, right = obstacle.a, low = -obstacle.b, high = obstacle.b;
   if (obstacle.outline) {
@@ -153,7 +153,9 @@ std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess) {
   const double length = std::max(right - left, high - low);
   const double width = std::min(right - left, high - low);
   auto circles = circles_over(length, width, excess);
-  for (; circles.size() > kMostDiscs; circles = circles_over(length, width, excess)) excess *= 1.2;
+  for (; circles.size() > static_cast<std::size_t>(most);
+       circles = circles_over(length, width, excess))
+    excess *= 1.2;
   std::vector<Obstacle> result;
   for (const auto& [centre, radius] : circles) {
     const Point at = middle + (along_x ? centre : Point{-centre.y, centre.x});

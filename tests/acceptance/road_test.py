@@ -90,6 +90,17 @@ class Road(unittest.TestCase):
                     self.assertEqual(drive.outcome, "goal", drive.ended())
                     self.assertGreater(drive.summary["least_edge_distance_m"], 0)
 
+    def test_a_body_passes_what_leaves_one_side_free(self):
+        """By margins for a body; the paper's are about a point."""
+        closer = ("--planner", "P_D", "--set", "planner.sm_start=0.3", "--set", "planner.sm_end=0.3", *UNTIMED)
+        with scratch() as folder:
+            jobs = {name: (name, *closer) for name in ("chicane", "parked-row", "pedestrian")}
+            for name, drive in simulate_all(folder, jobs).items():
+                with self.subTest(name):
+                    self.assertEqual(drive.outcome, "goal", drive.ended())
+                    self.assertGreater(drive.summary["least_clearance_m"], 0)
+                    self.assertGreater(drive.summary["least_edge_distance_m"], 0)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -127,7 +127,8 @@ TEST(DriveFiles, SummaryIsJsonWithoutInfinity) {
 
 TEST(DriveFiles, CyclesOfAPlannerThatVerifiesSaySo) {
   constexpr const char* added =
-      ",passage_obstacle,rung,verified,verified_clearance,verified_wheel_load,verified_until,"
+      ",road_exit_m,road_exit_edge,rung,verified,verified_clearance,verified_wheel_load,verified_"
+      "until,"
       "refused,candidates";
   auto drive = verified_drive();
   const auto lines = lines_of(cycles_csv(drive));
@@ -136,12 +137,16 @@ TEST(DriveFiles, CyclesOfAPlannerThatVerifiesSaySo) {
   EXPECT_TRUE(lines[2].ends_with(",least_bad,0,-0.5,1900,3,\"clearance to O1, at 2 s\",2"))
       << lines[2];
   EXPECT_TRUE(lines_of(cycles_csv(made_up_drive()))[0].ends_with(
-      ",t_swap,start_slack_m,start_slack_deg,passage_m,passage_obstacle"));
+      ",t_swap,start_slack_m,start_slack_deg,passage_m,passage_obstacle,road_exit_m,road_exit_"
+      "edge"));
 
   drive.cycles[1].plan = {};
   const auto without = lines_of(cycles_csv(drive));
-  EXPECT_TRUE(without[1].ends_with(",,0,,,,,")) << without[1];
+  EXPECT_TRUE(without[1].ends_with(",0,,,0,,,,,")) << without[1];
   EXPECT_EQ(columns(without[1]), columns(without[0]));
+
+  drive.cycles[1].plan.report.road_exit = {0.25, false, 4};
+  EXPECT_NE(lines_of(cycles_csv(drive))[1].find(",0.25,right,"), std::string::npos);
 }
 
 TEST(DriveFiles, SummaryCountsRungsAndUnverifiedCycles) {

@@ -1,9 +1,14 @@
-// Plans that keep off obstacles at their nodes and go through them between.
+// Plans that keep off obstacles and on their road at their nodes, and do not between.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
 
+#include "../../src/planner/between_nodes.hpp"
+#include "planner/edge_distance.hpp"
 #include "planner/expect_plan.hpp"
 #include "planner/scenes.hpp"
 
@@ -72,6 +77,100 @@ TEST(BetweenNodes, PlansThatKeepOffSayNothing) {
     const Plan plan = Planner(scene).plan(scene.first);
     EXPECT_EQ(plan.report.status, PlanStatus::solved) << plan.report.status_text();
     EXPECT_LE(plan.report.passage.depth, scene.planner.passage_depth);
+  }
+}
+
+std::shared_ptr<const world::Road> road_of(const std::vector<world::RoadPoint>& points) {
+  return std::make_shared<world::Road>(points, false, std::vector<std::vector<world::Point>>{},
+                                       "road");
+}
+
+/// 60 m eastwards, then half around to the left by a radius of 14 m, 5.5 m wide, for a body and
+/// with so few nodes that one is 10 m from the next.
+Scene tight_bend() {
+  constexpr double kRadius = 14, kHalf = 2.75, kStep = std::numbers::pi / 18;
+  std::vector<world::RoadPoint> points;
+  for (double x = -20; x <= 60; x += 10) points.push_back({x, 0, kHalf, kHalf});
+  for (int k = 1; k < 18; ++k)
+    points.push_back(
+        {60 + kRadius * std::sin(k * kStep), kRadius * (1 - std::cos(k * kStep)), kHalf, kHalf});
+  for (double x = 60; x >= -20; x -= 10) points.push_back({x, 2 * kRadius, kHalf, kHalf});
+  Scene scene;
+  scene.vehicle.footprint = vehicle::FootprintKind::rectangle;
+  scene.road = road_of(points);
+  scene.goal.s = 140;
+  scene.goal = world::placed(scene.goal, scene.road.get());
+  scene.planner.N = 4;
+  scene.first = {{50, 0, 0, 0, 0, 0, 7, 0}, 0, 0.5};
+  return scene;
+}
+
+/// How far a plan's body goes beyond the road's edges between its nodes, by its controls on the
+/// reference model.
+double farthest_driven(const Scene& scene, const Plan& plan) {
+  const world::Footprint footprint(scene.vehicle);
+  double most = 0;
+  for (double t = 0.02; t <= plan.tf; t += 0.02)
+    most = std::max(most, -footprint.edge_distance(*scene.road, integrate(plan, t)));
+  return most;
+}
+
+TEST(BetweenNodes, APlanOffItsRoadSaysSoAndIsDriven) {
+  Scene scene = tight_bend();
+  const Plan plan = Planner(scene).plan(scene.first);
+  ASSERT_TRUE(plan.report.solved);
+  EXPECT_GE(least_edge_distance(scene, plan), -1e-3);  // at its nodes it is on the road
+  EXPECT_EQ(plan.report.status, PlanStatus::passes_through) << plan.report.status_text();
+  EXPECT_GT(plan.report.road_exit.depth, 0.05);
+  EXPECT_EQ(plan.report.passage.depth, 0);
+  EXPECT_NE(plan.report.status_text().find("m off the road at its left edge at"), std::string::npos)
+      << plan.report.status_text();
+  scene.planner.between_nodes = BetweenNodes::ignore;
+  const Plan ignored = Planner(scene).plan(scene.first);
+  EXPECT_EQ(ignored.report.status, PlanStatus::solved);
+  EXPECT_EQ(ignored.report.road_exit.depth, 0);
+  expect_same(ignored, plan);
+}
+
+TEST(BetweenNodes, RefinedItStaysOnItsRoad) {
+  Scene scene = tight_bend();
+  scene.planner.between_nodes = BetweenNodes::refine;
+  const Plan plan = Planner(scene).plan(scene.first);
+  expect_solved(plan);
+  EXPECT_EQ(plan.report.status, PlanStatus::solved) << plan.report.status_text();
+  EXPECT_GT(plan.t.size(), 5);
+  EXPECT_LT(farthest_driven(scene, plan), kPassageResolution);
+}
+
+/// The chord of an arc: a plan of two nodes, 0.1 m within the inner edge, of a point and of a body.
+TEST(BetweenNodes, TheWayBeyondAnEdgeIsExact) {
+  constexpr double kRadius = 20, kHalf = 3, kAngle = std::numbers::pi / 12, kSpeed = 10;
+  for (const bool left : {true, false}) {
+    const double side = left ? 1 : -1;
+    std::vector<world::RoadPoint> points;
+    for (double a = -1.5; a < 1.5; a += 0.1)
+      points.push_back({kRadius * std::sin(a), side * kRadius * (1 - std::cos(a)), kHalf, kHalf});
+    const auto road = road_of(points);
+    Task task;
+    const double inner = kRadius - kHalf + 0.1, chord = inner * std::sin(kAngle);
+    Plan plan;
+    plan.t_start = 2;
+    plan.t = {0, 2 * chord / kSpeed};
+    for (const double x : {-chord, chord})
+      plan.states.push_back(
+          {x, side * (kRadius - inner * std::cos(kAngle)), 0, 0, 0, 0, kSpeed, 0});
+    const double depth = kRadius - kHalf - inner * std::cos(kAngle);
+    auto exit = farthest_exit(plan, *road, world::Footprint(task.vehicle), task.vehicle.la);
+    EXPECT_NEAR(exit.depth, depth, kPassageResolution);
+    EXPECT_STREQ(exit.edge(), left ? "left" : "right");
+    EXPECT_NEAR(exit.t, 2 + chord / kSpeed, 0.2);
+    task.vehicle.footprint = vehicle::FootprintKind::rectangle;
+    exit = farthest_exit(plan, *road, world::Footprint(task.vehicle), task.vehicle.la);
+    EXPECT_NEAR(exit.depth, depth + task.vehicle.width / 2, kPassageResolution);
+    plan.states[0][vehicle::Y] = plan.states[1][vehicle::Y] = 0;  // along the tangent
+    exit = farthest_exit(plan, *road, world::Footprint(task.vehicle), task.vehicle.la);
+    EXPECT_EQ(exit.depth, 0);
+    EXPECT_STREQ(exit.edge(), "");
   }
 }
 

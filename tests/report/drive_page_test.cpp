@@ -185,6 +185,7 @@ TEST(DrivePage, SaysWhatTheOutcomeDoesNot) {
   auto& plan = drive.cycles[2].plan;
   plan.report.status = planner::PlanStatus::passes_through;
   plan.report.passage = {1.25, "O<2>", 3};
+  plan.report.road_exit = {0.25, true, 4};
   drive.cycles[1].plan.report.blocks = "O1 in the way";
   const auto page = drive_page(synthetic_scenario(), drive);
   EXPECT_EQ(count(page, "data-kind=\"passes_through\">1 plan goes through an obstacle"), 1);
@@ -192,6 +193,7 @@ TEST(DrivePage, SaysWhatTheOutcomeDoesNot) {
   const auto data = page_data(page);
   EXPECT_EQ(data["marks"][0]["times"][0], drive.cycles[2].t_swap);
   EXPECT_EQ(data["cycles"][2]["passage"][1], "O<2>");
+  EXPECT_EQ(data["cycles"][2]["road_exit"], nlohmann::json::array({0.25, "left"}));
   EXPECT_EQ(data["cycles"][1]["blocks"], "O1 in the way");
 }
 

@@ -61,6 +61,25 @@ TEST(Marks, APlanThroughAnObstacleIsNamedByItsDeepest) {
       << found[0].text;
 }
 
+TEST(Marks, APlanOffItsRoadIsNamedByItsFarthest) {
+  const auto s = open_field();
+  const auto off = [&](const planner::Request& request) {
+    auto plan = straight_on(request);
+    plan.report.status = planner::PlanStatus::passes_through;
+    plan.report.passage.depth = s.planner.passage_depth;  // as deep as it may
+    plan.report.road_exit = {request.t0 == 1 ? 0.4 : 0.1, request.t0 == 1, request.t0 + 3};
+    return plan;
+  };
+  const auto driven = drive(s, off);
+  const auto found = marks(s, driven);
+  ASSERT_EQ(kinds(found), Kinds{"plan_off_road"});
+  EXPECT_EQ(found[0].times.size(), driven.cycles.size());
+  EXPECT_NE(found[0].text.find("plans leave the road between nodes, the farthest by 0.40 m at its "
+                               "left edge at 4.00 s (cycle 3)"),
+            std::string::npos)
+      << found[0].text;
+}
+
 TEST(Marks, LimitsThatThePlantBreaksAreNamedOnceForEachWhile) {
   auto s = open_field();
   auto driven = drive(s, straight_on);

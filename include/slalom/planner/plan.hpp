@@ -24,7 +24,7 @@ enum class PlanStatus {
   not_confirmed,   ///< the solver says solved, and the residuals deny it
   no_prediction,   ///< there was no state to plan from, for it could not be predicted
   unverified,      ///< the least bad motion, driven although it could not be verified
-  passes_through,  ///< solved, and between its nodes the plan goes through an obstacle
+  passes_through,  ///< solved, and between its nodes the plan goes through an obstacle or an edge
 };
 /// The word that files have: the solver's, "not_confirmed" or "no prediction".
 const char* to_string(PlanStatus status);
@@ -36,6 +36,16 @@ struct Passage {
   double depth = 0;      ///< [m]; 0: nowhere
   std::string obstacle;  ///< its name
   double t = 0;          ///< absolute time [s]
+};
+
+/// Where a plan leaves its road between its nodes.
+struct RoadExit {
+  double depth = 0;   ///< how far the footprint is beyond the edge [m]; 0: nowhere
+  bool left = false;  ///< which edge
+  double t = 0;       ///< absolute time [s]
+
+  /// "left" or "right"; "" where there is none.
+  const char* edge() const { return depth > 0 ? left ? "left" : "right" : ""; }
 };
 
 /// Residuals and cost of one solve, in the user's units.
@@ -60,6 +70,7 @@ struct SolveReport {
   double stationarity = 0;     ///< largest component of the Lagrangian's gradient
   double complementarity = 0;  ///< largest |s z / mu - 1|, or |s z| without floor
   Passage passage;             ///< the deepest, by the smaller of sm_start and sm_end
+  RoadExit road_exit;          ///< the farthest
 
   /// The status in a word, with ": " and the detail behind it where there is one.
   std::string status_text() const;

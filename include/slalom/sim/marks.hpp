@@ -24,10 +24,11 @@ struct StartSlack {
 StartSlack start_slack(const Cycle& cycle);
 
 /// Of a drive, in this order: plans that go through an obstacle between their nodes
-/// (passes_through); plans that were driven and begin more than .1 m or 1 degree from the vehicle
-/// (start_slack); limits that plans keep and the plant broke: wheel loads by more than 100 N
-/// (wheel_load), speed by more than .1 m/s (speed), the region's sides by more than .1 m (region);
-/// the distance to the goal growing for 10 s (moves_away).
+/// (passes_through); plans that leave their road there (plan_off_road); plans that were driven and
+/// begin more than .1 m or 1 degree from the vehicle (start_slack); limits that plans keep and the
+/// plant broke: wheel loads by more than 100 N (wheel_load), speed by more than .1 m/s (speed), the
+/// region's sides by more than .1 m (region); the distance to the goal growing for 10 s
+/// (moves_away).
 std::vector<Mark> marks(const Scenario& scenario, const Drive& drive);
 
 }  // namespace slalom::sim

@@ -65,8 +65,9 @@ double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, dou
 /// Circles that cover the body at all times; the body itself where it is plain. Named as it is.
 /// They cover the rectangle about a polygon or a turned ellipse by a row along its middle and cells
 /// in what that leaves of its corners, and stick out of it by at most `excess` [m], but for no more
-/// than kMostDiscs of them.
-std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess);
+/// than `most` of them.
 constexpr int kMostDiscs = 16;
+std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess,
+                                     int most = kMostDiscs);
 
 }  // namespace slalom::world
