@@ -20,7 +20,7 @@ constexpr double kShare = 0.9;
 /// Braking ends at this speed [m/s]; it settles there at this rate [1/s].
 constexpr double kCreep = 0.12, kSpeedSpare = 0.1, kSettling = 1.2;
 /// A body's braking ends so far above its least speed [m/s].
-constexpr double kBodyCreep = 0.04;
+constexpr double kBodyCreep = 0.07;
 /// Braking beyond a way's end [m/s^2], of the HMMWV.
 constexpr double kBraking = 3;
 constexpr double kLongestStop = 30;  ///< [s]

@@ -22,6 +22,8 @@ struct MoveOver {
 constexpr std::array kMoves = {MoveOver{1.5, 12}, MoveOver{0.8, 6}, MoveOver{3, 25}};
 /// Offsets that are nearer to each other are one [m]; from an edge to the body at the outmost [m].
 constexpr double kSameOffset = 0.2, kSpare = 0.15;
+/// What a way costs for each metre that its path moves over [s].
+constexpr double kMovingOver = 0.05;
 /// Longest paths [m], and beyond the goal [m].
 constexpr double kLongest = 400, kBeyond = 30;
 /// From the edges paths keep so much more than ways are to keep [m].
@@ -54,7 +56,10 @@ class RoadWays::Impl {
         const RoadPath path(
             road, vehicle_, start, on,
             {offset, over, search.edge + kBand, length_of(aim, v, t_start, to_go), narrow});
-        if (auto way = speeds_.run(path, question)) found.push_back(std::move(*way));
+        if (auto way = speeds_.run(path, question)) {
+          way->cost += kMovingOver * std::fabs(offset - on.n);
+          found.push_back(std::move(*way));
+        }
       }
     std::stable_sort(found.begin(), found.end(), [](const RoadWay& a, const RoadWay& b) {
       if (a.complete != b.complete) return a.complete;

@@ -157,7 +157,7 @@ TEST(References, ABodyStopsShorterThanAPoint) {
   const auto [body, body_creep] = way_of(FootprintKind::rectangle);
   const auto [point, point_creep] = way_of(FootprintKind::point);
   EXPECT_LT(body, point - 1);
-  EXPECT_LT(body_creep, point_creep - 0.05);
+  EXPECT_LT(body_creep, point_creep - 0.02);
 }
 
 TEST(References, SwervesMirrorEachOther) {
