@@ -32,6 +32,8 @@ const std::vector<double>& shares(bool between) {
 constexpr int kGuessPoints = 4;
 /// An answer that is not solved starts a tracked motion still, up to this violation [its unit].
 constexpr double kNearlySolved = 1e-2;
+/// Wheel loads are greater than what verification asks for by this [N].
+constexpr double kLoadSpare = 100;
 /// Rows of wheel loads are in kilonewtons, of one size with the others.
 constexpr double kKilo = 1e-3;
 /// Weight of the steering rate beside that of the paper: whole ways are smoother for it.
@@ -96,11 +98,13 @@ void ArrivalProblem::add_dynamics(const Task& task) {
     problem_.boundary(std::string("initial ") + kStateNames[i], problem_.initial(X_[i]) - X0p_[i],
                       Bounds::equal(0));
   }
-  add_limits(model, p);
+  // A tracked answer is off it by a little.
+  const double wheel_load = task.planner.verified_wheel_load + kLoadSpare;
+  add_limits(model, std::max(p.Fz_min, wheel_load));
   add_region_rows(problem_, task.region, footprint, X_, Points::after_first);
 }
 
-void ArrivalProblem::add_limits(const Model& model, const Parameters& vehicle) {
+void ArrivalProblem::add_limits(const Model& model, double wheel_load) {
   const auto limits = in_terms_of(std::array{model.ax_min, model.ax_max}, model, X_, U_);
   const auto add = [&](const std::string& name, const Expr& spare) {
     problem_.path(name, spare, Bounds::at_least(0), Points::after_first);
@@ -109,7 +113,7 @@ void ArrivalProblem::add_limits(const Model& model, const Parameters& vehicle) {
   add("ax below ax_max", limits[1] - X_[AX]);
   const auto Fz = in_terms_of(model.wheel_loads, model, X_, U_);
   for (std::size_t w = 0; w < kWheels; ++w)
-    add(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - vehicle.Fz_min));
+    add(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - wheel_load));
 }
 
 /// How far the vehicle is outside a body whose centre lies (x, y) from the front axle's: >= 0. A

@@ -57,7 +57,7 @@ class ArrivalProblem {
   using Expr = ocp::Expr;
   void set_obstacles(const Obstacles& obstacles, double t_start, double tf);
   void add_dynamics(const Task& task);
-  void add_limits(const vehicle::Model& model, const vehicle::Parameters& vehicle);
+  void add_limits(const vehicle::Model& model, double wheel_load);
   void add_obstacles();
   Expr outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a, const Expr& b) const;
   std::vector<double> row_numbers(const world::Obstacle& o, double share, double t_start,

@@ -1,6 +1,9 @@
 #include "proposals.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -25,6 +28,15 @@ constexpr int kRounds = 5;
 constexpr double kSooner = 0.3;
 /// What ways keep off beyond the clearance needed at first [m], and as much as that at the most.
 constexpr double kWayClearance = 0.65;
+/// Ways along the road keep so much more from obstacles and from edges [m], and use such a share of
+/// what the vehicle can, one after the other; so many of those that are refused are solved.
+struct RoadKept {
+  double clearance, edge, limits;
+};
+constexpr std::array kRoadKept = {RoadKept{0.2, 0.15, 0.8}, RoadKept{0.03, 0.02, 0.95}};
+constexpr std::size_t kRoadSolves = 2;
+/// At last they keep from obstacles what the rest of a plan keeps, and this [m].
+constexpr double kLesserSpare = 0.02;
 /// Shorter motions are not solved [s].
 constexpr double kShortest = 0.4;
 /// A tracked motion that ends farther from its reference than this [m] has lost it, and its OCP
@@ -96,7 +108,9 @@ Proposals::Proposals(const Task& task, Tracker& tracker, Verifier& verifier)
       verifier_(verifier),
       footprint_(task.vehicle),
       ways_(task, task.vehicle, task.planner.cover_excess),
-      solver_(nlp::make_solver(to_string(task.planner.solver))) {}
+      solver_(nlp::make_solver(to_string(task.planner.solver))) {
+  if (task.road) road_ways_.emplace(task, task.vehicle);
+}
 
 void Proposals::ask(Question question) {
   turns_.cancel();
@@ -107,11 +121,50 @@ void Proposals::ask(Question question) {
 
 void Proposals::look() {
   if (question_.rest) solve(*question_.rest, "rest, solved");
-  if (task_.planner.guidance) return follow_ways();
+  if (task_.planner.guidance) {
+    if (!road_ways_ || !follow_road()) follow_ways();
+    return;
+  }
   const auto& x = question_.from;
   const double distance = std::hypot(task_.goal.x - x[X], task_.goal.y - x[Y]);
   solve(straight_reference(x, question_.t_from, distance / std::max(x[UX], kStraightSpeed)),
         "straight on, solved");
+}
+
+/// Ways along the road, tracked; where none arrives, the best are solved. Whether one arrives.
+bool Proposals::follow_road() {
+  auto obstacles = question_.obstacles;
+  for (auto& o : obstacles) o = o.grown(question_.need.clearance);
+  world::RoadWaySearch search;
+  search.beyond = question_.beyond;
+  search.creep = standing_of(task_.vehicle, true).creep;
+  std::vector<std::pair<std::string, Motion>> guesses;
+  std::vector<RoadKept> all(kRoadKept.begin(), kRoadKept.end());
+  const double lesser = task_.planner.kept_clearance - question_.need.clearance;
+  if (lesser < 0) all.push_back({lesser + kLesserSpare, 0.02, 0.95});
+  for (const RoadKept& kept : all) {
+    search.clearance = kept.clearance;
+    search.edge = question_.need.edge + kept.edge;
+    search.limits = kept.limits;
+    const auto ways = road_ways_->to_goal(question_.from, question_.t_from, obstacles, search, [&] {
+      return turns_.spend(world::RoadWays::kAskedEvery);
+    });
+    int left = question_.ways;
+    for (const world::RoadWay& way : ways) {
+      if (left-- == 0 || turns_.spend(0)) break;
+      if (way.end > question_.arrival - kSooner) continue;
+      turns_.wait_for(longest_besides_s_);
+      const Motion reference = reference_of(way.way, task_.vehicle);
+      const std::string name = fmt::format("way {} along the road", guesses.size() + 1);
+      Motion guess = tracked(reference);
+      if (propose(name, guess, false)) return true;
+      while (guess.size() > 2 && guess.end() > way.end + kSameTime) guess.drop_last();
+      guesses.emplace_back(name, std::move(guess));
+    }
+  }
+  for (std::size_t k = 0; k < std::min(guesses.size(), kRoadSolves); ++k)
+    if (solve(guesses[k].second, guesses[k].first + ", solved")) return true;
+  return false;
 }
 
 void Proposals::follow_ways() {

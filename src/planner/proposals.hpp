@@ -12,6 +12,7 @@
 #include "motion.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/vehicle/plant.hpp"
+#include "slalom/world/road_ways.hpp"
 #include "slalom/world/way_finder.hpp"
 #include "tracker.hpp"
 #include "turns.hpp"
@@ -29,7 +30,7 @@ struct Proposal {
 
 /// Looks for motions to the goal, in turns that may be spread over cycles: the OCP of the whole way
 /// solved from the rest of the last plan, and ways of a search, tracked as they are and solved from
-/// there.
+/// there. On a road ways along it come first, and no others where one of them arrives.
 class Proposals {
  public:
   /// Work is counted in places that a search looks at; so many take a second, about.
@@ -61,6 +62,7 @@ class Proposals {
 
  private:
   void look();
+  bool follow_road();
   void follow_ways();
   bool follow(const world::Way& way, const std::string& name);
   bool propose(const std::string& name, Motion motion, bool solved);
@@ -78,6 +80,7 @@ class Proposals {
   Verifier& verifier_;
   const world::Footprint footprint_;
   world::WayFinder ways_;
+  std::optional<world::RoadWays> road_ways_;
   std::unique_ptr<nlp::Solver> solver_;
   std::map<ArrivalProblem::Room, ArrivalProblem> problems_;
   Question question_;

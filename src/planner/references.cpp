@@ -18,7 +18,9 @@ constexpr std::ptrdiff_t kSmooth = 6;
 /// room.
 constexpr double kShare = 0.9;
 /// Braking ends at this speed [m/s]; it settles there at this rate [1/s].
-constexpr double kCreep = 0.12, kSettling = 1.2;
+constexpr double kCreep = 0.12, kSpeedSpare = 0.1, kSettling = 1.2;
+/// A body's braking ends so far above its least speed [m/s].
+constexpr double kBodyCreep = 0.07;
 /// Braking beyond a way's end [m/s^2], of the HMMWV.
 constexpr double kBraking = 3;
 constexpr double kLongestStop = 30;  ///< [s]
@@ -81,6 +83,13 @@ void find_controls(Motion& motion, const Parameters& p) {
 
 }  // namespace
 
+Standing standing_of(const Parameters& vehicle, bool on_road) {
+  if (!on_road || vehicle.footprint == FootprintKind::point)
+    return {kCreep, kSpeedSpare, kSettling};
+  const double settling = kShare * vehicle.jx_max / -vehicle.ax_min_at(0);
+  return {vehicle.ux_min + kBodyCreep, kBodyCreep / 2, std::max(kSettling, settling)};
+}
+
 Motion reference_of(const world::Way& way, const Parameters& vehicle) {
   const Stiffness stiffness(vehicle);
   Motion motion;
@@ -96,15 +105,16 @@ Motion braked_on(Motion motion, const Parameters& vehicle, double beyond) {
   x[X] = last[X];
   x[Y] = last[Y];
   x[PSI] = direction(last, vehicle);
+  const double creep = standing_of(vehicle, false).creep;
   const double braking = kBraking * agility(vehicle).braking;
   x[AX] = -braking;
   double v = last[UX], t = motion.end();
   for (const double end = t + beyond; t < end;) {
-    const double slower = std::max(kCreep, v - braking * kKnot);
+    const double slower = std::max(creep, v - braking * kKnot);
     x[X] += kKnot * (v + slower) / 2 * std::cos(x[PSI]);
     x[Y] += kKnot * (v + slower) / 2 * std::sin(x[PSI]);
     x[UX] = v = slower;
-    if (v == kCreep) x[AX] = 0;
+    if (v == creep) x[AX] = 0;
     t += kKnot;
     motion.add(t, x, {});
   }
@@ -145,7 +155,8 @@ Motion straight_reference(const State& X0, double t0, double duration) {
 }
 
 Motion braking_reference(const Motion& reference, const State& X0, double t0, double deceleration,
-                         const Parameters& vehicle) {
+                         const Parameters& vehicle, bool on_road) {
+  const auto [creep, spare, settling] = standing_of(vehicle, on_road);
   // The path by its length, and how far along it X0 is.
   std::vector<double> length{0};
   std::size_t nearest = 0;
@@ -154,7 +165,7 @@ Motion braking_reference(const Motion& reference, const State& X0, double t0, do
     if (apart(reference.states[k], X0) < apart(reference.states[nearest], X0)) nearest = k;
   }
   Motion motion;
-  double s = length[nearest], v = std::max(X0[UX], kCreep), a = X0[AX];
+  double s = length[nearest], v = std::max(X0[UX], creep), a = X0[AX];
   std::size_t k = 1;
   for (double t = t0; t < t0 + kLongestStop; t += kKnot) {
     while (k + 1 < reference.size() && length[k] < s) ++k;
@@ -174,13 +185,13 @@ Motion braking_reference(const Motion& reference, const State& X0, double t0, do
     x[R] *= slower;
     x[UX] = v;
     x[AX] = a;
-    const double wanted = std::max(-deceleration, -(v - kCreep) * kSettling);
+    const double wanted = std::max(-deceleration, -(v - creep) * settling);
     const double jerk =
         std::clamp((wanted - a) / kKnot, -kShare * vehicle.jx_max, kShare * vehicle.jx_max);
     motion.add(t, x, {0, jerk});
-    if (v <= kCreep + 0.02 && std::fabs(a) < 0.02) break;
+    if (v <= creep + 0.02 && std::fabs(a) < 0.02) break;
     a += jerk * kKnot;
-    v = std::max(kCreep, v + a * kKnot);
+    v = std::max(creep, v + a * kKnot);
     s += v * kKnot;
   }
   return motion;

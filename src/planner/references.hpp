@@ -6,6 +6,14 @@
 
 namespace slalom::planner {
 
+/// How a vehicle comes to stand: at which speed [m/s], how near to its least speed it may be [m/s],
+/// and at which rate it settles there [1/s]. On a road a body comes nearer to standing, for it
+/// creeps off it and into what stands before it, and as fast as its jerk allows.
+struct Standing {
+  double creep, spare, settling;
+};
+Standing standing_of(const vehicle::Parameters& vehicle, bool on_road);
+
 /// A way as a reference for the dynamic model: its states in steady cornering with linear tyres (R.
 /// Rajamani, Vehicle Dynamics and Control, section 3.1, for a position on the front axle).
 Motion reference_of(const world::Way& way, const vehicle::Parameters& vehicle);
@@ -24,6 +32,7 @@ Motion swerve_reference(const vehicle::State& X0, double t0, double side,
 /// The path of `reference` driven from X0 at t0 [s] on, braking by `deceleration` [m/s^2] until the
 /// vehicle creeps; straight on beyond the path's end.
 Motion braking_reference(const Motion& reference, const vehicle::State& X0, double t0,
-                         double deceleration, const vehicle::Parameters& vehicle);
+                         double deceleration, const vehicle::Parameters& vehicle,
+                         bool on_road = false);
 
 }  // namespace slalom::planner

@@ -21,7 +21,6 @@ constexpr double kTightSpare = 0.1, kQuickTime = 0.15;
 /// The vehicle turns into the road's direction within a way of so many seconds at its speed, and so
 /// many metres at the least; it is off that by this at the most [rad].
 constexpr double kTurnTime = 0.5, kTurnLength = 5, kMostOff = 0.6;
-constexpr double kCreep = 0.12;       ///< [m/s]
 constexpr double kBraking = 3;        ///< beyond a motion's end [m/s^2]
 constexpr double kLeastShrink = 0.2;  ///< of lengths on a curve's inside
 
@@ -60,7 +59,8 @@ Motion road_reference(const world::Road& road, const State& X0, double t0, doubl
 Motion road_reference(const world::Road& road, const world::OnRoad& on, const State& X0, double t0,
                       double duration, double deceleration, const Parameters& vehicle,
                       double aside) {
-  double v = std::max(X0[UX], kCreep), s = on.s, way = 0;
+  const double creep = standing_of(vehicle, true).creep;
+  double v = std::max(X0[UX], creep), s = on.s, way = 0;
   const double heading = X0[PSI] + std::atan2(X0[V] + vehicle.la * X0[R], v);
   world::RoadPlace at = road.at(s);
   const double off = std::remainder(heading - at.psi, 2 * std::numbers::pi);
@@ -77,8 +77,8 @@ Motion road_reference(const world::Road& road, const world::OnRoad& on, const St
     const world::Point place = at.point() + at.aside() * n;
     const double along = at.psi + std::atan(offset.slope(way) / shrink);
     last += std::remainder(along - last, 2 * std::numbers::pi);
-    points.push_back({t, place.x, place.y, last, v, 0, v > kCreep ? -deceleration : 0});
-    const double slower = std::max(kCreep, v - deceleration * kKnot);
+    points.push_back({t, place.x, place.y, last, v, 0, v > creep ? -deceleration : 0});
+    const double slower = std::max(creep, v - deceleration * kKnot);
     const double step = kKnot * (v + slower) / 2;
     way += step;
     s += step / shrink;

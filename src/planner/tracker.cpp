@@ -13,19 +13,26 @@ constexpr std::size_t kInputs = std::size_t{kStates} + std::size_t{kControls};
 
 /// Share of the controls' limits that tracking uses.
 constexpr double kShare = 0.98;
-/// Kept off the limits of steering angle [rad], of acceleration [m/s^2] and of speed [m/s].
+/// Kept off the limits of steering angle [rad], of acceleration [m/s^2] and of the greatest speed
+/// [m/s].
 constexpr double kSteeringSpare = 0.01, kAccelerationSpare = 0.06, kSpeedSpare = 0.1;
-/// How fast speed settles at its limits [1/s].
+/// How fast speed settles at the greatest [1/s].
 constexpr double kSettling = 1.2;
 /// Below this speed the linearisation is that of this speed [m/s]: tyres react ever faster.
 constexpr double kSlowest = 0.8;
+/// Of a body, along the reference [1/m^2] and of its speed [1/(m/s)^2].
+constexpr double kBodyAlong = 10, kBodySpeed = 10;
+/// The rate at which steering goes to the reference's where the vehicle all but stands [1/s].
+constexpr double kSteeringBack = 3;
 /// Weights of the controls [1/(rad/s)^2, 1/(m/s^3)^2] against those of state_weight().
 constexpr double kSteeringRateWeight = 300, kJerkWeight = 0.15;
 
 /// Weights of being off the reference: 25/m^2 across it and 2/m^2 along it, for where in time one
-/// passes matters less than where.
-Square state_weight(const State& x) {
-  constexpr double across = 25, along = 2;
+/// passes matters less than where. Of a body on a road they are greater along it and of its speed:
+/// it passes others so close that time matters, and where it all but stands it could turn only by
+/// driving on.
+Square state_weight(const State& x, bool body) {
+  const double across = 25, along = body ? kBodyAlong : 2;
   Square Q{};
   const double c = std::cos(x[PSI]), s = std::sin(x[PSI]);
   Q[X][X] = across * s * s + along * c * c;
@@ -35,7 +42,7 @@ Square state_weight(const State& x) {
   Q[R][R] = 4;
   Q[PSI][PSI] = 60;
   Q[SA][SA] = 4;
-  Q[UX][UX] = 1;
+  Q[UX][UX] = body ? kBodySpeed : 1;
   Q[AX][AX] = 0.3;
   return Q;
 }
@@ -101,8 +108,12 @@ void discretise(double h, Square& A, std::array<Control, kStates>& B, State& f) 
 
 }  // namespace
 
-Tracker::Tracker(const Parameters& vehicle, const Plant& plant)
-    : vehicle_(vehicle), plant_(plant), derivative_(plant.dynamics().derivative_function()) {}
+Tracker::Tracker(const Parameters& vehicle, const Plant& plant, bool on_road)
+    : vehicle_(vehicle),
+      standing_(standing_of(vehicle, on_road)),
+      body_(on_road && vehicle.footprint != FootprintKind::point),
+      plant_(plant),
+      derivative_(plant.dynamics().derivative_function()) {}
 
 void Tracker::linearise(std::size_t steps, double h) {
   const std::size_t inputs = kInputs;
@@ -139,7 +150,7 @@ void Tracker::linearise(std::size_t steps, double h) {
 /// (R + B' P B) G = B' P A.
 void Tracker::find_gains(std::size_t steps) {
   gain_.resize(steps + 1);
-  Square P = state_weight(state_[steps]);
+  Square P = state_weight(state_[steps], body_);
   for (std::size_t k = steps; k-- > 0;) {
     const Square& A = A_[k];
     const Inputs& B = B_[k];
@@ -156,7 +167,7 @@ void Tracker::find_gains(std::size_t steps) {
         for (std::size_t l = 0; l < kStates; ++l) H[a][j] += B[l][a] * PA[l][j];
     }
     const double determinant = S[0][0] * S[1][1] - S[0][1] * S[1][0];
-    Square next = state_weight(state_[k]);
+    Square next = state_weight(state_[k], body_);
     for (std::size_t j = 0; j < kStates; ++j) {
       gain_[k][0][j] = (S[1][1] * H[0][j] - S[0][1] * H[1][j]) / determinant;
       gain_[k][1][j] = (S[0][0] * H[1][j] - S[1][0] * H[0][j]) / determinant;
@@ -172,12 +183,28 @@ void Tracker::find_gains(std::size_t steps) {
   gain_[steps] = gain_[steps > 0 ? steps - 1 : 0];
 }
 
+/// A body that all but stands cannot turn: its steering angle goes to the reference's, and its
+/// speed is no means against being beside it.
+void Tracker::steady_gains(std::size_t steps) {
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const State& x = state_[k];
+    if (x[UX] >= kSlowest) continue;
+    State &steer = gain_[k][SR], &push = gain_[k][JX];
+    steer = {};
+    steer[SA] = kSteeringBack;
+    const double c = std::cos(x[PSI]), s = std::sin(x[PSI]), along = c * push[X] + s * push[Y];
+    push = {0, 0, 0, 0, 0, 0, push[UX], push[AX]};
+    push[X] = c * along;
+    push[Y] = s * along;
+  }
+}
+
 /// The acceleration a step ahead that the vehicle's limits leave of `ax`.
 double Tracker::driven_acceleration(double ux, double ax) const {
   double most = vehicle_.ax_max_at(ux) - kAccelerationSpare;
   double least = vehicle_.ax_min_at(ux) + kAccelerationSpare;
   most = std::min(most, (vehicle_.ux_max - kSpeedSpare - ux) * kSettling);
-  least = std::max(least, (vehicle_.ux_min + kSpeedSpare - ux) * kSettling);
+  least = std::max(least, (vehicle_.ux_min + standing_.spare - ux) * standing_.settling);
   return std::clamp(ax, std::min(least, most), most);
 }
 
@@ -214,6 +241,7 @@ Motion Tracker::follow(const Motion& reference, const State& X0, double t0, doub
   }
   linearise(steps, h);
   find_gains(steps);
+  if (body_) steady_gains(steps);
 
   State x = X0, off;
   for (std::size_t i = 0; i < kStates; ++i) off[i] = x[i] - state_[0][i];

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "motion.hpp"
+#include "references.hpp"
 #include "slalom/expr/function.hpp"
 #include "slalom/vehicle/parameters.hpp"
 #include "slalom/vehicle/plant.hpp"
@@ -17,8 +18,9 @@ namespace slalom::planner {
 /// call. Not thread-safe.
 class Tracker {
  public:
-  /// `plant`, of the vehicle with these parameters, outlives it.
-  Tracker(const vehicle::Parameters& vehicle, const vehicle::Plant& plant);
+  /// `plant`, of the vehicle with these parameters, outlives it. On a road a body follows its
+  /// reference more closely in time, and settles as standing_of() says.
+  Tracker(const vehicle::Parameters& vehicle, const vehicle::Plant& plant, bool on_road = false);
 
   /// The plant's motion from X0 at t0 to t_end [s], with knots kStep apart at most. It ends early
   /// where the plant cannot be integrated further; where there is no time to go, it is X0 without
@@ -34,11 +36,14 @@ class Tracker {
 
   void linearise(std::size_t steps, double h);
   void find_gains(std::size_t steps);
+  void steady_gains(std::size_t steps);
   vehicle::Control steered(std::size_t knot, const vehicle::State& off, const vehicle::State& at,
                            double h) const;
   double driven_acceleration(double ux, double ax) const;
 
   vehicle::Parameters vehicle_;
+  Standing standing_;
+  bool body_;  ///< the footprint is no point, and there is a road
   const vehicle::Plant& plant_;
   const expr::Function& derivative_;  ///< the plant's
   // One for each knot: the reference, its linearisation over a step, and the gains.

@@ -48,10 +48,11 @@ double gap(const State& a, const State& b) {
 VerifiedPlanner::VerifiedPlanner(const Task& task)
     : task_(task),
       plant_(Verifier::believed_plant(task_.vehicle)),
-      tracker_(task_.vehicle, plant_),
+      tracker_(task_.vehicle, plant_, task_.road != nullptr),
       verifier_(task_, plant_),
       proposals_(task_, tracker_, verifier_) {
   check(task_.planner, "planner " + task_.planner.name);
+  if (task_.road) road_ways_.emplace(task_, task_.vehicle);
 }
 
 void VerifiedPlanner::reset() {
@@ -192,10 +193,7 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
                       last_.course};
   Proposal& rest = cycle.rest->proposal;
   if (!cycle.rest_unchanged) {
-    const Settings& s = task_.planner;
-    rest.verdict =
-        verifier_.judge(rest.motion, cycle.obstacles,
-                        {s.kept_clearance, s.kept_wheel_load, need(cycle).seen}, cycle.tex());
+    rest.verdict = verifier_.judge(rest.motion, cycle.obstacles, lesser_need(cycle), cycle.tex());
     if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
   cycle.looked_at.push_back({"rest", cycle.rest->cost, rest.verdict.certificate});
@@ -338,7 +336,7 @@ void VerifiedPlanner::adopt(Cycle& cycle, const Proposal& proposal) {
 }
 
 /// What is driven, by the ladder.
-const VerifiedPlanner::Option* VerifiedPlanner::chosen(const Cycle& cycle, Rung& rung) {
+const VerifiedPlanner::Option* VerifiedPlanner::chosen(Cycle& cycle, Rung& rung) {
   const Option* best = nullptr;
   for (const auto& option : cycle.good)
     if (!best || option.cost < best->cost) best = &option;
@@ -351,7 +349,12 @@ const VerifiedPlanner::Option* VerifiedPlanner::chosen(const Cycle& cycle, Rung&
   }
   rung = rest ? Rung::rest : Rung::least_bad;
   if (rest) return rest;
-  return task_.planner.fallback ? least_bad(cycle) : nullptr;
+  if (!task_.planner.fallback) return nullptr;
+  if (const Option* kept = kept_at_least(cycle)) {
+    rung = Rung::new_plan;
+    return kept;
+  }
+  return least_bad(cycle);
 }
 
 Plan VerifiedPlanner::choose(Cycle& cycle) {

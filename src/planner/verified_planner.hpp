@@ -14,6 +14,7 @@
 #include "proposals.hpp"
 #include "slalom/base/timer.hpp"
 #include "slalom/vehicle/plant.hpp"
+#include "slalom/world/road_ways.hpp"
 #include "tracker.hpp"
 #include "verifier.hpp"
 
@@ -38,7 +39,8 @@ class VerifiedPlanner final : public PlanningMethod {
   struct Option {
     Proposal proposal;
     double cost = 0;
-    Course course;  ///< whose beginning it drives
+    Course course;                 ///< whose beginning it drives
+    std::optional<double> harm{};  ///< when it does, where that was found [s]
 
     const Motion& motion() const { return proposal.motion; }
     const Certificate& certificate() const { return proposal.verdict.certificate; }
@@ -122,18 +124,26 @@ class VerifiedPlanner final : public PlanningMethod {
   void ask(Cycle& cycle);
   void adopt(Cycle& cycle, const Proposal& proposal);
   void stop(Cycle& cycle);
-  void stop_aside(Cycle& cycle);
+  bool stop_aside(Cycle& cycle);
+  bool stop_in_time(Cycle& cycle);
+  bool stop_on(Cycle& cycle, const world::RoadWay& found);
+  struct Escape;
+  void escape(Cycle& cycle);
+  bool try_escapes(Escape& escape, std::size_t held);
+  bool step_on(Escape& escape, double steer, double push) const;
   Motion settled(Motion motion, double until) const;
   bool consider(Cycle& cycle, Proposal proposal, const Course& course = {});
   Proposal judged(const Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
   double harm_of(const Cycle& cycle, const Motion& motion);
+  Need lesser_need(const Cycle& cycle) const;
+  const Option* kept_at_least(Cycle& cycle);
   const Option* least_bad(const Cycle& cycle);
   void follow_course(Cycle& cycle);
   void follow(Cycle& cycle, const Proposal& proposal);
   bool stop_late(Cycle& cycle, const Proposal& proposal);
   bool stop_along(Cycle& cycle, const Stop& stop, double deceleration, const Course& course);
   double cost_of(const Motion& motion, const Verdict& verdict) const;
-  const Option* chosen(const Cycle& cycle, Rung& rung);
+  const Option* chosen(Cycle& cycle, Rung& rung);
   Plan choose(Cycle& cycle);
   void record_plan(const Cycle& cycle, const Plan& plan, const Option& option) const;
 
@@ -142,6 +152,7 @@ class VerifiedPlanner final : public PlanningMethod {
   Tracker tracker_;
   Verifier verifier_;
   Proposals proposals_;
+  std::optional<world::RoadWays> road_ways_;  ///< for stops
   std::optional<Recorder> recorder_;
   /// A plan and what belongs to it.
   struct Last {

@@ -25,6 +25,15 @@ constexpr std::array kLate = {1., 0.5};
 /// Where the vehicle moves over on the road while it brakes as hard as it can: shares of the room
 /// to the right edge (-) and to the left one.
 constexpr std::array kAside = {-1., 1., -0.5, 0.5};
+/// Of stops that a search finds: what they keep off obstacles beyond what is needed [m] and the
+/// share of its limits that the vehicle uses, one after the other; at last they keep what the rest
+/// of a plan keeps, and this [m]. Places looked at on one path, and how many are driven.
+struct StopKept {
+  double clearance, limits;
+};
+constexpr std::array kStopKept = {StopKept{0.05, 0.75}, StopKept{0.05, 0.95}};
+constexpr double kKeptSpare = 0.02;
+constexpr int kStopPlaces = 4000, kStopWays = 4;
 
 }  // namespace
 
@@ -58,7 +67,8 @@ bool VerifiedPlanner::stop_along(Cycle& cycle, const Stop& stop, double decelera
   const double t = at_once ? t0 : stop.lead.end();
   Motion reference = stop.lead;
   if (!at_once) reference.drop_last();
-  reference.append(braking_reference(stop.path, from, t, deceleration, task_.vehicle));
+  reference.append(
+      braking_reference(stop.path, from, t, deceleration, task_.vehicle, task_.road != nullptr));
   try {
     Motion motion =
         settled(tracker_.follow(reference, X0p, t0, reference.end()), t0 + cycle.beyond());
@@ -108,7 +118,8 @@ void VerifiedPlanner::follow_course(Cycle& cycle) {
   follow(cycle, whole);
 }
 
-/// Stops along the rest, late or at once; straight on, and after swerves: the first that is good.
+/// Stops along the rest, late or at once; along the road, or straight on and after swerves where
+/// there is none: the first that is good.
 void VerifiedPlanner::stop(Cycle& cycle) {
   const State& X0p = cycle.request.X0p;
   const double t0 = cycle.t_start();
@@ -125,20 +136,22 @@ void VerifiedPlanner::stop(Cycle& cycle) {
                      {},
                      road_reference(*task_.road, X0p, t0, enough, 0, task_.vehicle)});
   }
-  stops.push_back({"stop straight on", {}, straight_reference(X0p, t0, 1)});
-  stops.push_back(
-      {"stop after a swerve to the left", {}, swerve_reference(X0p, t0, 1, task_.vehicle)});
-  stops.push_back(
-      {"stop after a swerve to the right", {}, swerve_reference(X0p, t0, -1, task_.vehicle)});
+  if (!task_.road) {  // on one, stops aside and those that a search finds do better
+    stops.push_back({"stop straight on", {}, straight_reference(X0p, t0, 1)});
+    stops.push_back(
+        {"stop after a swerve to the left", {}, swerve_reference(X0p, t0, 1, task_.vehicle)});
+    stops.push_back(
+        {"stop after a swerve to the right", {}, swerve_reference(X0p, t0, -1, task_.vehicle)});
+  }
   for (const Stop& stop : stops)
     for (const double deceleration : kStops)
       if (stop_along(cycle, stop, can * deceleration, {})) return;
-  if (task_.road) stop_aside(cycle);
+  if (task_.road && !stop_aside(cycle) && !stop_in_time(cycle)) escape(cycle);
 }
 
 /// Moves over on the road and brakes hard: where something cuts in, there may be room beside it and
 /// none before it.
-void VerifiedPlanner::stop_aside(Cycle& cycle) {
+bool VerifiedPlanner::stop_aside(Cycle& cycle) {
   const State& X0p = cycle.request.X0p;
   const double deceleration = kStops[0] * agility(task_.vehicle).braking;
   for (const double aside : kAside) {
@@ -146,7 +159,49 @@ void VerifiedPlanner::stop_aside(Cycle& cycle) {
                     {},
                     road_reference(*task_.road, X0p, cycle.t_start(), X0p[UX] / deceleration + 1, 0,
                                    task_.vehicle, aside)};
-    if (stop_along(cycle, stop, deceleration, {})) return;
+    if (stop_along(cycle, stop, deceleration, {})) return true;
+  }
+  return false;
+}
+
+/// Stops that a search finds along the road, some way on where nothing comes, and where there are
+/// none, what goes well longest.
+bool VerifiedPlanner::stop_in_time(Cycle& cycle) {
+  const Need need = this->need(cycle);
+  auto obstacles = cycle.obstacles;
+  for (auto& o : obstacles) o = o.grown(need.clearance);
+  world::RoadWaySearch search;
+  search.edge = need.edge;
+  search.beyond = cycle.beyond();
+  search.creep = standing_of(task_.vehicle, true).creep;
+  search.standing_horizon = task_.planner.standing_horizon;
+  search.max_places = kStopPlaces;
+  const double lesser = lesser_need(cycle).clearance - need.clearance + kKeptSpare;
+  std::vector<StopKept> kept(kStopKept.begin(), kStopKept.end());
+  if (lesser < kStopKept.back().clearance) kept.push_back({lesser, kStopKept.back().limits});
+  for (const auto& [clearance, limits] : kept) {
+    search.clearance = clearance;
+    search.limits = limits;
+    int left = kStopWays;
+    for (const world::RoadWay& found : road_ways_->to_stand(
+             cycle.request.X0p, cycle.t_start(), obstacles, search, [&] { return cycle.over(); })) {
+      if (left-- == 0 || cycle.over()) break;
+      if (stop_on(cycle, found)) return true;
+    }
+  }
+  return false;
+}
+
+/// Tracks a way that comes to stand, or goes on as long as it can. Whether it is good.
+bool VerifiedPlanner::stop_on(Cycle& cycle, const world::RoadWay& found) {
+  const Motion reference = reference_of(found.way, task_.vehicle);
+  try {
+    Motion motion = tracker_.follow(reference, cycle.request.X0p, cycle.t_start(), reference.end());
+    if (found.complete) motion = settled(std::move(motion), cycle.t_start() + cycle.beyond());
+    const std::string name = found.complete ? "stop in time" : "as long as it goes well";
+    return consider(cycle, judged(cycle, name, std::move(motion)));
+  } catch (const PlantError&) {
+    return false;
   }
 }
 
@@ -160,12 +215,35 @@ double VerifiedPlanner::harm_of(const Cycle& cycle, const Motion& motion) {
   return certificate.verified ? std::numeric_limits<double>::infinity() : certificate.refused_at;
 }
 
+/// What the rest of a plan keeps.
+Need VerifiedPlanner::lesser_need(const Cycle& cycle) const {
+  const Settings& s = task_.planner;
+  return {s.kept_clearance, s.kept_wheel_load, need(cycle).seen};
+}
+
+/// Of those refused, the best of a body that keeps what the rest of a plan keeps, if there is one.
+/// A point keeps what a plan keeps, or none of it is verified.
+const VerifiedPlanner::Option* VerifiedPlanner::kept_at_least(Cycle& cycle) {
+  if (task_.vehicle.footprint == FootprintKind::point) return nullptr;
+  const Need lesser = lesser_need(cycle);
+  Option* best = nullptr;
+  for (Option& option : cycle.refused) {
+    Verdict verdict = verifier_.judge(option.motion(), cycle.obstacles, lesser, cycle.tex());
+    if (!verdict.certificate.verified) continue;
+    option.cost = cost_of(option.motion(), verdict);
+    option.proposal.verdict = std::move(verdict);
+    if (best == nullptr || option.cost < best->cost) best = &option;
+  }
+  return best;
+}
+
 /// Of those refused, the one that does harm last, and of those the one that goes on longest.
 const VerifiedPlanner::Option* VerifiedPlanner::least_bad(const Cycle& cycle) {
   const Option* least = nullptr;
   std::pair<double, double> latest;
   for (const Option& option : cycle.refused) {
-    const std::pair when(harm_of(cycle, option.motion()), option.certificate().refused_at);
+    const double harm = option.harm ? *option.harm : harm_of(cycle, option.motion());
+    const std::pair when(harm, option.certificate().refused_at);
     if (least != nullptr && !(when > latest)) continue;
     least = &option;
     latest = when;

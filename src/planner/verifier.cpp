@@ -25,6 +25,8 @@ constexpr double kLoadStep = 0.026;
 constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e-3;
 /// A vehicle stands when it is slower than this [m/s] and accelerates by less than this [m/s^2].
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
+/// Below this half of a turn a circle's chord is its arc [rad].
+constexpr double kStraight = 1e-6;
 /// Standing, distances are looked at this far apart at the least [m]; and this often at the least,
 /// where the motion is a trajectory's [s].
 constexpr double kLook = 0.01, kLookAgain = 1;
@@ -123,7 +125,10 @@ void Verifier::note_limits(double t, const State& x) {
 void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   const auto& o = (*obstacles_)[obstacle];
   if (!o.present(i.t0, i.t1)) return;
-  const double need = need_.clearance, margin0 = o.margin(i.t0), margin1 = o.margin(i.t1);
+  const bool first = i.t0 - begin_ < kToComeBack;
+  const double need =
+      first ? std::min(need_.clearance, first_clearance_[obstacle]) : need_.clearance;
+  const double margin0 = o.margin(i.t0), margin1 = o.margin(i.t1);
   const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
   const double rate = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
                       kSpeedSlack + o.fastest(i.t0, i.t1) + turn * footprint_.reach() +
@@ -178,32 +183,66 @@ void Verifier::note_distance(std::size_t obstacle, double distance, double spare
   certificate.nearest = (*obstacles_)[obstacle].name;
 }
 
-/// Creeping on straight the vehicle stays on the road: the distance to its edges falls no faster
-/// than it creeps. Beyond its ends an open road goes on.
+/// The state in which a vehicle that creeps on at its speed and steering angle is after a time [s]:
+/// slow tyres roll where they point, so that the rear axle's centre goes on along a circle.
+State Verifier::creeping(const State& from, double after) const {
+  const double axles = task_.vehicle.la + task_.vehicle.lb;
+  const double turned = creep_turn(from) * after, half = turned / 2;
+  const double chord = from[UX] * after * (std::fabs(half) < kStraight ? 1 : std::sin(half) / half);
+  State x = from;
+  x[PSI] = from[PSI] + turned;
+  const double along = from[PSI] + half;
+  x[X] = from[X] + chord * std::cos(along) + axles * (std::cos(x[PSI]) - std::cos(from[PSI]));
+  x[Y] = from[Y] + chord * std::sin(along) + axles * (std::sin(x[PSI]) - std::sin(from[PSI]));
+  return x;
+}
+
+/// By how much it turns meanwhile [rad/s].
+double Verifier::creep_turn(const State& x) const {
+  return x[UX] * std::tan(x[SA]) / (task_.vehicle.la + task_.vehicle.lb);
+}
+
+/// What no point of the body is faster than meanwhile [m/s].
+double Verifier::creep_speed(const State& x) const {
+  const double farthest = footprint_.reach() + task_.vehicle.la + task_.vehicle.lb;
+  return std::fabs(x[UX]) + std::fabs(creep_turn(x)) * farthest;
+}
+
+/// Creeping on the vehicle stays on the road: the distance to its edges falls no faster than a
+/// point of the body moves. Beyond its ends an open road goes on.
 void Verifier::stand_on_road(const Motion& motion) {
-  State x = motion.states.back();
-  const double forward = std::fabs(x[UX]), horizon = task_.planner.standing_horizon;
+  const State& last = motion.states.back();
+  const double speed = creep_speed(last), horizon = task_.planner.standing_horizon;
   for (double after = 0; after <= horizon;) {
-    const double least = footprint_.edge_distance(*task_.road, x);
+    const double least = footprint_.edge_distance(*task_.road, creeping(last, after));
     if (!(least >= need_.edge))
       return refuse(motion.end() + after, "standing, but creeping off the road");
-    if (forward == 0) return;
-    const double step = std::max(least - need_.edge, kLook) / forward;
-    x[X] += std::cos(x[PSI]) * x[UX] * step;
-    x[Y] += std::sin(x[PSI]) * x[UX] * step;
-    after += step;
+    if (speed == 0) return;
+    after += std::max(least - need_.edge, kLook) / speed;
   }
 }
 
-/// After its end the motion goes on straight at the speed it ends with. Distance is looked at as
-/// often as both speeds allow it to fall to what is needed. Margins grow no more: plans to come
-/// know better.
+/// The same of the region, for a body.
+void Verifier::stand_in_region(const Motion& motion) {
+  const State& last = motion.states.back();
+  const double speed = creep_speed(last), horizon = task_.planner.standing_horizon;
+  for (double after = 0; after <= horizon;) {
+    const double room = -footprint_.outside(task_.region, creeping(last, after));
+    if (!(room >= 0))
+      return refuse(motion.end() + after, "standing, but creeping out of the region");
+    if (speed == 0) return;
+    after += std::max(room, kLook) / speed;
+  }
+}
+
+/// After its end the motion creeps on at the speed and steering angle that it ends with. Distance
+/// is looked at as often as both speeds allow it to fall to what is needed. Margins grow no more:
+/// plans to come know better.
 void Verifier::stand_for_good(const Motion& motion) {
   if (task_.road) stand_on_road(motion);
-  State x = motion.states.back();
-  const double x0 = x[X], y0 = x[Y];
-  const double forward_x = std::cos(x[PSI]) * x[UX], forward_y = std::sin(x[PSI]) * x[UX];
-  const double forward = std::fabs(x[UX]), horizon = task_.planner.standing_horizon;
+  if (!footprint_.is_point()) stand_in_region(motion);
+  const State& last = motion.states.back();
+  const double forward = creep_speed(last), horizon = task_.planner.standing_horizon;
   for (std::size_t k = 0; k < obstacles_->size(); ++k) {
     const auto& o = (*obstacles_)[k];
     const double need = need_.clearance + o.margin(motion.end());
@@ -212,17 +251,29 @@ void Verifier::stand_for_good(const Motion& motion) {
     while (after <= horizon) {
       const double t = motion.end() + after;
       if (!o.present(t, end)) break;
-      x[X] = x0 + forward_x * after;
-      x[Y] = y0 + forward_y * after;
-      const double d = footprint_.distance(o, x, t);
+      const double d = footprint_.distance(o, creeping(last, after), t);
       verdict_.nearest[k] = std::min(verdict_.nearest[k], d - o.margin(motion.end()));
       if (!(d >= need + kLook)) return refuse(t, "standing in the way of " + o.name);
-      const double rate = o.trajectory ? o.fastest(t, t + kLookAgain) + forward
-                                       : std::hypot(o.vx - forward_x, o.vy - forward_y);
+      const double rate =
+          forward + (o.trajectory ? o.fastest(t, t + kLookAgain) : std::hypot(o.vx, o.vy));
       if (rate == 0 && !o.trajectory) break;
       const double step = std::max(d - need, kLook) / rate;
       after += o.trajectory ? std::min(step, kLookAgain) : step;
     }
+  }
+}
+
+/// A body that begins nearer to an obstacle than is needed keeps that, but for kEdgeSlack. Of a
+/// point, which stands for a body, what is needed is kept from the beginning.
+void Verifier::note_first_clearances(const State& x) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  first_clearance_.assign(obstacles_->size(), inf);
+  if (footprint_.is_point()) return;
+  for (std::size_t k = 0; k < obstacles_->size(); ++k) {
+    const auto& o = (*obstacles_)[k];
+    if (!o.present(begin_, begin_)) continue;
+    const double spare = footprint_.distance(o, x, begin_) - o.margin(begin_);
+    first_clearance_[k] = std::max(0., spare - kEdgeSlack);
   }
 }
 
@@ -276,6 +327,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   certificate.until = motion.end();
   begin_ = motion.begin();
   first_ = excess_of(motion.states[0], plant_.dynamics().wheel_loads(motion.states[0]));
+  note_first_clearances(motion.states[0]);
   if (task_.road) first_edge_ = footprint_.edge_distance(*task_.road, motion.states[0]);
   note_limits(motion.t[0], motion.states[0]);
   for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {

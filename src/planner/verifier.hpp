@@ -80,7 +80,12 @@ class Verifier {
   void find_end(const Motion& motion, double tex);
   void find_end_by_square(const Motion& motion, double tex);
   void note_distance(std::size_t obstacle, double distance, double spare);
+  vehicle::State creeping(const vehicle::State& from, double after) const;
+  double creep_turn(const vehicle::State& x) const;
+  double creep_speed(const vehicle::State& x) const;
+  void note_first_clearances(const vehicle::State& x);
   void stand_on_road(const Motion& motion);
+  void stand_in_region(const Motion& motion);
   void stand_for_good(const Motion& motion);
   void refuse(double t, std::string why);
 
@@ -90,8 +95,9 @@ class Verifier {
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
   Need need_{};
   double begin_ = 0;
-  Excess first_;           ///< at the motion's beginning
-  double first_edge_ = 0;  ///< distance from the road's edge there [m]
+  Excess first_;                         ///< at the motion's beginning
+  std::vector<double> first_clearance_;  ///< from each obstacle there, beside its margin [m]
+  double first_edge_ = 0;                ///< distance from the road's edge there [m]
   Verdict verdict_;
 };
 

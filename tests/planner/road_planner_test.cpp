@@ -11,6 +11,7 @@
 #include "../../src/planner/verifier.hpp"
 #include "planner/edge_distance.hpp"
 #include "slalom/planner/planner.hpp"
+#include "slalom/world/trajectory.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -146,8 +147,8 @@ TEST(RoadPlanner, AReferenceMovesOverByAShareOfTheRoom) {
   EXPECT_NEAR(end(-0.5), (0.5 - room) / 2, 0.02);
 }
 
-/// Where every motion is refused at once, for a neighbour that is too near, the one that touches
-/// nothing is driven: beside what stands in the lane, which no stop along it avoids.
+/// Where every motion is refused, for wheel loads that no vehicle has, the one that touches nothing
+/// is driven: beside what stands in the lane, which no stop along it avoids.
 TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
   Task task = on_bend();
   task.road = straight_road();
@@ -157,9 +158,9 @@ TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
   task.planner.search_places = 1;
   task.vehicle.sr_max_deg = 25;
   const Request request = first();
-  const double t = request.t_start, beside = task.vehicle.width / 2 + 0.1 + 1;
-  task.obstacles = {{"neighbour", -2 - 12 * t, beside - 0.5 * t, 1, 1, 12, 0.5},
-                    {"stands", 18, 1.2, 1, 1, 0, 0}};
+  const double t = request.t_start;
+  task.planner.verified_wheel_load = task.planner.kept_wheel_load = 1e6;
+  task.obstacles = {{"stands", 18, 1.2, 1, 1, 0, 0}};
   const Plan plan = Planner(task).plan(request);
   EXPECT_EQ(plan.rung, Rung::least_bad);
   EXPECT_FALSE(plan.certificate.verified);
@@ -169,6 +170,68 @@ TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
     for (const auto& o : task.obstacles)
       EXPECT_GT(footprint.distance(o, plan.states[k], t + plan.t[k]), 0) << o.name << plan.t[k];
   }
+}
+
+/// Something as wide as the road comes from behind, and is gone in four seconds: whoever brakes at
+/// once is hit, and the search among stops finds the one that goes on until then.
+TEST(RoadPlanner, ItStopsWhenWhatComesFromBehindIsGone) {
+  Task task = on_bend();
+  task.road = straight_road();
+  task.goal = {};
+  task.goal.s = 150;
+  task.goal = world::placed(task.goal, task.road.get());
+  task.planner.guidance = false;
+  task.vehicle.sr_max_deg = 25;
+  task.vehicle.jx_max = 20;
+  world::Obstacle chaser{"chaser", 0, 0, 3, 3, 0, 0};
+  chaser.trajectory = std::make_shared<world::TableTrajectory>(
+      std::vector<world::TrajectoryRow>{{0, -24, 0, 0}, {4, 30, 0, 0}}, world::BeyondEnd::goes_on,
+      world::BeyondEnd::absent, "chaser");
+  task.obstacles = {chaser};
+  const Plan plan = Planner(task).plan(first());
+  EXPECT_TRUE(plan.certificate.verified) << plan.report.detail;
+  EXPECT_TRUE(std::any_of(plan.candidates.begin(), plan.candidates.end(), [](const auto& c) {
+    return c.name == "stop in time" && c.certificate.verified;
+  }));
+}
+
+/// Between two that leave less room than a new plan keeps, and no way to stop before them, a plan
+/// keeps what the rest of one keeps.
+TEST(RoadPlanner, WhereNothingKeepsMoreAPlanKeepsWhatARestKeeps) {
+  Task task = on_bend();
+  task.road = straight_road();
+  task.goal = {};
+  task.goal.s = 60;
+  task.goal = world::placed(task.goal, task.road.get());
+  task.vehicle.sr_max_deg = 25;
+  const double aside = task.vehicle.width / 2 + 0.26 + 1;
+  task.obstacles = {{"left", 12, aside, 1, 1, 0, 0}, {"right", 12, -aside, 1, 1, 0, 0}};
+  const Plan plan = Planner(task).plan(first());
+  EXPECT_TRUE(plan.certificate.verified) << plan.report.detail;
+  EXPECT_EQ(plan.rung, Rung::new_plan);
+  EXPECT_LT(plan.certificate.least_clearance, task.planner.verified_clearance);
+  EXPECT_GE(plan.certificate.least_clearance, task.planner.kept_clearance);
+  task.planner.kept_clearance = task.planner.verified_clearance;
+  EXPECT_FALSE(Planner(task).plan(first()).certificate.verified);
+}
+
+/// What stands in the lane is so near that only the hardest swerve at once misses it.
+TEST(RoadPlanner, ItEscapesWhereEverythingElseDoesHarmSoon) {
+  Task task = on_bend();
+  task.road = straight_road();
+  task.goal = {};
+  task.goal.s = 150;
+  task.goal = world::placed(task.goal, task.road.get());
+  task.planner.search_places = 1;
+  task.vehicle.sr_max_deg = 25;
+  task.vehicle.jx_max = 20;
+  task.obstacles = {{"stands", 11.2, 0.3, 1, 1, 0, 0}};
+  const Plan plan = Planner(task).plan(first());
+  EXPECT_TRUE(std::any_of(plan.candidates.begin(), plan.candidates.end(),
+                          [](const auto& c) { return c.name == "escape"; }));
+  const world::Footprint footprint(task.vehicle);
+  for (std::size_t k = 0; k < plan.t.size(); ++k)
+    EXPECT_GT(footprint.distance(task.obstacles[0], plan.states[k], 0), 0) << plan.t[k];
 }
 
 TEST(RoadPlanner, ACornerCutByACentimetreIsRefused) {

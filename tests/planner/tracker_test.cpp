@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "../../src/planner/references.hpp"
 #include "vehicle/reintegrate.hpp"
@@ -106,6 +107,57 @@ TEST(References, BrakeToACreepAlongThePath) {
   const Motion motion = d.tracker.follow(stop, stop.states[0], 0, stop.end());
   EXPECT_LT(motion.states.back()[UX], 0.3);
   EXPECT_LT(off(stop, motion), 0.5);
+}
+
+/// Round a bend of radius 6 m from 5 m/s to a creep, as a way along a road has it.
+world::Way stop_in_a_bend(double creep) {
+  world::Way way;
+  world::WayPoint w{0, 0, 0, 0, 5, 0, 0};
+  for (; w.t < 5; w.t += 0.05) {
+    w.a = w.v > creep ? std::max(-4., -2.5 * (w.v - creep)) : 0;
+    w.kappa = std::min(w.t * 0.15, 1 / 6.);
+    way.push_back(w);
+    const double v = w.v + w.a * 0.05, turned = (w.v + v) / 2 * w.kappa * 0.05;
+    w.x += (w.v + v) / 2 * 0.05 * std::cos(w.heading + turned / 2);
+    w.y += (w.v + v) / 2 * 0.05 * std::sin(w.heading + turned / 2);
+    w.heading += turned;
+    w.v = v;
+  }
+  return way;
+}
+
+// Where it all but stands a vehicle cannot turn: it is not to drive on in order to.
+TEST(Tracker, ABodyComesToStandInABendWhereItsReferenceDoes) {
+  Parameters vehicle;
+  vehicle.footprint = FootprintKind::rectangle;
+  vehicle.sr_max_deg = 25;
+  vehicle.sa_max_deg = 50;
+  vehicle.jx_max = 20;
+  vehicle.ax_min = {0, 0, 0, -8};
+  const Plant plant(vehicle, 1e-9, 0.02);
+  const Motion reference = reference_of(stop_in_a_bend(standing_of(vehicle, true).creep), vehicle);
+  State start = reference.states[0];
+  start[AX] = 0;
+  start[PSI] += 0.03;
+  const Motion motion = Tracker(vehicle, plant, true).follow(reference, start, 0, reference.end());
+  EXPECT_LT(motion.states.back()[UX], 0.15);
+  EXPECT_LT(apart(motion.states.back(), reference.states.back()), 0.8);
+}
+
+// A body settles as fast as its jerk allows, and nearer to standing than a point.
+TEST(References, ABodyStopsShorterThanAPoint) {
+  Driven d;
+  const auto way_of = [&](FootprintKind kind) {
+    Parameters vehicle = d.vehicle;
+    vehicle.footprint = kind;
+    vehicle.jx_max = 20;
+    const Motion stop = braking_reference(d.reference, d.reference.states[0], 0, 3, vehicle, true);
+    return std::pair(stop.states.back()[Y], stop.states.back()[UX]);
+  };
+  const auto [body, body_creep] = way_of(FootprintKind::rectangle);
+  const auto [point, point_creep] = way_of(FootprintKind::point);
+  EXPECT_LT(body, point - 1);
+  EXPECT_LT(body_creep, point_creep - 0.02);
 }
 
 TEST(References, SwervesMirrorEachOther) {

@@ -160,5 +160,57 @@ TEST_F(Scene, StandsOnlyWhereItCreepsOnTheRoad) {
   EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
 }
 
+// What creeps with its wheels turned goes round, not straight on.
+TEST_F(Scene, StandsOnlyWhereItCreepsOnTheRoadAsItSteers) {
+  task.goal.y = 500;
+  drive(0.1);
+  const auto road_of = [](double right) {
+    return std::make_shared<world::Road>(
+        std::vector<world::RoadPoint>{{0, -100, right, 4}, {0, 100, right, 4}}, false,
+        std::vector<std::vector<world::Point>>{}, "road");
+  };
+  motion.states.back()[SA] = -0.35;  // 6 m along a circle of 9 m: to the right by 3.9 m in all
+  task.road = road_of(3);
+  EXPECT_NE(judge().certificate.refused.find("creeping off the road"), std::string::npos)
+      << judge().certificate.refused;
+  task.road = road_of(5);
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+  const double front = motion.states.back()[Y];
+  task.road = nullptr;
+  const world::Obstacle beside{"beside", 4.5, front + 4.5, 1, 1, 0, 0};
+  EXPECT_NE(judge({beside}).certificate.refused.find("in the way"), std::string::npos)
+      << judge({beside}).certificate.refused;
+  motion.states.back()[SA] = 0;
+  EXPECT_TRUE(judge({beside}).certificate.verified) << judge({beside}).certificate.refused;
+}
+
+TEST_F(Scene, ABodyStandsOnlyWhereItCreepsWithinTheRegion) {
+  task.goal.y = 500;
+  task.vehicle.footprint = FootprintKind::rectangle;
+  drive(0.1);  // 6 m in the horizon of 60 s
+  task.region.y_max = motion.states.back()[Y] + task.vehicle.front_overhang + 4;
+  EXPECT_NE(judge().certificate.refused.find("creeping out of the region"), std::string::npos)
+      << judge().certificate.refused;
+  task.region.y_max += 3;
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+}
+
+// A body that begins nearer to something than is needed may leave it, but come no nearer; what a
+// point keeps stands for the body that it has not.
+TEST_F(Scene, ABodyThatBeginsTooNearMayLeave) {
+  need.clearance = 0.3;
+  task.vehicle.footprint = FootprintKind::rectangle;
+  const double beside = task.vehicle.width / 2 + 0.2 + 1;
+  const auto neighbour = [&](double aside) {
+    return world::Obstacle{"neighbour", beside - aside, -20, 1, 1, aside, 20};
+  };
+  EXPECT_TRUE(judge({neighbour(0.2)}).certificate.verified)
+      << judge({neighbour(0.2)}).certificate.refused;
+  EXPECT_FALSE(judge({neighbour(-0.1)}).certificate.verified) << "it comes nearer";
+  EXPECT_FALSE(judge({neighbour(0)}).certificate.verified) << "it stays as near for good";
+  task.vehicle.footprint = FootprintKind::point;
+  EXPECT_FALSE(judge({{"neighbour", 1.2 - 0.2, -20, 1, 1, 0.2, 20}}).certificate.verified);
+}
+
 }  // namespace
 }  // namespace slalom::planner
