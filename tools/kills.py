@@ -18,7 +18,7 @@ import subprocess
 import tempfile
 import time
 
-from measured import page_parser, stamp, write
+from measured import command_of, page_parser, stamp, write
 
 SEED = 1
 TRIALS = 40
@@ -252,7 +252,7 @@ def main():
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         done, faults = run_all(args.program, args.kills, pathlib.Path(folder))
-    write(args.out, page(args.kills, done, faults, stamp("make kills", args.program)))
+    write(args.out, page(args.kills, done, faults, stamp(command_of(parser, args, "kills", "kills"), args.program)))
 
 
 if __name__ == "__main__":
