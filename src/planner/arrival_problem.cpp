@@ -220,6 +220,11 @@ std::optional<Motion> ArrivalProblem::solve(const Motion& guess, const State& X0
                                             const Obstacles& obstacles, double edge_margin,
                                             nlp::Solver& solver, const nlp::Options& options) {
   const double t_start = guess.begin(), tf = end_->duration(guess);
+  if (!(tf > 0)) {  // the goal's time is up when the motion begins
+    answer_.iterations = 0;
+    answer_.cpu_s = 0;
+    return std::nullopt;
+  }
   set_obstacles(obstacles, t_start, tf);
   set_corridor(guess, X0p, tf, edge_margin);
   end_->set(problem_, guess);

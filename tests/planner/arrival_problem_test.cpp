@@ -55,5 +55,33 @@ TEST(ArrivalProblem, KeepsTheWheelLoadsThatVerificationAsksFor) {
   EXPECT_LT(kept, 5000) << "it is solved, and does not give away more";
 }
 
+// The last plans of a drive that has so much time begin when that is up.
+TEST(ArrivalProblem, HasNoAnswerOnceTheTimeIsUp) {
+  Task task;
+  task.vehicle.footprint = FootprintKind::rectangle;
+  task.planner.method = Method::verified;
+  task.planner.arrival_N = 20;
+  task.road = std::make_shared<world::Road>(
+      std::vector<world::RoadPoint>{{0, 0, 4, 4}, {100, 0, 4, 4}, {200, 0, 4, 4}}, false,
+      std::vector<std::vector<world::Point>>{}, "straight");
+  task.goal = {};
+  task.goal.time = 7.5;
+  task.goal = world::placed(task.goal, task.road.get());
+  const State start = {20, 0, 0, 0, 0, 0, 8, 0};
+  ArrivalProblem problem(task, {});
+  nlp::Options options;
+  options.floor = task.planner.arrival_floor;
+  options.max_iterations = 400;
+  const auto solver = nlp::make_solver(to_string(task.planner.solver));
+  const auto from = [&](double t) {
+    const Motion guess = road_reference(*task.road, start, t, 3, 0, task.vehicle);
+    return problem.solve(guess, start, {}, 0.05, *solver, options);
+  };
+  EXPECT_TRUE(from(5).has_value());
+  EXPECT_GT(problem.iterations(), 0);
+  EXPECT_FALSE(from(7.6).has_value());
+  EXPECT_EQ(problem.iterations(), 0);
+}
+
 }  // namespace
 }  // namespace slalom::planner
