@@ -7,9 +7,8 @@ docs/measured/growth.md and growth.svg.
 
 import json
 import math
-import subprocess
 
-from contestants import program, record_cycles
+from contestants import program, record_cycles, run_command
 from levels import LEVELS
 from measured import page_parser, stamp, write
 from run import build_ours
@@ -42,7 +41,7 @@ def of_cycles(cycles, option, sizes):
                "interior_point", "--floor", str(LEVELS["floor"].floor), "--growth", f"--{option}",
                ",".join(map(str, sizes))]  # fmt: skip
     for _ in range(REPEATS):
-        for entry in json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["growth"]:
+        for entry in json.loads(run_command(command))["growth"]:
             good = [c for c in entry["cycles"] if c["status"] == "solved"]
             if good:
                 time = 1e6 * sum(c["cpu_s"] for c in good) / sum(c["iterations"] for c in good)
@@ -55,7 +54,7 @@ def of_oscillators():
     """Entries of bench_growth."""
     command = [program("bench_growth"), "--N", "20", "--phases", ",".join(map(str, PHASES)),
                "--points", ",".join(map(str, POINTS))]  # fmt: skip
-    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return json.loads(run_command(command))
 
 
 def curves(work):

@@ -5,10 +5,9 @@ library only."""
 import math
 import pathlib
 import re
-import subprocess
 import tempfile
 
-from sweeps import driven, rows_of
+from sweeps import drive, driven, rows_of
 
 STATE = ("x", "y", "v", "r", "psi", "sa", "ux", "ax")  # keys of a start, and columns of plant.csv
 
@@ -47,10 +46,7 @@ def saved(program, scenario, settings, obstacle, offline):
 
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        command = [program, "simulate", scenario, "--planner", "P_E", "--out", folder / "drive", "--quiet"]
-        for key, value in settings.items():
-            command += ["--set", f"{key}={value}"]
-        subprocess.run([*map(str, command)], check=True)
+        drive(program, scenario, "P_E", settings, folder / "drive")
         reach = float(settings["planner.L_range"]) + radius
         row = first_knowing(rows_of(folder / "drive/plant.csv"), place, reach, float(settings["loop.tex"]))
         if row is None:

@@ -7,7 +7,6 @@ is lost, doubled, or recorded as failed; into docs/measured/kills.md. Standard l
 
 import collections
 import contextlib
-import csv
 import os
 import pathlib
 import random
@@ -19,6 +18,7 @@ import tempfile
 import time
 
 from measured import command_of, page_parser, stamp, write
+from sweeps import trials
 
 SEED = 1
 TRIALS = 40
@@ -90,8 +90,7 @@ class Bench:
 
 def table(folder):
     """The rows of trials.csv without what is measured."""
-    with (folder / "trials.csv").open(newline="") as file:
-        return [{k: v for k, v in row.items() if k not in MEASURED} for row in csv.DictReader(file)]
+    return [{k: v for k, v in row.items() if k not in MEASURED} for row in trials(folder)]
 
 
 def recorded(folder):
@@ -126,33 +125,22 @@ def after_a_while(draw, bench, process, strike):
 # --- what is killed -------------------------------------------------------------------------------
 
 
-def supervisor(draw, bench, out):
-    process = bench.sweep(out)
-    after_a_while(draw, bench, process, process.kill)
-    kept = recorded(bench.folder / out)
-    bench.finish(out)
-    bench.judge(out, kept)
+def one_sweep(strike):
+    """Kills one sweep by strike(draw, process), and goes on."""
+
+    def kind(draw, bench, out):
+        process = bench.sweep(out)
+        after_a_while(draw, bench, process, lambda: strike(draw, process))
+        kept = recorded(bench.folder / out)
+        bench.finish(out)
+        bench.judge(out, kept)
+
+    return kind
 
 
-def worker(draw, bench, out):
-    process = bench.sweep(out)
-
-    def strike():
-        for number in workers_of(process)[: draw.choice((1, 2))]:
-            os.kill(number, draw.choice((signal.SIGKILL, signal.SIGTERM)))
-
-    after_a_while(draw, bench, process, strike)
-    kept = recorded(bench.folder / out)
-    bench.finish(out)
-    bench.judge(out, kept)
-
-
-def group(draw, bench, out):
-    process = bench.sweep(out)
-    after_a_while(draw, bench, process, lambda: os.killpg(process.pid, signal.SIGTERM))
-    kept = recorded(bench.folder / out)
-    bench.finish(out)
-    bench.judge(out, kept)
+def kill_workers(draw, process):
+    for number in workers_of(process)[: draw.choice((1, 2))]:
+        os.kill(number, draw.choice((signal.SIGKILL, signal.SIGTERM)))
 
 
 def shard(draw, bench, out):
@@ -206,9 +194,9 @@ def two_studies(draw, bench, out):
 
 
 KINDS = {
-    "the supervisor": supervisor,
-    "workers": worker,
-    "the process group, by SIGTERM": group,
+    "the supervisor": one_sweep(lambda _, process: process.kill()),
+    "workers": one_sweep(kill_workers),
+    "the process group, by SIGTERM": one_sweep(lambda _, process: os.killpg(process.pid, signal.SIGTERM)),
     "one of two shards": shard,
     "`--force` over another study": replacement,
     "`merge`, merged again by `--force`": merge,

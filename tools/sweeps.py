@@ -9,13 +9,18 @@ import subprocess
 import tempfile
 
 
+def drive(program, scenario, planner, settings, out):
+    """One drive with `settings` ("planner.N": 15) into a folder."""
+    command = [program, "simulate", scenario, "--planner", planner, "--out", out, "--force", "--quiet"]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={value}"]
+    subprocess.run(command, check=True)
+
+
 def driven(program, scenario, planner, settings):
-    """One drive with `settings` ("planner.N": 15): its summary, and the rows of its cycles.csv."""
+    """One drive: its summary, and the rows of its cycles.csv."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [program, "simulate", scenario, "--planner", planner, "--out", folder, "--force", "--quiet"]
-        for key, value in settings.items():
-            command += ["--set", f"{key}={value}"]
-        subprocess.run(command, check=True)
+        drive(program, scenario, planner, settings, folder)
         out = pathlib.Path(folder)
         return json.loads((out / "summary.json").read_text()), rows_of(out / "cycles.csv")
 

@@ -144,12 +144,17 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
   return solution;
 }
 
+/// Whether nothing but a guess is there to start from.
+template <class Settings>
+bool starts_cold(const Settings& settings) {
+  return settings.previous == nullptr && settings.warm_start.x.empty();
+}
+
 /// Whether violation was least, where other starts may find less.
 template <class Answer, class Settings>
 bool ends_locally(const Answer& answer, const Settings& settings) {
   return answer.status == nlp::Status::infeasible && knows_conflicts(answer) &&
-         settings.options.floor == 0 && settings.previous == nullptr &&
-         settings.warm_start.x.empty();
+         settings.options.floor == 0 && starts_cold(settings);
 }
 
 /// Whether a function is not finite at the first point, which nobody has asked for.
@@ -169,11 +174,10 @@ PhasedSettings held(const PhasedProblem& problem, PhasedSettings settings) {
   return settings;
 }
 bool without_guess(const SolveSettings& settings) {
-  return settings.guess.tau.empty() && settings.previous == nullptr &&
-         settings.warm_start.x.empty();
+  return settings.guess.tau.empty() && starts_cold(settings);
 }
 bool without_guess(const PhasedSettings& settings) {
-  return settings.previous == nullptr && settings.warm_start.x.empty() &&
+  return starts_cold(settings) &&
          (settings.guesses.empty() ||
           std::any_of(settings.guesses.begin(), settings.guesses.end(),
                       [](const Trajectory& guess) { return guess.tau.empty(); }));
@@ -186,8 +190,7 @@ bool lost_its_way(const Answer& answer, const Settings& settings) {
                     answer.status == nlp::Status::numerical_failure ||
                     ends_locally(answer, settings);
   return lost && settings.options.floor == 0 &&
-         settings.options.max_iterations >= kEnoughIterations && settings.previous == nullptr &&
-         settings.warm_start.x.empty();
+         settings.options.max_iterations >= kEnoughIterations && starts_cold(settings);
 }
 
 std::size_t most_intervals(const Problem&, const SolveSettings& settings) {

@@ -208,30 +208,17 @@ double Verifier::creep_speed(const State& x) const {
   return std::fabs(x[UX]) + std::fabs(creep_turn(x)) * farthest;
 }
 
-/// Creeping on the vehicle stays on the road: the distance to its edges falls no faster than a
-/// point of the body moves. Beyond its ends an open road goes on.
-void Verifier::stand_on_road(const Motion& motion) {
+/// Creeping on the vehicle has `room` [m] left, which falls no faster than a point of the body
+/// moves.
+void Verifier::creep_within(const Motion& motion, const std::function<double(const State&)>& room,
+                            const char* otherwise) {
   const State& last = motion.states.back();
   const double speed = creep_speed(last), horizon = task_.planner.standing_horizon;
   for (double after = 0; after <= horizon;) {
-    const double least = footprint_.edge_distance(*task_.road, creeping(last, after));
-    if (!(least >= need_.edge))
-      return refuse(motion.end() + after, "standing, but creeping off the road");
+    const double left = room(creeping(last, after));
+    if (!(left >= 0)) return refuse(motion.end() + after, otherwise);
     if (speed == 0) return;
-    after += std::max(least - need_.edge, kLook) / speed;
-  }
-}
-
-/// The same of the region, for a body.
-void Verifier::stand_in_region(const Motion& motion) {
-  const State& last = motion.states.back();
-  const double speed = creep_speed(last), horizon = task_.planner.standing_horizon;
-  for (double after = 0; after <= horizon;) {
-    const double room = -footprint_.outside(task_.region, creeping(last, after));
-    if (!(room >= 0))
-      return refuse(motion.end() + after, "standing, but creeping out of the region");
-    if (speed == 0) return;
-    after += std::max(room, kLook) / speed;
+    after += std::max(left, kLook) / speed;
   }
 }
 
@@ -239,8 +226,15 @@ void Verifier::stand_in_region(const Motion& motion) {
 /// is looked at as often as both speeds allow it to fall to what is needed. Margins grow no more:
 /// plans to come know better.
 void Verifier::stand_for_good(const Motion& motion) {
-  if (task_.road) stand_on_road(motion);
-  if (!footprint_.is_point()) stand_in_region(motion);
+  if (task_.road)  // beyond its ends an open road goes on
+    creep_within(
+        motion,
+        [&](const State& x) { return footprint_.edge_distance(*task_.road, x) - need_.edge; },
+        "standing, but creeping off the road");
+  if (!footprint_.is_point())
+    creep_within(
+        motion, [&](const State& x) { return -footprint_.outside(task_.region, x); },
+        "standing, but creeping out of the region");
   const State& last = motion.states.back();
   const double forward = creep_speed(last), horizon = task_.planner.standing_horizon;
   for (std::size_t k = 0; k < obstacles_->size(); ++k) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -84,8 +85,8 @@ class Verifier {
   double creep_turn(const vehicle::State& x) const;
   double creep_speed(const vehicle::State& x) const;
   void note_first_clearances(const vehicle::State& x);
-  void stand_on_road(const Motion& motion);
-  void stand_in_region(const Motion& motion);
+  void creep_within(const Motion& motion, const std::function<double(const vehicle::State&)>& room,
+                    const char* otherwise);
   void stand_for_good(const Motion& motion);
   void refuse(double t, std::string why);
 

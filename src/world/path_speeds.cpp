@@ -194,7 +194,6 @@ std::optional<RoadWay> PathSpeeds::run(const RoadPath& path, const Question& que
   for (int looked = 0; !open_.empty() && looked < question.search.max_places; ++looked) {
     if (looked % RoadWays::kAskedEvery == 0 && question.out_of_budget && question.out_of_budget())
       break;
-    ++looked_at_;
     std::pop_heap(open_.begin(), open_.end());
     const auto at = open_.back().place;
     open_.pop_back();

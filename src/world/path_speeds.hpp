@@ -34,7 +34,6 @@ class PathSpeeds {
 
   /// The best way along the path; none where there is no move at all.
   std::optional<RoadWay> run(const RoadPath& path, const Question& question);
-  int looked_at() const { return looked_at_; }
 
  private:
   /// After so many looks: how far along the path [m], speed, the acceleration that led here, and
@@ -103,7 +102,6 @@ class PathSpeeds {
   std::vector<Open> open_;
   CellSet cells_;
   std::int32_t latest_ = -1;
-  int looked_at_ = 0;
 };
 
 }  // namespace slalom::world

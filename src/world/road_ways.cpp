@@ -68,8 +68,6 @@ class RoadWays::Impl {
     return found;
   }
 
-  int looked_at() const { return speeds_.looked_at(); }
-
  private:
   /// From a place on the road along it to where the goal begins [m].
   double goal_ahead(const OnRoad& on) const {
@@ -79,7 +77,7 @@ class RoadWays::Impl {
     if (goal.kind() == GoalKind::line) ahead = goal.s - on.s;
     if (goal.is_place()) {
       ahead = road.project({goal.x, goal.y}).s - on.s;
-      const double half = goal.kind() == GoalKind::square ? goal.sigma : goal.length / 2;
+      const double half = goal_half();
       if (std::fabs(ahead) <= half) return 0;
       if (road.closed() && ahead < 0) ahead += road.length();
       ahead -= half;
@@ -184,10 +182,6 @@ std::vector<RoadWay> RoadWays::to_stand(const State& start, double t_start,
                                         const RoadWaySearch& search,
                                         const std::function<bool()>& out_of_budget) {
   return impl_->find(PathSpeeds::Aim::stand, start, t_start, obstacles, search, out_of_budget);
-}
-
-int RoadWays::looked_at() const {
-  return impl_->looked_at();
 }
 
 }  // namespace slalom::world

@@ -147,9 +147,8 @@ TEST(RoadPlanner, AReferenceMovesOverByAShareOfTheRoom) {
   EXPECT_NEAR(end(-0.5), (0.5 - room) / 2, 0.02);
 }
 
-/// Where every motion is refused, for wheel loads that no vehicle has, the one that touches nothing
-/// is driven: beside what stands in the lane, which no stop along it avoids.
-TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
+/// Along a straight, with no search in the plane.
+Task on_straight() {
   Task task = on_bend();
   task.road = straight_road();
   task.goal = {};
@@ -157,6 +156,13 @@ TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
   task.goal = world::placed(task.goal, task.road.get());
   task.planner.search_places = 1;
   task.vehicle.sr_max_deg = 25;
+  return task;
+}
+
+/// Where every motion is refused, for wheel loads that no vehicle has, the one that touches nothing
+/// is driven: beside what stands in the lane, which no stop along it avoids.
+TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
+  Task task = on_straight();
   const Request request = first();
   const double t = request.t_start;
   task.planner.verified_wheel_load = task.planner.kept_wheel_load = 1e6;
@@ -217,13 +223,7 @@ TEST(RoadPlanner, WhereNothingKeepsMoreAPlanKeepsWhatARestKeeps) {
 
 /// What stands in the lane is so near that only the hardest swerve at once misses it.
 TEST(RoadPlanner, ItEscapesWhereEverythingElseDoesHarmSoon) {
-  Task task = on_bend();
-  task.road = straight_road();
-  task.goal = {};
-  task.goal.s = 150;
-  task.goal = world::placed(task.goal, task.road.get());
-  task.planner.search_places = 1;
-  task.vehicle.sr_max_deg = 25;
+  Task task = on_straight();
   task.vehicle.jx_max = 20;
   task.obstacles = {{"stands", 11.2, 0.3, 1, 1, 0, 0}};
   const Plan plan = Planner(task).plan(first());

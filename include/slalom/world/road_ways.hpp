@@ -59,8 +59,6 @@ class RoadWays {
                                 const std::vector<Obstacle>& obstacles, const RoadWaySearch& search,
                                 const std::function<bool()>& out_of_budget = {});
 
-  int looked_at() const;  ///< places, since it was made
-
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;
