@@ -14,7 +14,7 @@ using namespace vehicle;
 
 Form::Form(const sim::Scenario& scenario, bool goal_in_range)
     : problem(scenario,
-              planner::covered(scenario.planner, world::Footprint(scenario.vehicle),
+              planner::stand_ins(scenario.planner, world::Footprint(scenario.vehicle),
                                scenario.obstacles),
               goal_in_range),
       transcription(

@@ -187,8 +187,8 @@ std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Re
                                               const std::vector<world::Obstacle>& obstacles,
                                               const world::Footprint& footprint) {
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
-    return in_reach(settings, request, covered(settings, footprint, obstacles), footprint.reach());
-  auto chosen = covered(settings, footprint,
+    return in_reach(settings, request, stand_ins(settings, footprint, obstacles), footprint.reach());
+  auto chosen = stand_ins(settings, footprint,
                         settings.obstacle_choice == ObstacleChoice::nearest
                             ? nearest(settings, request, obstacles)
                             : obstacles);

@@ -46,24 +46,21 @@ bool belief_varies(const Settings& settings, const std::vector<Obstacle>& obstac
   });
 }
 
-std::array<double, 6> numbers_at(const Obstacle& o, double t, double around) {
-  if (!o.present(t - around, t + around)) return kNowhere;
-  const double margin = o.margin(t), a = o.a + margin, b = o.b + margin;
-  if (!o.trajectory) return {o.x, o.y, a, b, o.vx, o.vy};
-  const world::Pose at = o.pose_at(t);
-  return {at.x - at.vx * t, at.y - at.vy * t, a, b, at.vx, at.vy};
-}
-
-std::vector<Obstacle> covered(const Settings& settings, const world::Footprint& footprint,
-                              const std::vector<Obstacle>& obstacles) {
-  std::vector<Obstacle> discs;
-  for (auto o : obstacles) {
-    if (!footprint.is_point() && !o.outline && o.a != o.b)
-      o.outline = std::make_shared<world::Polygon>(world::Polygon::rectangle(2 * o.a, 2 * o.b));
-    for (auto& disc : world::covering_discs(o, settings.cover_excess))
-      discs.push_back(std::move(disc));
+std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,
+                                const std::vector<Obstacle>& obstacles) {
+  std::vector<Obstacle> result;
+  for (const auto& o : obstacles) {
+    if ((o.is_plain() && footprint.is_point()) || (!o.outline && o.a == o.b)) {
+      result.push_back(o);
+      continue;
+    }
+    auto discs = world::covering_discs(o, settings.cover_excess);
+    if (discs.size() == 1)
+      result.push_back(std::move(discs.front()));
+    else
+      result.push_back(footprint.is_point() && !o.outline ? o : world::covering_rectangle(o));
   }
-  return discs;
+  return result;
 }
 
 }  // namespace slalom::planner

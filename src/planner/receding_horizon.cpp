@@ -134,7 +134,7 @@ void RecedingHorizon::record(const Recorder& recorder) {
 /// The form for the goal in or out of range and for as many obstacles as are chosen, transcribed
 /// when it is first wanted.
 RecedingHorizon::Form& RecedingHorizon::form(bool in_range, int intervals) {
-  const FormKey key{in_range, chosen_.size(), intervals};
+  const FormKey key{in_range, ObstacleRows::counts(chosen_), intervals};
   const auto found = forms_.find(key);
   if (found != forms_.end()) return found->second;
   return forms_.try_emplace(key, TrajectoryProblem(task_, chosen_, in_range), settings_, intervals)
@@ -166,8 +166,9 @@ void RecedingHorizon::choose(const Request& request) {
                request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
                request.t0);
   chosen_ = choose_obstacles(settings_, request, known_, footprint_);
+  const auto counts = ObstacleRows::counts(chosen_);
   for (auto& [key, form] : forms_)
-    if (std::get<1>(key) == chosen_.size()) form.problem.set_obstacles(chosen_, {request.t0});
+    if (std::get<1>(key) == counts) form.problem.set_obstacles(chosen_, {request.t0});
 }
 
 /// Gives rows of obstacles whose numbers vary those of the times at which the start of the solve is
@@ -265,10 +266,11 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
   if (row.empty()) return "";
   const auto plain = fmt::format("{} falls short by {:.3g}", row, plan.report.worst_violation);
   for (const auto& o : known_) {
-    const auto begin = fmt::format("obstacle[{}] at node ", o.name);
-    if (!row.starts_with(begin)) continue;
+    const auto part = fmt::format("obstacle[{}] at node ", o.name);
+    const auto found = row.find(part);
+    if (found == std::string::npos) continue;
     char* end = nullptr;
-    const auto node = std::strtoul(row.c_str() + begin.size(), &end, 10);
+    const auto node = std::strtoul(row.c_str() + found + part.size(), &end, 10);
     if (*end != '\0' || node >= plan.t.size() || !(plan.tf > 0)) return plain;
     const State& x = plan.states[node];
     const double t =

@@ -1,0 +1,175 @@
+#include "separation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "slalom/world/obstacle.hpp"
+
+namespace slalom::planner {
+
+using ocp::Expr;
+using world::Point;
+
+namespace {
+
+constexpr std::array kExponents = {2., 2.5, 3., 3.5, 4., 5., 6., 8., 11., 16., 23., 32.};
+/// Beyond the least margin, at which `most` is looked for too [m]. It falls as margins grow, but for
+/// long ellipses.
+constexpr std::array kMargins = {0., 0.5, 2., 8.};
+/// By what samples of turns and directions may miss the greatest of the norm.
+constexpr double kSpare = 1e-3;
+/// To the squares of shares in the OCP, whose logarithm is taken.
+constexpr double kTiny = 1e-12;
+/// Turns of the other within a right angle, and directions within half a turn, that are looked at:
+/// finely for `most`, coarsely for the excess.
+constexpr int kTurns = 24, kDirections = 64;
+constexpr int kFewTurns = 6, kFewDirections = 32;
+
+/// The two, at one turn.
+class Pair {
+ public:
+  Pair(const HalfSides& one, const HalfSides& other, Outline outline, double turn)
+      : one_(one), other_(other), outline_(outline), c_(std::cos(turn)), s_(std::sin(turn)) {}
+
+  /// Where the other's middle is, of places at which the two are m apart, farthest in a direction.
+  Point just_apart(Point n, double margin) const {
+    const double mx = n.x * c_ + n.y * s_, my = n.y * c_ - n.x * s_;  // in the other's frame
+    const double ox = std::copysign(other_.length, mx), oy = std::copysign(other_.width, my);
+    Point p{std::copysign(one_.length, n.x), std::copysign(one_.width, n.y)};
+    if (outline_ == Outline::ellipse) {
+      const double reach = std::hypot(one_.length * n.x, one_.width * n.y);
+      p = {one_.length * one_.length * n.x / reach, one_.width * one_.width * n.y / reach};
+    }
+    return p + Point{ox * c_ - oy * s_, ox * s_ + oy * c_} + n * margin;
+  }
+  double shares(Point z, double margin, double exponent) const {
+    const double rounding = Separation::rounding(exponent);
+    const double c = other_.is_place() ? 0 : std::hypot(c_, rounding);
+    const double s = other_.is_place() ? 0 : std::hypot(s_, rounding);
+    const HalfSides &a = one_, &b = other_;
+    const auto share = [&](double along, double reach) {
+      return std::pow(std::fabs(along) / (reach + margin), exponent);
+    };
+    double sum = share(z.x, a.length + b.length * c + b.width * s) +
+                 share(z.y, a.width + b.length * s + b.width * c);
+    if (!b.is_place())
+      sum += share(z.x * c_ + z.y * s_, b.length + a.length * c + a.width * s) +
+             share(z.y * c_ - z.x * s_, b.width + a.length * s + a.width * c);
+    return std::pow(sum, 1 / exponent);
+  }
+  /// The true distance between them.
+  double distance(const world::Obstacle& one, Point z) const {
+    if (other_.is_place()) return world::distance(one, z.x, z.y, 0);
+    std::vector<Point> corners;
+    for (const auto& [x, y] : {std::pair(1, -1), {1, 1}, {-1, 1}, {-1, -1}})
+      corners.push_back(z + Point{x * other_.length * c_ - y * other_.width * s_,
+                                  x * other_.length * s_ + y * other_.width * c_});
+    return world::distance(one, corners, 0);
+  }
+
+ private:
+  const HalfSides &one_, &other_;
+  const Outline outline_;
+  const double c_, s_;
+};
+
+/// What is looked at: turns within a right angle, directions within half a turn; both bodies are
+/// symmetric.
+template <class Look>
+void for_each(const HalfSides& one, const HalfSides& other, Outline outline, int turns,
+              int directions, const Look& look) {
+  if (other.is_place()) {  // one quarter is as the others, and there are no turns
+    turns = 0;
+    directions *= 2;
+  }
+  for (int i = 0; i <= turns; ++i) {
+    const Pair pair(one, other, outline, turns == 0 ? 0 : i * std::numbers::pi / 2 / turns);
+    for (int k = 0; k <= directions; ++k) {
+      const double angle = k * std::numbers::pi / directions;
+      look(pair, Point{std::cos(angle), std::sin(angle)});
+    }
+  }
+}
+
+/// Of one exponent.
+Separation of(double exponent, const HalfSides& one, const HalfSides& other, double margin,
+              Outline outline) {
+  Separation result{exponent, 0, 0};
+  for_each(one, other, outline, kTurns, kDirections, [&](const Pair& pair, Point n) {
+    for (const double more : kMargins)
+      result.most = std::max(
+          result.most, pair.shares(pair.just_apart(n, margin + more), margin + more, exponent));
+  });
+  result.most *= 1 + kSpare;
+  world::Obstacle body{.name = "", .a = one.length, .b = one.width};
+  if (outline == Outline::rectangle)
+    body.outline = std::make_shared<const world::Polygon>(
+        world::Polygon::rectangle(2 * one.length, 2 * one.width));
+  for_each(one, other, outline, kFewTurns, kFewDirections, [&](const Pair& pair, Point n) {
+    const double out = result.most / pair.shares(n, margin, exponent);
+    result.excess = std::max(result.excess, pair.distance(body, n * out) - margin);
+  });
+  return result;
+}
+
+}  // namespace
+
+double Separation::rounding(double exponent) {
+  return 0.4 / exponent;
+}
+
+Separation separate(const HalfSides& one, const HalfSides& other, double least_margin,
+                    double allowed, Outline outline) {
+  Separation best{2, 1, std::numeric_limits<double>::infinity()};
+  for (const double exponent : kExponents) {
+    const Separation next = of(exponent, one, other, least_margin, outline);
+    if (next.excess < best.excess) best = next;
+    if (best.excess <= allowed) break;
+  }
+  return best;
+}
+
+namespace {
+
+/// The sum of the squares each to the power `half`.
+template <std::size_t Axes>
+Expr sum_of_powers(const std::array<Expr, Axes>& shares, const Expr& half) {
+  Expr sum;
+  for (const Expr& share : shares) sum += exp(half * log(square(share) + kTiny));
+  return sum;
+}
+
+}  // namespace
+
+Expr square_of_shares(const Expr& dx, const Expr& dy, const Expr& cos, const Expr& sin,
+                      const Expr& length, const Expr& width, const Expr& half) {
+  const std::array shares = {(cos * dx + sin * dy) / length, (cos * dy - sin * dx) / width};
+  return exp(log(sum_of_powers(shares, half)) / half);
+}
+
+Expr square_of_shares(const Frame& one, const Sides& of_one, const Frame& other,
+                      const Sides& of_other, const Expr& margin, const Expr& half,
+                      const Expr& rounding) {
+  const Expr dx = other.x - one.x, dy = other.y - one.y;
+  const Expr turn_cos = one.cos * other.cos + one.sin * other.sin;
+  const Expr turn_sin = one.cos * other.sin - one.sin * other.cos;
+  const Expr c = sqrt(square(turn_cos) + square(rounding));
+  const Expr s = sqrt(square(turn_sin) + square(rounding));
+  const auto share = [&](const Expr& along, const Expr& reach) { return along / (reach + margin); };
+  const std::array shares = {
+      share(one.cos * dx + one.sin * dy,
+            of_one.length + of_other.length * c + of_other.width * s),
+      share(one.cos * dy - one.sin * dx,
+            of_one.width + of_other.length * s + of_other.width * c),
+      share(other.cos * dx + other.sin * dy,
+            of_other.length + of_one.length * c + of_one.width * s),
+      share(other.cos * dy - other.sin * dx,
+            of_other.width + of_one.length * s + of_one.width * c)};
+  return exp(log(sum_of_powers(shares, half)) / half);
+}
+
+}  // namespace slalom::planner
