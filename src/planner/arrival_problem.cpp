@@ -68,7 +68,7 @@ ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     : room_(room),
       intervals_(task.planner.arrival_N),
       shares_(shares(task.planner.rows_between)),
-      rows_(world::Footprint(task.vehicle), 0, task.planner.cover_excess),
+      rows_(world::Footprint(task.vehicle), 0),
       problem_("arrival"),
       road_(task.road) {
   add_dynamics(task);

@@ -10,9 +10,6 @@ using ocp::Expr;
 
 namespace {
 
-/// Separations are of margins rounded down to multiples of this [m], so that a few do.
-constexpr double kStep = 0.05;
-
 /// The numbers of one far from everything: its place, and what it takes up.
 constexpr std::array kNowhere = {1e5, 1e5, 1e3, 1e3};
 
@@ -38,8 +35,8 @@ ObstacleRows::Counts ObstacleRows::counts(const std::vector<world::Obstacle>& ob
   return result;
 }
 
-ObstacleRows::ObstacleRows(const world::Footprint& footprint, double least_margin, double excess)
-    : point_(footprint.is_point()), least_margin_(least_margin), excess_(excess) {
+ObstacleRows::ObstacleRows(const world::Footprint& footprint, double least_margin)
+    : point_(footprint.is_point()), least_margin_(least_margin) {
   if (!point_) {
     const double front = footprint.corners()[0].x, back = footprint.corners()[1].x;
     vehicle_ = {(front - back) / 2, footprint.corners()[0].y};
@@ -90,17 +87,8 @@ Expr ObstacleRows::to_shape(const Expr& dx, const Expr& dy, const Expr& psi, con
   const Expr c = cos(psi), s = sin(psi);
   const Frame theirs{0, 0, co, so}, ours{dx + middle_ * c, dy + middle_ * s, c, s};
   return share_ * square_of_shares(theirs, {a_, b_}, ours, {vehicle_.length, vehicle_.width},
-                                   grown_ + margin, half_, Separation::rounding(1) / (2 * half_)) -
+                                   grown_ + margin, half_) -
          1;
-}
-
-const Separation& ObstacleRows::separation(const HalfSides& one, const HalfSides& other,
-                                           double margin, Outline outline) const {
-  const double least = std::floor((least_margin_ + margin) / kStep) * kStep;
-  const Key key{one.length, one.width, other.length, other.width, least, outline};
-  const auto found = separations_.find(key);
-  if (found != separations_.end()) return found->second;
-  return separations_.emplace(key, separate(one, other, least, excess_, outline)).first->second;
 }
 
 std::vector<double> ObstacleRows::numbers(const world::Obstacle& o, const Moment& moment,
@@ -119,13 +107,13 @@ std::vector<double> ObstacleRows::numbers(const world::Obstacle& o, const Moment
   }
   Separation found;
   if (kind == Kind::round && !point_) {
-    found = separation(vehicle_, {}, o.a + o.margin_start, Outline::rectangle);
+    found = separate(vehicle_, {}, least_margin_ + o.a + o.margin_start);
     result[2] = vehicle_.length + o.a + more;
     result[3] = vehicle_.width + o.a + more;
   } else if (kind == Kind::shaped) {
     const HalfSides half = half_sides(o);
-    found = separation(half, vehicle_, o.margin_start + o.rounding,
-                       o.outline ? Outline::rectangle : Outline::ellipse);
+    found = separate(half, vehicle_, least_margin_ + o.margin_start + o.rounding,
+                     o.outline ? Outline::rectangle : Outline::ellipse);
     result[2] = half.length + (point_ ? more : 0);
     result[3] = half.width + (point_ ? more : 0);
     result.insert(result.end(), {std::cos(at.psi), std::sin(at.psi)});

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <cstddef>
-#include <map>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 #include "separation.hpp"
@@ -34,9 +32,8 @@ class ObstacleRows {
     return kind == Kind::round ? "obstacle" : "shaped obstacle";
   }
 
-  /// Rows ask for no smaller margin than `least_margin` [m], and for at most `excess` more than
-  /// they are asked for where an exponent does that (separate()).
-  ObstacleRows(const world::Footprint& footprint, double least_margin, double excess);
+  /// Rows are asked for no smaller margin than `least_margin` [m].
+  ObstacleRows(const world::Footprint& footprint, double least_margin);
 
   /// The symbols of a row: those of a place first, then of what moves from there.
   std::vector<ocp::Expr> symbols(Kind kind, bool moves) const;
@@ -67,20 +64,16 @@ class ObstacleRows {
   std::vector<double> nowhere(Kind kind, bool moves) const;
 
  private:
-  const Separation& separation(const HalfSides& one, const HalfSides& other, double margin,
-                               Outline outline) const;
   ocp::Expr to_shape(const ocp::Expr& dx, const ocp::Expr& dy, const ocp::Expr& psi,
                      const ocp::Expr& margin, const std::optional<ocp::Expr>& t) const;
 
   bool point_;
   HalfSides vehicle_;
   double middle_ = 0;  ///< of the vehicle's rectangle ahead of the front axle [m]
-  double least_margin_, excess_;
+  double least_margin_;
   ocp::Expr xo_, yo_, a_, b_, vx_, vy_;
   ocp::Expr grown_, co_, so_, omega_, at_;  ///< at: when the direction is that of co and so
   ocp::Expr half_, share_;                    ///< p/2, and 1/most^2
-  using Key = std::tuple<double, double, double, double, double, Outline>;
-  mutable std::map<Key, Separation> separations_;  ///< so far wanted
 };
 
 }  // namespace slalom::planner

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "slalom/world/obstacle.hpp"
 
@@ -16,7 +19,9 @@ using world::Point;
 
 namespace {
 
-constexpr std::array kExponents = {2., 2.5, 3., 3.5, 4., 5., 6., 8., 11., 16., 23., 32.};
+constexpr std::array kExponents = {2., 2.5, 3., 3.5, 4., 5., 6., 8., 11., 16., 23., 32., 45., 64.};
+/// The exponent P of the sharp norm of the two rectangles' frames, and what rounds |cos| and |sin|.
+constexpr double kSharp = 64, kRounding = 1. / 160;
 /// Beyond the least margin, at which `most` is looked for too [m]. It falls as margins grow, but for
 /// long ellipses.
 constexpr std::array kMargins = {0., 0.5, 2., 8.};
@@ -28,6 +33,10 @@ constexpr double kTiny = 1e-12;
 /// finely for `most`, coarsely for the excess.
 constexpr int kTurns = 24, kDirections = 64;
 constexpr int kFewTurns = 6, kFewDirections = 32;
+/// Smaller margins are as none [m].
+constexpr double kLeast = 0.05;
+/// Answers that are kept, by each thread.
+constexpr std::size_t kMostKnown = 4096;
 
 /// The two, at one turn.
 class Pair {
@@ -47,19 +56,20 @@ class Pair {
     return p + Point{ox * c_ - oy * s_, ox * s_ + oy * c_} + n * margin;
   }
   double shares(Point z, double margin, double exponent) const {
-    const double rounding = Separation::rounding(exponent);
-    const double c = other_.is_place() ? 0 : std::hypot(c_, rounding);
-    const double s = other_.is_place() ? 0 : std::hypot(s_, rounding);
+    const double c = other_.is_place() ? 0 : std::hypot(c_, kRounding);
+    const double s = other_.is_place() ? 0 : std::hypot(s_, kRounding);
     const HalfSides &a = one_, &b = other_;
     const auto share = [&](double along, double reach) {
       return std::pow(std::fabs(along) / (reach + margin), exponent);
     };
-    double sum = share(z.x, a.length + b.length * c + b.width * s) +
-                 share(z.y, a.width + b.length * s + b.width * c);
-    if (!b.is_place())
-      sum += share(z.x * c_ + z.y * s_, b.length + a.length * c + a.width * s) +
-             share(z.y * c_ - z.x * s_, b.width + a.length * s + a.width * c);
-    return std::pow(sum, 1 / exponent);
+    const double along_one = share(z.x, a.length + b.length * c + b.width * s) +
+                             share(z.y, a.width + b.length * s + b.width * c);
+    if (b.is_place()) return std::pow(along_one, 1 / exponent);
+    const double along_other =
+        share(z.x * c_ + z.y * s_, b.length + a.length * c + a.width * s) +
+        share(z.y * c_ - z.x * s_, b.width + a.length * s + a.width * c);
+    const double power = kSharp / exponent;
+    return std::pow(std::pow(along_one, power) + std::pow(along_other, power), 1 / kSharp);
   }
   /// The true distance between them.
   double distance(const world::Obstacle& one, Point z) const {
@@ -116,60 +126,73 @@ Separation of(double exponent, const HalfSides& one, const HalfSides& other, dou
   return result;
 }
 
-}  // namespace
-
-double Separation::rounding(double exponent) {
-  return 0.4 / exponent;
-}
-
-Separation separate(const HalfSides& one, const HalfSides& other, double least_margin,
-                    double allowed, Outline outline) {
-  Separation best{2, 1, std::numeric_limits<double>::infinity()};
-  for (const double exponent : kExponents) {
-    const Separation next = of(exponent, one, other, least_margin, outline);
-    if (next.excess < best.excess) best = next;
-    if (best.excess <= allowed) break;
+/// Climbs from an exponent whose norm is about as round at a corner as a margin is.
+Separation search(const HalfSides& one, const HalfSides& other, double margin, Outline outline) {
+  const double half = std::min(one.length, one.width) + std::min(other.length, other.width);
+  const double round = std::numbers::ln2 / std::log((half + margin) / (half + margin * M_SQRT1_2));
+  std::size_t at = 0;
+  while (at + 1 < kExponents.size() && kExponents[at] < round) ++at;
+  Separation best = of(kExponents[at], one, other, margin, outline);
+  for (const bool up : {true, false}) {
+    const std::size_t begin = at;
+    while (up ? at + 1 < kExponents.size() : at > 0) {
+      const Separation next = of(kExponents[up ? at + 1 : at - 1], one, other, margin, outline);
+      if (next.excess >= best.excess) break;
+      best = next;
+      up ? ++at : --at;
+    }
+    if (at != begin) break;
   }
   return best;
 }
 
+}  // namespace
+
+Separation separate(const HalfSides& one, const HalfSides& other, double least_margin,
+                    Outline outline) {
+  const double margin =
+      least_margin < kLeast ? 0 : std::exp2(std::floor(std::log2(least_margin) * 4) / 4);
+  using Key = std::tuple<double, double, double, double, double, Outline>;
+  thread_local std::map<Key, Separation> known;
+  const Key key{one.length, one.width, other.length, other.width, margin, outline};
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  if (known.size() >= kMostKnown) known.clear();
+  return known[key] = search(one, other, margin, outline);
+}
+
 namespace {
 
-/// The sum of the squares each to the power `half`.
-template <std::size_t Axes>
-Expr sum_of_powers(const std::array<Expr, Axes>& shares, const Expr& half) {
-  Expr sum;
-  for (const Expr& share : shares) sum += exp(half * log(square(share) + kTiny));
-  return sum;
+/// Of two shares, |x|^p + |y|^p.
+Expr sum_of_powers(const Expr& x, const Expr& y, const Expr& half) {
+  return exp(half * log(square(x) + kTiny)) + exp(half * log(square(y) + kTiny));
 }
 
 }  // namespace
 
 Expr square_of_shares(const Expr& dx, const Expr& dy, const Expr& cos, const Expr& sin,
                       const Expr& length, const Expr& width, const Expr& half) {
-  const std::array shares = {(cos * dx + sin * dy) / length, (cos * dy - sin * dx) / width};
-  return exp(log(sum_of_powers(shares, half)) / half);
+  const Expr sum =
+      sum_of_powers((cos * dx + sin * dy) / length, (cos * dy - sin * dx) / width, half);
+  return exp(log(sum) / half);
 }
 
 Expr square_of_shares(const Frame& one, const Sides& of_one, const Frame& other,
-                      const Sides& of_other, const Expr& margin, const Expr& half,
-                      const Expr& rounding) {
+                      const Sides& of_other, const Expr& margin, const Expr& half) {
   const Expr dx = other.x - one.x, dy = other.y - one.y;
   const Expr turn_cos = one.cos * other.cos + one.sin * other.sin;
   const Expr turn_sin = one.cos * other.sin - one.sin * other.cos;
-  const Expr c = sqrt(square(turn_cos) + square(rounding));
-  const Expr s = sqrt(square(turn_sin) + square(rounding));
-  const auto share = [&](const Expr& along, const Expr& reach) { return along / (reach + margin); };
-  const std::array shares = {
-      share(one.cos * dx + one.sin * dy,
-            of_one.length + of_other.length * c + of_other.width * s),
-      share(one.cos * dy - one.sin * dx,
-            of_one.width + of_other.length * s + of_other.width * c),
-      share(other.cos * dx + other.sin * dy,
-            of_other.length + of_one.length * c + of_one.width * s),
-      share(other.cos * dy - other.sin * dx,
-            of_other.width + of_one.length * s + of_one.width * c)};
-  return exp(log(sum_of_powers(shares, half)) / half);
+  const Expr c = sqrt(square(turn_cos) + kRounding * kRounding);
+  const Expr s = sqrt(square(turn_sin) + kRounding * kRounding);
+  const auto along = [&](const Frame& frame, const Sides& own, const Sides& others) {
+    return sum_of_powers(
+        (frame.cos * dx + frame.sin * dy) / (own.length + others.length * c + others.width * s + margin),
+        (frame.cos * dy - frame.sin * dx) / (own.width + others.length * s + others.width * c + margin),
+        half);
+  };
+  const Expr power = kSharp / 2 / half;
+  const Expr sum = exp(power * log(along(one, of_one, of_other))) +
+                   exp(power * log(along(other, of_other, of_one)));
+  return exp(log(sum) / (kSharp / 2));
 }
 
 }  // namespace slalom::planner

@@ -56,8 +56,7 @@ TrajectoryProblem::TrajectoryProblem(const Task& task,
       goal_(task.goal),
       goal_in_range_(goal_in_range),
       map_(task.vehicle, task.planner.model),
-      rows_(world::Footprint(vehicle_), std::min(settings_.sm_start, settings_.sm_end),
-            settings_.cover_excess),
+      rows_(world::Footprint(vehicle_), std::min(settings_.sm_start, settings_.sm_end)),
       problem_("trajectory") {
   const Model& model = map_.model();
   add_variables(model, task.region);
