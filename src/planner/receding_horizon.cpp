@@ -120,7 +120,7 @@ Plan RecedingHorizon::plan(const Request& request) {
   Attempt best = attempt(cycle, settings_.N, guess, warm);
   if (bendable && !best.plan.report.solved) try_sides(cycle, *bendable, best);
   if (task_.road && !best.plan.report.solved && !best.cut_short) try_free_way(cycle, best);
-  if (settings_.between_nodes == BetweenNodes::refine) refine(cycle, best);
+  if (refines(task_)) refine(cycle, best);
   keep(cycle, best);
   best.plan.report.planning_cpu_s = timer.cpu();
   return std::move(best.plan);
@@ -303,7 +303,7 @@ void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
     report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
                                      footprint_, task_.vehicle.la);
     const Passage& deepest = report.passage;
-    if (deepest.depth > settings_.passage_depth)
+    if (deepest.depth > settings_.most_passage())
       found = fmt::format("{:.2f} m deep into the margin of {} at {:.2f} s", deepest.depth,
                           deepest.obstacle, deepest.t);
   }
@@ -357,7 +357,7 @@ void RecedingHorizon::try_free_way(const Cycle& cycle, Attempt& best) {
 }
 
 /// On finer meshes, whose rows stand closer, until the plan stays out of obstacles and on its
-/// road; a plan that never does is not solved.
+/// road; a plan that never does is not solved, if they must.
 void RecedingHorizon::refine(const Cycle& cycle, Attempt& best) {
   if (best.plan.report.status != PlanStatus::passes_through) return;
   best.carries = false;  // what is tried takes the multipliers' place
@@ -369,7 +369,7 @@ void RecedingHorizon::refine(const Cycle& cycle, Attempt& best) {
       return;
     }
   }
-  best.plan.report.solved = false;
+  if (settings_.between_nodes == BetweenNodes::refine) best.plan.report.solved = false;
 }
 
 /// The next solve starts from a plan to be driven, and goes on from one that was cut short.
