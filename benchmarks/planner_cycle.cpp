@@ -15,7 +15,7 @@ using namespace vehicle;
 Form::Form(const sim::Scenario& scenario, bool goal_in_range)
     : problem(scenario,
               planner::stand_ins(scenario.planner, world::Footprint(scenario.vehicle),
-                               scenario.obstacles),
+                                 scenario.obstacles),
               goal_in_range),
       transcription(
           [&]() -> const ocp::Problem& {

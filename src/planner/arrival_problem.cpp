@@ -147,10 +147,10 @@ void ArrivalProblem::add_obstacles() {
     const Expr dy = X_[Y] + after * rate_[Y] - rows_.y() - rows_.vy() * t;
     auto symbols = rows_.symbols(kind, true);
     symbols.push_back(share);
-    close_rows_[of] = problem_.path_family(
-        std::string("close ") + ObstacleRows::name(kind), std::move(symbols),
-        rows_.outside(kind, dx, dy, X_[PSI] + after * rate_[PSI], 0, t), Bounds::at_least(0),
-        Points::after_first);
+    close_rows_[of] =
+        problem_.path_family(std::string("close ") + ObstacleRows::name(kind), std::move(symbols),
+                             rows_.outside(kind, dx, dy, X_[PSI] + after * rate_[PSI], 0, t),
+                             Bounds::at_least(0), Points::after_first);
   }
 }
 
@@ -185,8 +185,7 @@ void ArrivalProblem::set_obstacles(const Obstacles& obstacles, double t_start, d
     const auto of = static_cast<std::size_t>(kind);
     std::vector<std::vector<double>> far, close;
     for (const auto& o : obstacles.far)
-      if (ObstacleRows::kind_of(o) == kind)
-        far.push_back(row_numbers(o, {}, t_start, tf));
+      if (ObstacleRows::kind_of(o) == kind) far.push_back(row_numbers(o, {}, t_start, tf));
     for (const auto& o : obstacles.close)
       if (ObstacleRows::kind_of(o) == kind)
         for (const double share : shares_) close.push_back(row_numbers(o, share, t_start, tf));

@@ -17,7 +17,7 @@ ContinuousCycle continuous_cycle(const Task& task, const Request& request) {
   Settings straight = task.planner;
   straight.prediction = Prediction::constant_velocity;
   const auto obstacles = stand_ins(task.planner, world::Footprint(task.vehicle),
-                                 believed(straight, task.obstacles, request.t0));
+                                   believed(straight, task.obstacles, request.t0));
   TrajectoryProblem stated(task, obstacles, way.in_range);
   stated.update(request, way);
   ocp::Trajectory straight_on = Guess(task)(request, way, nullptr);

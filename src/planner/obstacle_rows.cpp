@@ -42,18 +42,16 @@ ObstacleRows::ObstacleRows(const world::Footprint& footprint, double least_margi
     vehicle_ = {(front - back) / 2, footprint.corners()[0].y};
     middle_ = (front + back) / 2;
   }
-  const auto names = {std::pair(&xo_, "xo"), {&yo_, "yo"},       {&a_, "a"},     {&b_, "b"},
-                      {&vx_, "vx"},          {&vy_, "vy"},       {&co_, "co"},  {&so_, "so"},
-                      {&omega_, "omega"},    {&at_, "at"},       {&half_, "half"},
-                      {&share_, "share"},    {&grown_, "grown"}};
+  const auto names = {std::pair(&xo_, "xo"), {&yo_, "yo"}, {&a_, "a"},       {&b_, "b"},
+                      {&vx_, "vx"},          {&vy_, "vy"}, {&co_, "co"},     {&so_, "so"},
+                      {&omega_, "omega"},    {&at_, "at"}, {&half_, "half"}, {&share_, "share"},
+                      {&grown_, "grown"}};
   for (const auto& [symbol, name] : names) *symbol = Expr::symbol(name);
 }
 
 std::vector<Expr> ObstacleRows::symbols(Kind kind, bool moves) const {
   std::vector<Expr> result = {xo_, yo_, a_, b_};
-  const auto add = [&](std::initializer_list<Expr> more) {
-    result.insert(result.end(), more);
-  };
+  const auto add = [&](std::initializer_list<Expr> more) { result.insert(result.end(), more); };
   if (kind == Kind::shaped) add({co_, so_});
   if (kind == Kind::shaped && !point_) add({grown_});
   if (kind == Kind::shaped || !point_) add({half_, share_});
@@ -82,8 +80,7 @@ Expr ObstacleRows::to_shape(const Expr& dx, const Expr& dy, const Expr& psi, con
     co = (co_ - turned * so_) / length;
     so = (so_ + turned * co_) / length;
   }
-  if (point_)
-    return share_ * square_of_shares(dx, dy, co, so, a_ + margin, b_ + margin, half_) - 1;
+  if (point_) return share_ * square_of_shares(dx, dy, co, so, a_ + margin, b_ + margin, half_) - 1;
   const Expr c = cos(psi), s = sin(psi);
   const Frame theirs{0, 0, co, so}, ours{dx + middle_ * c, dy + middle_ * s, c, s};
   return share_ * square_of_shares(theirs, {a_, b_}, ours, {vehicle_.length, vehicle_.width},
@@ -128,9 +125,7 @@ std::vector<double> ObstacleRows::numbers(const world::Obstacle& o, const Moment
 
 std::vector<double> ObstacleRows::nowhere(Kind kind, bool moves) const {
   std::vector<double> result(kNowhere.begin(), kNowhere.end());
-  const auto add = [&](std::initializer_list<double> more) {
-    result.insert(result.end(), more);
-  };
+  const auto add = [&](std::initializer_list<double> more) { result.insert(result.end(), more); };
   if (kind == Kind::shaped) add({1, 0});
   if (kind == Kind::shaped && !point_) add({0});
   if (kind == Kind::shaped || !point_) add({1, 1});

@@ -73,7 +73,7 @@ class ObstacleRows {
   double least_margin_;
   ocp::Expr xo_, yo_, a_, b_, vx_, vy_;
   ocp::Expr grown_, co_, so_, omega_, at_;  ///< at: when the direction is that of co and so
-  ocp::Expr half_, share_;                    ///< p/2, and 1/most^2
+  ocp::Expr half_, share_;                  ///< p/2, and 1/most^2
 };
 
 }  // namespace slalom::planner

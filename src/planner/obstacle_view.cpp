@@ -50,11 +50,10 @@ std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint
                                 const std::vector<Obstacle>& obstacles) {
   std::vector<Obstacle> result;
   for (const auto& o : obstacles) {
-    if ((o.is_plain() && footprint.is_point()) || (!o.outline && o.a == o.b)) {
-      result.push_back(o);
-      continue;
-    }
-    auto discs = world::covering_discs(o, settings.cover_excess);
+    const bool round = !o.outline && (o.a == o.b || (o.is_plain() && footprint.is_point()));
+    auto discs = world::covering_discs(
+        round || o.outline || footprint.is_point() ? o : world::covering_rectangle(o),
+        settings.cover_excess);
     if (discs.size() == 1)
       result.push_back(std::move(discs.front()));
     else

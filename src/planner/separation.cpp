@@ -22,13 +22,11 @@ namespace {
 constexpr std::array kExponents = {2., 2.5, 3., 3.5, 4., 5., 6., 8., 11., 16., 23., 32., 45., 64.};
 /// The exponent P of the sharp norm of the two rectangles' frames, and what rounds |cos| and |sin|.
 constexpr double kSharp = 64, kRounding = 1. / 160;
-/// Beyond the least margin, at which `most` is looked for too [m]. It falls as margins grow, but for
-/// long ellipses.
+/// Beyond the least margin, at which `most` is looked for too [m]. It falls as margins grow, but
+/// for long ellipses.
 constexpr std::array kMargins = {0., 0.5, 2., 8.};
 /// By what samples of turns and directions may miss the greatest of the norm.
 constexpr double kSpare = 1e-3;
-/// To the squares of shares in the OCP, whose logarithm is taken.
-constexpr double kTiny = 1e-12;
 /// Turns of the other within a right angle, and directions within half a turn, that are looked at:
 /// finely for `most`, coarsely for the excess.
 constexpr int kTurns = 24, kDirections = 64;
@@ -65,9 +63,8 @@ class Pair {
     const double along_one = share(z.x, a.length + b.length * c + b.width * s) +
                              share(z.y, a.width + b.length * s + b.width * c);
     if (b.is_place()) return std::pow(along_one, 1 / exponent);
-    const double along_other =
-        share(z.x * c_ + z.y * s_, b.length + a.length * c + a.width * s) +
-        share(z.y * c_ - z.x * s_, b.width + a.length * s + a.width * c);
+    const double along_other = share(z.x * c_ + z.y * s_, b.length + a.length * c + a.width * s) +
+                               share(z.y * c_ - z.x * s_, b.width + a.length * s + a.width * c);
     const double power = kSharp / exponent;
     return std::pow(std::pow(along_one, power) + std::pow(along_other, power), 1 / kSharp);
   }
@@ -162,18 +159,24 @@ Separation separate(const HalfSides& one, const HalfSides& other, double least_m
 
 namespace {
 
-/// Of two shares, |x|^p + |y|^p.
-Expr sum_of_powers(const Expr& x, const Expr& y, const Expr& half) {
-  return exp(half * log(square(x) + kTiny)) + exp(half * log(square(y) + kTiny));
+/// In logarithms' arguments, which are 0 at the middle.
+constexpr double kTiny = 1e-12, kLeastSum = 1e-100;
+
+/// Of the squares of two shares, in parts of what exp(whole) is: the sum of their powers. Such
+/// parts are neither too great for their powers, far away, nor are all too small, near the middle.
+Expr sum_of_powers(const std::array<Expr, 2>& squares, const Expr& whole, const Expr& half) {
+  return exp(half * (log(squares[0] + kTiny) - whole)) +
+         exp(half * (log(squares[1] + kTiny) - whole));
 }
 
 }  // namespace
 
 Expr square_of_shares(const Expr& dx, const Expr& dy, const Expr& cos, const Expr& sin,
                       const Expr& length, const Expr& width, const Expr& half) {
-  const Expr sum =
-      sum_of_powers((cos * dx + sin * dy) / length, (cos * dy - sin * dx) / width, half);
-  return exp(log(sum) / half);
+  const std::array squares = {square((cos * dx + sin * dy) / length),
+                              square((cos * dy - sin * dx) / width)};
+  const Expr whole = log(squares[0] + squares[1] + kTiny);
+  return exp(whole + log(sum_of_powers(squares, whole, half)) / half);
 }
 
 Expr square_of_shares(const Frame& one, const Sides& of_one, const Frame& other,
@@ -183,16 +186,18 @@ Expr square_of_shares(const Frame& one, const Sides& of_one, const Frame& other,
   const Expr turn_sin = one.cos * other.sin - one.sin * other.cos;
   const Expr c = sqrt(square(turn_cos) + kRounding * kRounding);
   const Expr s = sqrt(square(turn_sin) + kRounding * kRounding);
-  const auto along = [&](const Frame& frame, const Sides& own, const Sides& others) {
-    return sum_of_powers(
-        (frame.cos * dx + frame.sin * dy) / (own.length + others.length * c + others.width * s + margin),
-        (frame.cos * dy - frame.sin * dx) / (own.width + others.length * s + others.width * c + margin),
-        half);
+  const auto squares = [&](const Frame& frame, const Sides& own, const Sides& others) {
+    const Expr length = own.length + others.length * c + others.width * s + margin;
+    const Expr width = own.width + others.length * s + others.width * c + margin;
+    return std::array{square((frame.cos * dx + frame.sin * dy) / length),
+                      square((frame.cos * dy - frame.sin * dx) / width)};
   };
+  const auto a = squares(one, of_one, of_other), b = squares(other, of_other, of_one);
+  const Expr whole = log(a[0] + a[1] + b[0] + b[1] + kTiny);
   const Expr power = kSharp / 2 / half;
-  const Expr sum = exp(power * log(along(one, of_one, of_other))) +
-                   exp(power * log(along(other, of_other, of_one)));
-  return exp(log(sum) / (kSharp / 2));
+  const Expr sum = exp(power * log(sum_of_powers(a, whole, half) + kLeastSum)) +
+                   exp(power * log(sum_of_powers(b, whole, half) + kLeastSum));
+  return exp(whole + log(sum) / (kSharp / 2));
 }
 
 }  // namespace slalom::planner

@@ -24,9 +24,9 @@ struct HalfSides {
 ///     n = (n_1^P + n_2^P)^(1/P),  P = 64,
 ///
 /// is smooth and grows in proportion from nothing at the middle: p rounds corners as a margin about
-/// them does. n >= `most` keeps them m apart, where `most` is the greatest n of bodies just m apart.
-/// Of a rectangle and a place n is n_1 alone: a superellipse about the rectangle, whose exponent 2
-/// is an ellipse. |cos| is sqrt(cos^2 + e^2), e = 1/160, and so is |sin|.
+/// them does. n >= `most` keeps them m apart, where `most` is the greatest n of bodies just m
+/// apart. Of a rectangle and a place n is n_1 alone: a superellipse about the rectangle, whose
+/// exponent 2 is an ellipse. |cos| is sqrt(cos^2 + e^2), e = 1/160, and so is |sin|.
 struct Separation {
   double exponent = 2;  ///< p
   double most = 1;      ///< as above, for all margins from the least one on

@@ -53,13 +53,13 @@ std::optional<Mark> passing(const Scenario& scenario, const Drive& drive, const 
     if (const double size = depth(report); size > 0) cases.add(cycle.t_swap, size, &cycle);
   }
   if (cases.times.empty()) return std::nullopt;
-  return Mark{kind,
-              fmt::format("{} (cycle {}); {}", text(cases.times.size(), *cases.gravest),
-                          cases.gravest->index,
-                          planner::refines(scenario)
-                              ? "finer meshes did not help"
-                              : "planner.between_nodes: refine would solve again"),
-              cases.times};
+  return Mark{
+      kind,
+      fmt::format("{} (cycle {}); {}", text(cases.times.size(), *cases.gravest),
+                  cases.gravest->index,
+                  planner::refines(scenario) ? "finer meshes did not help"
+                                             : "planner.between_nodes: refine would solve again"),
+      cases.times};
 }
 
 std::optional<Mark> through_obstacles(const Scenario& scenario, const Drive& drive) {
@@ -199,9 +199,9 @@ StartSlack start_slack(const Cycle& cycle) {
 
 std::vector<Mark> marks(const Scenario& scenario, const Drive& drive) {
   std::vector<Mark> result;
-  for (auto& mark : {through_obstacles(scenario, drive), through_edges(scenario, drive), beside(drive),
-                     low_load(scenario, drive), speed(scenario, drive), outside(scenario, drive),
-                     away(scenario, drive)})
+  for (auto& mark : {through_obstacles(scenario, drive), through_edges(scenario, drive),
+                     beside(drive), low_load(scenario, drive), speed(scenario, drive),
+                     outside(scenario, drive), away(scenario, drive)})
     if (mark) result.push_back(*mark);
   return result;
 }

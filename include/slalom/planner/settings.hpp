@@ -64,7 +64,7 @@ struct Settings {
   double passage_depth = 0.5;  ///< a plan may go into a margin between its nodes [m]
   /// How deep it may, which is no deeper than the margin [m].
   double most_passage() const { return std::min({passage_depth, sm_start, sm_end}); }
-  bool retry_sides = false;    ///< try again from the left and the right before there is no plan
+  bool retry_sides = false;  ///< try again from the left and the right before there is no plan
 
   /// The vehicle as the planner has it, whatever drives.
   vehicle::ModelKind model = vehicle::ModelKind::pacejka;
