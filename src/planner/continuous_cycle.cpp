@@ -1,5 +1,6 @@
 #include "slalom/planner/continuous_cycle.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "guess.hpp"
@@ -17,7 +18,8 @@ ContinuousCycle continuous_cycle(const Task& task, const Request& request) {
   Settings straight = task.planner;
   straight.prediction = Prediction::constant_velocity;
   const auto obstacles = stand_ins(task.planner, world::Footprint(task.vehicle),
-                                   believed(straight, task.obstacles, request.t0));
+                                   believed(straight, task.obstacles, request.t0),
+                                   std::min(straight.sm_start, straight.sm_end));
   TrajectoryProblem stated(task, obstacles, way.in_range);
   stated.update(request, way);
   ocp::Trajectory straight_on = Guess(task)(request, way, nullptr);

@@ -13,7 +13,8 @@ namespace {
 /// The numbers of one far from everything: its place, and what it takes up.
 constexpr std::array kNowhere = {1e5, 1e5, 1e3, 1e3};
 
-/// Of a rectangle about the body's middle, or an ellipse's semi-axes.
+}  // namespace
+
 HalfSides half_sides(const world::Obstacle& o) {
   if (!o.outline) return {o.a, o.b};
   HalfSides half;
@@ -21,8 +22,6 @@ HalfSides half_sides(const world::Obstacle& o) {
     half = {std::max(half.length, p.x), std::max(half.width, p.y)};
   return half;
 }
-
-}  // namespace
 
 ObstacleRows::Kind ObstacleRows::kind_of(const world::Obstacle& o) {
   const bool along_axes = !o.trajectory && o.psi == 0;

@@ -1,8 +1,13 @@
 #include "obstacle_view.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <utility>
+
+#include "obstacle_rows.hpp"
+#include "separation.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -16,6 +21,25 @@ void go_straight(Obstacle& o, const world::Pose& at, double t0) {
   o.vx = at.vx;
   o.vy = at.vy;
   o.psi = at.psi;
+}
+
+/// More rows than these are not worth their time.
+constexpr int kMostParts = 6;
+
+/// Into how many a rectangle is cut.
+int parts_of(const Obstacle& rectangle, double least_margin) {
+  const HalfSides half = half_sides(rectangle);
+  const double length = std::max(half.length, half.width), width = half.length + half.width - length;
+  const double margin = least_margin + rectangle.margin_start + rectangle.rounding;
+  int best = 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int parts = 1; parts <= kMostParts && least > kWorthARow; ++parts) {
+    const double excess = separate({length / parts, width}, {}, margin).excess;
+    if (excess >= least) break;
+    least = excess;
+    best = parts;
+  }
+  return best;
 }
 
 }  // namespace
@@ -47,17 +71,21 @@ bool belief_varies(const Settings& settings, const std::vector<Obstacle>& obstac
 }
 
 std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,
-                                const std::vector<Obstacle>& obstacles) {
+                                const std::vector<Obstacle>& obstacles, double least_margin) {
   std::vector<Obstacle> result;
   for (const auto& o : obstacles) {
     const bool round = !o.outline && (o.a == o.b || (o.is_plain() && footprint.is_point()));
-    auto discs = world::covering_discs(
-        round || o.outline || footprint.is_point() ? o : world::covering_rectangle(o),
-        settings.cover_excess);
-    if (discs.size() == 1)
-      result.push_back(std::move(discs.front()));
-    else
-      result.push_back(footprint.is_point() && !o.outline ? o : world::covering_rectangle(o));
+    if (round || (footprint.is_point() && !o.outline)) {
+      result.push_back(o);
+      continue;
+    }
+    auto whole = world::covering_rectangles(o);
+    auto discs = world::covering_discs(whole.front(), settings.cover_excess);
+    if (discs.size() > 1)
+      discs = footprint.is_point()
+                  ? world::covering_rectangles(o, parts_of(whole.front(), least_margin))
+                  : std::move(whole);
+    std::move(discs.begin(), discs.end(), std::back_inserter(result));
   }
   return result;
 }

@@ -71,11 +71,10 @@ void add_what_tells_planners_apart(Table& table) {
           "not there yet is not known of. Obstacles without either go straight on anyway.")
       .real(
           "cover_excess", &S::cover_excess, Range::positive(), "m",
-          "By how much the discs that stand in for a box, a polygon or a turned ellipse may stick "
-          "out of it in the OCP and the search, where 16 discs do; half as much takes 1.4 times as "
-          "many rows. In the search discs stand in for the vehicle's body too, and the smooth "
-          "distance from it in the OCP is as much closer. What judges plans and drives has the "
-          "exact shapes.")
+          "By how much the discs that stand in for a box, a polygon, a turned ellipse or the "
+          "vehicle's body may stick out of it in the search, where 16 discs do; half as much takes "
+          "1.4 times as many. In the OCP one circle stands in for a body out of which it sticks by "
+          "no more. What judges plans and drives has the exact shapes.")
       .choice(
           "between_nodes", &S::between_nodes, {"ignore", "report", "refine", "by_shape"},
           "Rows of obstacles, and of the edges of a road, hold at nodes alone, as in the paper. A "

@@ -165,12 +165,19 @@ double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, dou
   return holds_centre ? std::min(least, -std::min(obstacle.a, obstacle.b)) : least;
 }
 
-Obstacle covering_rectangle(const Obstacle& obstacle) {
+std::vector<Obstacle> covering_rectangles(const Obstacle& obstacle, int parts) {
   const Extent extent(obstacle);
-  Obstacle result = moved_to(obstacle, extent.middle());
-  result.outline =
-      std::make_shared<Polygon>(Polygon::rectangle(extent.along_x(), extent.along_y()));
-  result.a = result.b = result.outline->reach();
+  Point size{extent.along_x(), extent.along_y()};
+  const Point across = size.x >= size.y ? Point{size.x / parts, 0} : Point{0, size.y / parts};
+  (size.x >= size.y ? size.x : size.y) /= parts;
+  const auto outline = std::make_shared<Polygon>(Polygon::rectangle(size.x, size.y));
+  std::vector<Obstacle> result;
+  for (int k = 0; k < parts; ++k) {
+    auto& part = result.emplace_back(
+        moved_to(obstacle, extent.middle() + across * (k - 0.5 * (parts - 1))));
+    part.outline = outline;
+    part.a = part.b = outline->reach();
+  }
   return result;
 }
 

@@ -83,14 +83,15 @@ std::vector<Obstacle> bodies(const Footprint& footprint) {
   rock.a = rock.b = rock.outline->reach();
   Obstacle grown = box(3, 2).grown(0.4);
   return stand_ins({}, footprint,
-                   {box(4.5, 1.8),
+                   {box(12, 1.8), box(4.5, 1.8),
                     box(0.4, 0.4),
                     egg,
                     rock,
                     grown,
                     {"disc", 1, 2, 1.5, 1.5},
                     by_table(box(4.5, 1.8)),
-                    by_table(egg)});
+                    by_table(egg)},
+                   0.3);
 }
 
 // At random poses and times, a row that is kept keeps the exact distance. Where it is asked about
@@ -157,11 +158,16 @@ TEST(ObstacleRows, StandInsAreNoMoreThanTheyNeedBe) {
   const auto point = footprint(vehicle::FootprintKind::point);
   const auto car = footprint(vehicle::FootprintKind::rectangle);
   const Obstacle ellipse{"ellipse", 0, 0, 2, 1};
-  EXPECT_EQ(ObstacleRows::kind_of(stand_ins({}, point, {ellipse})[0]), Kind::round);
-  EXPECT_TRUE(stand_ins({}, car, {ellipse})[0].outline) << "the rectangle about it";
-  EXPECT_FALSE(stand_ins({}, point, {box(0.5, 0.5)})[0].outline) << "a circle";
-  EXPECT_TRUE(stand_ins({}, point, {box(2, 0.5)})[0].outline);
-  EXPECT_EQ(ObstacleRows::counts(stand_ins({}, car, {ellipse, box(0.5, 0.5), box(9, 2)})),
+  const auto of = [](const Footprint& footprint, const Obstacle& o) {
+    return stand_ins({}, footprint, {o}, 2.5);
+  };
+  EXPECT_EQ(ObstacleRows::kind_of(of(point, ellipse)[0]), Kind::round);
+  EXPECT_TRUE(of(car, ellipse)[0].outline) << "the rectangle about it";
+  EXPECT_FALSE(of(point, box(0.5, 0.5))[0].outline) << "a circle";
+  EXPECT_EQ(of(point, box(4.5, 1.8)).size(), 2u) << "round as its margin";
+  EXPECT_EQ(of(point, box(8.5, 8.5)).size(), 1u);
+  EXPECT_EQ(of(car, box(20, 1.8)).size(), 1u);
+  EXPECT_EQ(ObstacleRows::counts(stand_ins({}, car, {ellipse, box(0.5, 0.5), box(9, 2)}, 2.5)),
             (ObstacleRows::Counts{1, 2}));
 }
 
