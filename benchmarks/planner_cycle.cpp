@@ -15,8 +15,7 @@ using namespace vehicle;
 Form::Form(const sim::Scenario& scenario, bool goal_in_range)
     : problem(scenario,
               planner::stand_ins(scenario.planner, world::Footprint(scenario.vehicle),
-                                 scenario.obstacles,
-                                 std::min(scenario.planner.sm_start, scenario.planner.sm_end)),
+                                 scenario.obstacles),
               goal_in_range),
       transcription(
           [&]() -> const ocp::Problem& {

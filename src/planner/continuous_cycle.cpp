@@ -1,6 +1,5 @@
 #include "slalom/planner/continuous_cycle.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "guess.hpp"
@@ -18,8 +17,7 @@ ContinuousCycle continuous_cycle(const Task& task, const Request& request) {
   Settings straight = task.planner;
   straight.prediction = Prediction::constant_velocity;
   const auto obstacles = stand_ins(task.planner, world::Footprint(task.vehicle),
-                                   believed(straight, task.obstacles, request.t0),
-                                   std::min(straight.sm_start, straight.sm_end));
+                                   believed(straight, task.obstacles, request.t0));
   TrajectoryProblem stated(task, obstacles, way.in_range);
   stated.update(request, way);
   ocp::Trajectory straight_on = Guess(task)(request, way, nullptr);

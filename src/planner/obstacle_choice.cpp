@@ -186,15 +186,13 @@ std::vector<world::Obstacle> group_obstacles(const Settings& settings,
 std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
                                               const std::vector<world::Obstacle>& obstacles,
                                               const world::Footprint& footprint) {
-  const double margin = std::min(settings.sm_start, settings.sm_end);
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
-    return in_reach(settings, request, stand_ins(settings, footprint, obstacles, margin),
+    return in_reach(settings, request, stand_ins(settings, footprint, obstacles),
                     footprint.reach());
   auto chosen = stand_ins(settings, footprint,
                           settings.obstacle_choice == ObstacleChoice::nearest
                               ? nearest(settings, request, obstacles)
-                              : obstacles,
-                          margin);
+                              : obstacles);
   for (auto& o : chosen)
     if (far(settings, request, o)) o = parked(settings, request, o);
   return chosen;

@@ -1,13 +1,12 @@
 #include "obstacle_view.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include "obstacle_rows.hpp"
-#include "separation.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -26,20 +25,11 @@ void go_straight(Obstacle& o, const world::Pose& at, double t0) {
 /// More rows than these are not worth their time.
 constexpr int kMostParts = 6;
 
-/// Into how many a rectangle is cut.
-int parts_of(const Obstacle& rectangle, double least_margin) {
+/// Into how many a rectangle is cut: parts about half as long as wide.
+int parts_of(const Obstacle& rectangle) {
   const HalfSides half = half_sides(rectangle);
-  const double length = std::max(half.length, half.width), width = half.length + half.width - length;
-  const double margin = least_margin + rectangle.margin_start + rectangle.rounding;
-  int best = 1;
-  double least = std::numeric_limits<double>::infinity();
-  for (int parts = 1; parts <= kMostParts && least > kWorthARow; ++parts) {
-    const double excess = separate({length / parts, width}, {}, margin).excess;
-    if (excess >= least) break;
-    least = excess;
-    best = parts;
-  }
-  return best;
+  const double longer = std::max(half.length, half.width), shorter = std::min(half.length, half.width);
+  return std::clamp(static_cast<int>(std::lround(2 * longer / shorter)), 1, kMostParts);
 }
 
 }  // namespace
@@ -71,7 +61,7 @@ bool belief_varies(const Settings& settings, const std::vector<Obstacle>& obstac
 }
 
 std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,
-                                const std::vector<Obstacle>& obstacles, double least_margin) {
+                                const std::vector<Obstacle>& obstacles) {
   std::vector<Obstacle> result;
   for (const auto& o : obstacles) {
     const bool round = !o.outline && (o.a == o.b || (o.is_plain() && footprint.is_point()));
@@ -83,7 +73,7 @@ std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint
     auto discs = world::covering_discs(whole.front(), settings.cover_excess);
     if (discs.size() > 1)
       discs = footprint.is_point()
-                  ? world::covering_rectangles(o, parts_of(whole.front(), least_margin))
+                  ? world::covering_rectangles(o, parts_of(whole.front()))
                   : std::move(whole);
     std::move(discs.begin(), discs.end(), std::back_inserter(result));
   }

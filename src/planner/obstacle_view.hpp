@@ -20,13 +20,10 @@ bool belief_varies(const Settings& settings, const std::vector<world::Obstacle>&
 
 /// Obstacles as rows have them (ObstacleRows): plain ellipses to a footprint that is a point, and
 /// circles, as they are; circles over bodies out of which they stick by Settings::cover_excess at
-/// the most; else a rectangle that covers the body, or to a point an ellipse. To a point a long
-/// rectangle is several in a row, as few as round its corners as a margin of at least
-/// `least_margin` [m] does, to kWorthARow.
+/// the most; else a rectangle that covers the body, or to a point an ellipse. To a point it is
+/// cut into up to six in a row: each row is a term of the barrier that keeps plans off it, and
+/// is as round as its margin at its corners.
 std::vector<world::Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,
-                                       const std::vector<world::Obstacle>& obstacles,
-                                       double least_margin);
-/// The excess of a rectangle's row that is not worth another row [m].
-inline constexpr double kWorthARow = 0.15;
+                                       const std::vector<world::Obstacle>& obstacles);
 
 }  // namespace slalom::planner

@@ -221,7 +221,7 @@ ArrivalProblem::Obstacles Proposals::near(const Motion& guess,
   std::vector<std::vector<Passed>> places;
   for (const auto& disc : vehicle) places.push_back(places_of(guess, disc.ahead));
   for (std::size_t k = 0; k < question_.obstacles.size(); ++k)
-    for (const auto& o : stand_ins(s, footprint_, {question_.obstacles[k]}, margin)) {
+    for (const auto& o : stand_ins(s, footprint_, {question_.obstacles[k]})) {
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t d = 0; d < vehicle.size(); ++d)
         least = std::min(least, least_distance(o, places[d]) - vehicle[d].radius);

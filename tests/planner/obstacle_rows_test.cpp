@@ -90,8 +90,7 @@ std::vector<Obstacle> bodies(const Footprint& footprint) {
                     grown,
                     {"disc", 1, 2, 1.5, 1.5},
                     by_table(box(4.5, 1.8)),
-                    by_table(egg)},
-                   0.3);
+                    by_table(egg)});
 }
 
 // At random poses and times, a row that is kept keeps the exact distance. Where it is asked about
@@ -159,15 +158,15 @@ TEST(ObstacleRows, StandInsAreNoMoreThanTheyNeedBe) {
   const auto car = footprint(vehicle::FootprintKind::rectangle);
   const Obstacle ellipse{"ellipse", 0, 0, 2, 1};
   const auto of = [](const Footprint& footprint, const Obstacle& o) {
-    return stand_ins({}, footprint, {o}, 2.5);
+    return stand_ins({}, footprint, {o});
   };
   EXPECT_EQ(ObstacleRows::kind_of(of(point, ellipse)[0]), Kind::round);
   EXPECT_TRUE(of(car, ellipse)[0].outline) << "the rectangle about it";
   EXPECT_FALSE(of(point, box(0.5, 0.5))[0].outline) << "a circle";
-  EXPECT_EQ(of(point, box(4.5, 1.8)).size(), 2u) << "round as its margin";
-  EXPECT_EQ(of(point, box(8.5, 8.5)).size(), 1u);
+  EXPECT_EQ(of(point, box(4.5, 1.8)).size(), 5u);
+  EXPECT_EQ(of(point, box(8.5, 8.5)).size(), 2u);
   EXPECT_EQ(of(car, box(20, 1.8)).size(), 1u);
-  EXPECT_EQ(ObstacleRows::counts(stand_ins({}, car, {ellipse, box(0.5, 0.5), box(9, 2)}, 2.5)),
+  EXPECT_EQ(ObstacleRows::counts(stand_ins({}, car, {ellipse, box(0.5, 0.5), box(9, 2)})),
             (ObstacleRows::Counts{1, 2}));
 }
 
