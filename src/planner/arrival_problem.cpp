@@ -52,8 +52,11 @@ ArrivalProblem::Room ArrivalProblem::room_for(const Obstacles& obstacles) {
     return room;
   };
   Room room{ObstacleRows::counts(obstacles.far), ObstacleRows::counts(obstacles.close)};
-  for (auto& number : room.far) number = in_steps(number, 4);
-  for (auto& number : room.close) number = in_steps(number, 2);
+  for (const auto kind : ObstacleRows::kKinds) {
+    const auto of = static_cast<std::size_t>(kind);
+    room.far[of] = in_steps(room.far[of], 4);
+    room.close[of] = in_steps(room.close[of], 2);
+  }
   return room;
 }
 
@@ -68,7 +71,7 @@ ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     : room_(room),
       intervals_(task.planner.arrival_N),
       shares_(shares(task.planner.rows_between)),
-      rows_(world::Footprint(task.vehicle), 0),
+      rows_(world::Footprint(task.vehicle), 0, room.close[2] > 0),
       problem_("arrival"),
       road_(task.road) {
   add_dynamics(task);

@@ -10,6 +10,8 @@ using ocp::Expr;
 
 namespace {
 
+/// Longer than any drive, before or after its start [s].
+constexpr double kAllTime = 1e6;
 /// The numbers of one far from everything: its place, and what it takes up.
 constexpr std::array kNowhere = {1e5, 1e5, 1e3, 1e3};
 
@@ -30,12 +32,17 @@ ObstacleRows::Kind ObstacleRows::kind_of(const world::Obstacle& o) {
 
 ObstacleRows::Counts ObstacleRows::counts(const std::vector<world::Obstacle>& obstacles) {
   Counts result{};
-  for (const auto& o : obstacles) ++result[static_cast<std::size_t>(kind_of(o))];
+  for (const auto& o : obstacles) {
+    ++result[static_cast<std::size_t>(kind_of(o))];
+    if (kind_of(o) == Kind::shaped && o.trajectory &&
+        o.trajectory->fastest(-kAllTime, kAllTime).omega > 0)
+      result[2] = 1;
+  }
   return result;
 }
 
-ObstacleRows::ObstacleRows(const world::Footprint& footprint, double least_margin)
-    : point_(footprint.is_point()), least_margin_(least_margin) {
+ObstacleRows::ObstacleRows(const world::Footprint& footprint, double least_margin, bool turns)
+    : point_(footprint.is_point()), turns_(turns), least_margin_(least_margin) {
   if (!point_) {
     const double front = footprint.corners()[0].x, back = footprint.corners()[1].x;
     vehicle_ = {(front - back) / 2, footprint.corners()[0].y};
@@ -55,7 +62,7 @@ std::vector<Expr> ObstacleRows::symbols(Kind kind, bool moves) const {
   if (kind == Kind::shaped && !point_) add({grown_});
   if (kind == Kind::shaped || !point_) add({half_, share_});
   if (moves) add({vx_, vy_});
-  if (moves && kind == Kind::shaped) add({omega_, at_});
+  if (moves && kind == Kind::shaped && turns_) add({omega_, at_});
   return result;
 }
 
@@ -73,7 +80,7 @@ Expr ObstacleRows::to_shape(const Expr& dx, const Expr& dy, const Expr& psi, con
                             const std::optional<Expr>& t) const {
   // On by an angle whose tangent is omega (t - at): omega (t - at) itself to second order.
   Expr co = co_, so = so_;
-  if (t) {
+  if (t && turns_) {
     const Expr turned = omega_ * (*t - at_);
     const Expr length = sqrt(1 + square(turned));
     co = (co_ - turned * so_) / length;
@@ -118,7 +125,7 @@ std::vector<double> ObstacleRows::numbers(const world::Obstacle& o, const Moment
   if (kind == Kind::shaped || !point_)
     result.insert(result.end(), {found.exponent / 2, 1 / (found.most * found.most)});
   if (moves) result.insert(result.end(), {at.vx, at.vy});
-  if (moves && kind == Kind::shaped) result.insert(result.end(), {at.omega, t});
+  if (moves && kind == Kind::shaped && turns_) result.insert(result.end(), {at.omega, t});
   return result;
 }
 
@@ -129,7 +136,7 @@ std::vector<double> ObstacleRows::nowhere(Kind kind, bool moves) const {
   if (kind == Kind::shaped && !point_) add({0});
   if (kind == Kind::shaped || !point_) add({1, 1});
   if (moves) add({0, 0});
-  if (moves && kind == Kind::shaped) add({0, 0});
+  if (moves && kind == Kind::shaped && turns_) add({0, 0});
   return result;
 }
 

@@ -27,16 +27,16 @@ class ObstacleRows {
   };
   static constexpr Kind kKinds[] = {Kind::round, Kind::shaped};
   static Kind kind_of(const world::Obstacle& obstacle);
-  /// How many there are of each kind.
-  using Counts = std::array<std::size_t, 2>;
+  /// How many there are of each kind, and whether any turns, 1 or 0.
+  using Counts = std::array<std::size_t, 3>;
   static Counts counts(const std::vector<world::Obstacle>& obstacles);
   /// Of a family; names of rows begin with it.
   static const char* name(Kind kind) {
     return kind == Kind::round ? "obstacle" : "shaped obstacle";
   }
 
-  /// Rows are asked for no smaller margin than `least_margin` [m].
-  ObstacleRows(const world::Footprint& footprint, double least_margin);
+  /// Rows are asked for no smaller margin than `least_margin` [m]. Those of what turns cost more.
+  ObstacleRows(const world::Footprint& footprint, double least_margin, bool turns);
 
   /// The symbols of a row: those of a place first, then of what moves from there.
   std::vector<ocp::Expr> symbols(Kind kind, bool moves) const;
@@ -70,7 +70,7 @@ class ObstacleRows {
   ocp::Expr to_shape(const ocp::Expr& dx, const ocp::Expr& dy, const ocp::Expr& psi,
                      const ocp::Expr& margin, const std::optional<ocp::Expr>& t) const;
 
-  bool point_;
+  bool point_, turns_;
   HalfSides vehicle_;
   double middle_ = 0;  ///< of the vehicle's rectangle ahead of the front axle [m]
   double least_margin_;

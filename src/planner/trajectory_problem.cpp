@@ -56,7 +56,8 @@ TrajectoryProblem::TrajectoryProblem(const Task& task,
       goal_(task.goal),
       goal_in_range_(goal_in_range),
       map_(task.vehicle, task.planner.model),
-      rows_(world::Footprint(vehicle_), std::min(settings_.sm_start, settings_.sm_end)),
+      rows_(world::Footprint(vehicle_), std::min(settings_.sm_start, settings_.sm_end),
+            ObstacleRows::counts(obstacles)[2] > 0),
       problem_("trajectory") {
   const Model& model = map_.model();
   add_variables(model, task.region);

@@ -35,7 +35,7 @@ class TrajectoryProblem {
   TrajectoryProblem(const Task& task, const std::vector<world::Obstacle>& obstacles,
                     bool goal_in_range);
 
-  /// Puts others, as many of each kind, in the place of those the problem has. What varies has the
+  /// Puts others, of the same counts, in the place of those the problem has. What varies has the
   /// numbers of obstacle_times(); of one time for all it is held as it is then.
   void set_obstacles(const std::vector<world::Obstacle>& obstacles,
                      const std::vector<double>& times);

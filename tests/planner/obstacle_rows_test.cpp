@@ -50,7 +50,7 @@ struct Rows {
   const ObstacleRows rows;
 
   explicit Rows(vehicle::FootprintKind kind, double least_margin = 0.3)
-      : footprint(planner::footprint(kind)), rows(footprint, least_margin) {}
+      : footprint(planner::footprint(kind)), rows(footprint, least_margin, true) {}
 
   double operator()(const Obstacle& o, const vehicle::State& at, double t, double margin,
                     const ObstacleRows::Moment& moment) const {
@@ -167,7 +167,8 @@ TEST(ObstacleRows, StandInsAreNoMoreThanTheyNeedBe) {
   EXPECT_EQ(of(point, box(8.5, 8.5)).size(), 2u);
   EXPECT_EQ(of(car, box(20, 1.8)).size(), 1u);
   EXPECT_EQ(ObstacleRows::counts(stand_ins({}, car, {ellipse, box(0.5, 0.5), box(9, 2)})),
-            (ObstacleRows::Counts{1, 2}));
+            (ObstacleRows::Counts{1, 2, 0}));
+  EXPECT_EQ(ObstacleRows::counts({by_table(box(9, 2))}), (ObstacleRows::Counts{0, 1, 1}));
 }
 
 }  // namespace
