@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "separation.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/world/obstacle.hpp"
-#include "separation.hpp"
 #include "smooth_box.hpp"
 
 namespace slalom::bench {
@@ -351,7 +351,7 @@ class Duals final : public ShapeRows {
 const std::vector<std::string>& shape_forms() {
   static const std::vector<std::string> forms = {
       "discs-0.4",      "discs-0.2",       "discs-0.1", "discs-0.05", "superellipse-4",
-      "superellipse-8", "superellipse-16", "axes", "line", "dual"};
+      "superellipse-8", "superellipse-16", "axes",      "line",       "dual"};
   return forms;
 }
 

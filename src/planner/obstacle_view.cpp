@@ -28,7 +28,8 @@ constexpr int kMostParts = 6;
 /// Into how many a rectangle is cut: parts about half as long as wide.
 int parts_of(const Obstacle& rectangle) {
   const HalfSides half = half_sides(rectangle);
-  const double longer = std::max(half.length, half.width), shorter = std::min(half.length, half.width);
+  const double longer = std::max(half.length, half.width),
+               shorter = std::min(half.length, half.width);
   return std::clamp(static_cast<int>(std::lround(2 * longer / shorter)), 1, kMostParts);
 }
 
@@ -72,9 +73,8 @@ std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint
     auto whole = world::covering_rectangles(o);
     auto discs = world::covering_discs(whole.front(), settings.cover_excess);
     if (discs.size() > 1)
-      discs = footprint.is_point()
-                  ? world::covering_rectangles(o, parts_of(whole.front()))
-                  : std::move(whole);
+      discs = footprint.is_point() ? world::covering_rectangles(o, parts_of(whole.front()))
+                                   : std::move(whole);
     std::move(discs.begin(), discs.end(), std::back_inserter(result));
   }
   return result;

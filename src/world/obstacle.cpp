@@ -173,8 +173,8 @@ std::vector<Obstacle> covering_rectangles(const Obstacle& obstacle, int parts) {
   const auto outline = std::make_shared<Polygon>(Polygon::rectangle(size.x, size.y));
   std::vector<Obstacle> result;
   for (int k = 0; k < parts; ++k) {
-    auto& part = result.emplace_back(
-        moved_to(obstacle, extent.middle() + across * (k - 0.5 * (parts - 1))));
+    auto& part =
+        result.emplace_back(moved_to(obstacle, extent.middle() + across * (k - 0.5 * (parts - 1))));
     part.outline = outline;
     part.a = part.b = outline->reach();
   }

@@ -83,7 +83,8 @@ std::vector<Obstacle> bodies(const Footprint& footprint) {
   rock.a = rock.b = rock.outline->reach();
   Obstacle grown = box(3, 2).grown(0.4);
   return stand_ins({}, footprint,
-                   {box(12, 1.8), box(4.5, 1.8),
+                   {box(12, 1.8),
+                    box(4.5, 1.8),
                     box(0.4, 0.4),
                     egg,
                     rock,
