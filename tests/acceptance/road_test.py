@@ -119,9 +119,7 @@ class Road(unittest.TestCase):
     def test_a_body_drives_through_a_gap_little_wider_than_its_margins(self):
         """Two lorries side by side: .35 m beside a body that keeps .3 m at the nodes of its plans."""
         with scratch() as folder:
-            file = folder / "gap.yaml"
-            file.write_text(GAP)
-            drive = simulate_all(folder, {"gap": (str(file), *UNTIMED)})["gap"]
+            drive = self.drives(folder, {"gap": (GAP,)})["gap"]
             self.assertEqual(drive.outcome, "goal", drive.ended())
             self.assertGreater(drive.summary["least_clearance_m"], 0.3)
 
