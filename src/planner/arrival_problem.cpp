@@ -151,7 +151,7 @@ void ArrivalProblem::add_obstacles() {
     auto symbols = rows_.symbols(kind, true);
     symbols.push_back(share);
     close_rows_[of] =
-        problem_.path_family(std::string("close ") + ObstacleRows::name(kind), std::move(symbols),
+        problem_.path_family(std::string("close ") + ObstacleRows::name(kind), symbols,
                              rows_.outside(kind, dx, dy, X_[PSI] + after * rate_[PSI], 0, t),
                              Bounds::at_least(0), Points::after_first);
   }

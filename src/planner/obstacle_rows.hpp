@@ -20,7 +20,7 @@ HalfSides half_sides(const world::Obstacle& obstacle);
 /// a body, of which circles are places with a margin.
 class ObstacleRows {
  public:
-  /// What of the row's numbers differ in kind; each kind is a family.
+  /// Each kind is a family of rows.
   enum class Kind {
     round,  ///< plain ellipses; of a body circles alone
     shaped  ///< rectangles; of a point turned ellipses too
@@ -74,8 +74,9 @@ class ObstacleRows {
   HalfSides vehicle_;
   double middle_ = 0;  ///< of the vehicle's rectangle ahead of the front axle [m]
   double least_margin_;
+  /// a, b: what shares are of along and across, margins in them; of two rectangles theirs alone.
   ocp::Expr xo_, yo_, a_, b_, vx_, vy_;
-  ocp::Expr grown_, co_, so_, omega_, at_;  ///< at: when the direction is that of co and so
+  ocp::Expr grown_, co_, so_, omega_, at_;  ///< margins; direction, at the time `at`; turn rate
   ocp::Expr half_, share_;                  ///< p/2, and 1/most^2
 };
 

@@ -11,6 +11,7 @@
 #include "between_nodes.hpp"
 #include "free_way.hpp"
 #include "obstacle_choice.hpp"
+#include "obstacle_view.hpp"
 #include "solving.hpp"
 
 namespace slalom::planner {
