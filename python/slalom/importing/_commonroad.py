@@ -34,6 +34,8 @@ BESIDE_IT = 10.0
 """What it costs to start in a lane that is beside the vehicle's middle, for each metre."""
 BENDS = 0.3
 """How much of the road is kept beside the body in bends [m]: a driven way is off its line."""
+NARROWER = 0.15
+"""By how much a road may be narrower than its lanes anyway [m], since it is as wide as they are all around."""
 TURNS = 2.0
 """The same of a lane's turn ahead, where several lie under a vehicle without a goal of place."""
 
@@ -177,7 +179,7 @@ class _Way:
         lanes = [lane.polygon.buffer(0.05) for lane in self.lanes.values() if lane.for_cars()]
         held, _ = holding(road, bodies, shapely.union_all([*lanes, road.area]).buffer(-0.05), BENDS)
         added = float(np.max([held.left - road.left, held.right - road.right]))
-        if added > 0.05:
+        if added > NARROWER:
             self.notes.append(f"road: up to {added:.2f} m wider in bends, over other lanes, for the vehicle's body")
         return held
 
