@@ -15,7 +15,8 @@ namespace slalom::world {
 
 /// The search for speeds along a path: A* (P. Hart, N. Nilsson and B. Raphael, IEEE Trans. Systems
 /// Science and Cybernetics 4(2), 1968) over place, speed and time. A move comes to one acceleration
-/// by the jerk that the vehicle can, and holds it for a step of time; of the places in a cell the first alone is gone on from.
+/// by the jerk that the vehicle can, and holds it for a step of time; of the places in a cell the
+/// first alone is gone on from.
 class PathSpeeds {
  public:
   /// What is looked for.
