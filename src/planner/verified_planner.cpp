@@ -232,15 +232,6 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   return driven_on(std::move(rest), t0 + cycle.beyond());
 }
 
-/// A motion, and on from its end until then at no acceleration and no steering rate.
-Motion VerifiedPlanner::driven_on(Motion motion, double until) const {
-  while (motion.end() < until) {
-    const double next = motion.end() + Tracker::kStep;
-    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
-  }
-  return motion;
-}
-
 /// Notes how far the vehicle and the obstacles are from where they were believed to be.
 void VerifiedPlanner::note_error(const Cycle& cycle, double state_error) {
   const double t0 = cycle.t_start();

@@ -37,6 +37,15 @@ constexpr int kStopPlaces = 4000, kStopWays = 4;
 
 }  // namespace
 
+/// A motion, and on from its end until then at no acceleration and no steering rate.
+Motion VerifiedPlanner::driven_on(Motion motion, double until) const {
+  while (motion.end() < until) {
+    const double next = motion.end() + Tracker::kStep;
+    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
+  }
+  return motion;
+}
+
 /// Comes to a creep at no acceleration and no steering rate, and creeps on until then.
 Motion VerifiedPlanner::settled(Motion motion, double until) const {
   if (motion.size() < 3) {  // it creeps already

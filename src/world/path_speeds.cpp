@@ -336,15 +336,6 @@ bool PathSpeeds::drives(std::size_t at, double v, double a, std::int32_t look, d
   return std::hypot(question_->search.limits * along, lateral) <= question_->search.limits;
 }
 
-State PathSpeeds::state_of(const PathPlace& place, double v) {
-  State x{};
-  x[vehicle::X] = place.x;
-  x[vehicle::Y] = place.y;
-  x[vehicle::PSI] = place.psi;
-  x[vehicle::UX] = v;
-  return x;
-}
-
 /// Brakes on for one look.
 void PathSpeeds::brake(Place& place) const {
   place.towards = std::max(kBeyond * hardest(place.v), settle(place.v));
