@@ -1,6 +1,6 @@
 # One word for each thing to do; `make help` lists them. CMake does the work underneath.
 .DEFAULT_GOAL := help
-.PHONY: help run quick test threads fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves shape-forms verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile growth docs-measured wheel wheel-elsewhere package docs sweep-scale kills laps commonroad format clean build
+.PHONY: help run quick test sanitize fuzz tidy problems bench reproduce study results robustness realtime obstacle-choice model-choice sensitivity random-scenarios paper-sweep latency peers long-solves shape-forms verdicts perturbed verified-planner ablation belief-errors any-scenario solver-profile growth docs-measured wheel wheel-elsewhere package docs sweep-scale kills laps commonroad format clean build
 
 JOBS := $(shell nproc 2>/dev/null || echo 2)
 
@@ -26,12 +26,15 @@ run: ## set up, build, and drive the paper's environments E_B and E_C into run/
 quick: ## build and run the unit tests of what changed, with format and layers
 	tools/quick.py
 
-test: ## set up, build, and run every test and check, with sanitizers too
+test: ## set up, build, and run every test and check
 	tools/setup.sh test
 	tools/run_tests.sh
 
-threads: ## the unit tests of threads with the thread sanitizer, which needs a build of its own
+sanitize: ## the unit tests with address and undefined-behaviour sanitizers, and those of threads with the thread sanitizer
 	tools/setup.sh test
+	cmake --preset asan -DSLALOM_TESTS=ON
+	cmake --build --preset asan -j $(JOBS)
+	ctest --preset asan -j $(JOBS)
 	cmake --preset tsan -DSLALOM_TESTS=ON
 	cmake --build --preset tsan -j $(JOBS)
 	ctest --preset tsan -j $(JOBS)

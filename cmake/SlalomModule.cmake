@@ -131,14 +131,12 @@ function(slalom_library)
 endfunction()
 
 # slalom_test_module(NAME [LIBRARIES ...]): GoogleTest programs of tests/NAME.
-#   *_test.cpp       test_NAME, label `unit`: run with sanitizers, and in other builds but for SANITIZED
+#   *_test.cpp       test_NAME, label `unit`: run with sanitizers too
 #   *_slow_test.cpp  test_NAME_slow, label `slow`: whole drives and the like, run in Release only
 #   */*.cpp          a library for both, such as a collection of problems
-# LIBRARIES are what these need besides the module itself. With SANITIZED, the unit tests are run with
-# sanitizers alone: for modules of which no test depends on how well the code is optimised. Their
-# program can be built everywhere, and is by `make quick`.
+# LIBRARIES are what these need besides the module itself.
 function(slalom_test_module name)
-  cmake_parse_arguments(ARG "SANITIZED" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
   set(libraries slalom_${name} ${ARG_LIBRARIES})
   file(GLOB support CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${name}/*/*.cpp)
   if(support)
@@ -153,16 +151,14 @@ function(slalom_test_module name)
   set(slow_sources ${sources})
   list(FILTER slow_sources INCLUDE REGEX "_slow_test\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_slow_test\\.cpp$")
-  if(ARG_SANITIZED AND NOT SLALOM_SANITIZE)
-    slalom_test_executable(test_${name} "${libraries}" ${sources})
-  else()
-    slalom_test_program(test_${name} "${libraries}" unit ${sources})
-  endif()
+  slalom_test_program(test_${name} "${libraries}" unit ${sources})
   slalom_test_program(test_${name}_slow "${libraries}" slow ${slow_sources})
 endfunction()
 
-# The program alone, which nothing builds or runs by itself.
-function(slalom_test_executable target libraries)
+function(slalom_test_program target libraries label)
+  if(NOT ARGN)
+    return()
+  endif()
   add_executable(${target} EXCLUDE_FROM_ALL ${ARGN})
   slalom_batches(${target})
   target_link_libraries(${target} PRIVATE ${libraries} GTest::gtest GTest::gtest_main)
@@ -170,13 +166,6 @@ function(slalom_test_executable target libraries)
   target_compile_definitions(${target} PRIVATE SLALOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_compile_options(${target} PRIVATE ${SLALOM_SELDOM_RUN})
   slalom_precompile(${target} test_support <gtest/gtest.h>)
-endfunction()
-
-function(slalom_test_program target libraries label)
-  if(NOT ARGN)
-    return()
-  endif()
-  slalom_test_executable(${target} "${libraries}" ${ARGN})
   add_dependencies(${label}_tests ${target})
   if(SLALOM_SANITIZE)
     # Whole, for with sanitizers the start of a program takes longer than most tests.

@@ -3,7 +3,7 @@
 
 A module's tests are those of tests/X and those of the modules that name X as a dependency in
 CMakeLists.txt. Changed is what differs from the commit BASE (default: HEAD), and what git does not
-know yet. A change of the build itself runs every unit test. No sanitizers: `make test` has them.
+know yet. A change of the build itself runs every unit test. No sanitizers: `make sanitize` has them.
 
 usage: quick.py [BASE]
 """

@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Builds and runs every test: the unit tests with sanitizers, then the release build with all checks.
-# Goes on after a failure, sums up what failed and how long each part took, and fails if anything did.
+# Builds and runs every test and check of the release build. Goes on after a failure, sums up what failed and how long each part took, and fails if anything did.
 # A build that fails counts as one failure.
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -31,13 +30,13 @@ timed() {
   return "$code"
 }
 
-run_ctest() { # PRESET TITLE JOBS
-  local file=$PWD/build/tests-$1.xml tests bad out
+run_ctest() { # TITLE JOBS
+  local file=$PWD/build/tests.xml tests bad out
   rm -f "$file"
-  timed "$2" ctest --preset "$1" -j "$3" --output-junit "$file"
+  timed "$1" ctest --preset release -j "$2" --output-junit "$file"
   local code=$?
   if [ ! -f "$file" ]; then
-    note_failure "$2: ctest did not run"
+    note_failure "$1: ctest did not run"
     return
   fi
   tests=$(count "$file" tests)
@@ -47,9 +46,9 @@ run_ctest() { # PRESET TITLE JOBS
   skipped=$((skipped + out))
   if [ "$bad" -gt 0 ]; then
     failed=$((failed + bad))
-    failures+=("$2: $bad of $tests")
+    failures+=("$1: $bad of $tests")
   elif [ "$code" -ne 0 ]; then
-    note_failure "$2: ctest ended with $code"
+    note_failure "$1: ctest ended with $code"
   fi
 }
 
@@ -59,29 +58,13 @@ step() { # TITLE COMMAND...
   return 1
 }
 
-configure() { # both at once: each by itself keeps less than one processor busy
-  local preset pids=() code=0
-  for preset in asan release; do
-    cmake --preset "$preset" -DSLALOM_TESTS=ON >"$logs/$preset" 2>&1 &
-    pids+=($!)
-  done
-  for pid in "${pids[@]}"; do wait "$pid" || code=1; done
-  cat "$logs"/{asan,release}
-  return $code
-}
-build() { cmake --build --preset "$1" -j "$jobs"; }
-
 mkdir -p build
-logs=$(mktemp -d)
-notes=$logs/notes
-trap 'rm -rf "$logs"' EXIT
+notes=$(mktemp)
+trap 'rm -f "$notes"' EXIT
 start=$SECONDS
-step "configure" configure
-if step "build with sanitizers" build asan; then run_ctest asan "unit tests with sanitizers" "$jobs"; fi
-# One more than there are processors: the wheel's and the command line's tests wait now and then.
-if step "release build" build release; then
-  run_ctest release "tests and checks of the release build" $((jobs + 1))
-fi
+step "configure" cmake --preset release -DSLALOM_TESTS=ON
+# One more job than there are processors: the wheel's and the command line's tests wait now and then.
+if step "build" cmake --build --preset release -j "$jobs"; then run_ctest "tests and checks" $((jobs + 1)); fi
 
 echo
 printf '%s\n' "${parts[@]}"

@@ -98,6 +98,30 @@ def test_a_change_of_lanes_where_there_is_one_beside(tmp_path):
     assert np.all(y[before] + left[before] < 2.05) and np.all(y - right > -2.05)
 
 
+def test_a_bend_that_the_body_does_not_fit_in(tmp_path):
+    """A lane 2.5 m wide turns left with a radius of 5 m: the road takes of other lanes what the body needs there."""
+    angles = np.linspace(0, np.pi / 2, 9)
+    middle = np.vstack([np.column_stack([np.linspace(0, 60, 16), np.zeros(16)]),
+                        np.column_stack([60 + 5 * np.sin(angles), 5 - 5 * np.cos(angles)])[1:],
+                        np.column_stack([np.full(20, 65.0), np.linspace(8, 100, 20)])])
+    psi = np.arctan2(*np.gradient(middle, axis=0).T[::-1])
+    aside = 1.25 * np.column_stack([-np.sin(psi), np.cos(psi)])
+    bend = scenes.lanelet(1, middle + aside, middle - aside)
+    others = scenes.lanelet(2, [(40, 1.25), (63.75, 1.25)], [(40, -3), (63.75, -3)]) + scenes.lanelet(3, [(63.75, -3), (63.75, 40)], [(69, -3), (69, 40)])
+    goal = scenes.GOAL.replace("<x>150</x><y>4</y>", "<x>65</x><y>60</y>").replace("<orientation>0<", "<orientation>1.5708<")
+    goal = goal.replace("-0.2<", "1.3<").replace(">0.3</intervalEnd>", ">1.8</intervalEnd>")
+    given = {"goal": goal, "start": start(speed=5), "parked": (20, 30)}
+    alone, among = (scene_of(tmp_path, lanes=lanes, **given) for lanes in (bend, bend + others))
+    assert not any("in bends" in note for note in alone.notes) and any("in bends" in note for note in among.notes)
+
+    def widths(scene):
+        x, y, right, left = np.array(scene.points).T
+        return right[np.hypot(x - 65, y) < 5].max(), right[x < 45].max(), left.max()
+
+    assert widths(alone)[0] < 1.45 and widths(among)[0] > 1.6
+    assert widths(among)[1] < 1.45 and widths(among)[2] < 1.45  # as before where it is straight, and inside, beside no lane
+
+
 def test_a_goal_at_the_end_of_the_map(tmp_path):
     goal = (scenes.GOAL.replace("<length>10</length>", "<length>2</length>").replace("<x>150</x>", "<x>200</x>"))
     scene = scene_of(tmp_path, goal=goal)

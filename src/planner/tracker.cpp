@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "../base/lu.hpp"
 
 namespace slalom::planner {
 namespace {
 
 using namespace vehicle;
-using Square = std::array<State, kStates>;
+using Square = slalom::Square<kStates>;
 constexpr std::size_t kInputs = std::size_t{kStates} + std::size_t{kControls};
 
 /// Share of the controls' limits that tracking uses.
@@ -47,31 +48,6 @@ Square state_weight(const State& x, bool body) {
   return Q;
 }
 
-/// Solves M X = rhs in place by Gaussian elimination with pivoting; the answer is in `rhs`, whose
-/// rows may be longer than M's.
-template <std::size_t Columns>
-void solve(Square& M, std::array<std::array<double, Columns>, kStates>& rhs) {
-  for (std::size_t k = 0; k < kStates; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < kStates; ++i)
-      if (std::fabs(M[i][k]) > std::fabs(M[pivot][k])) pivot = i;
-    std::swap(M[k], M[pivot]);
-    std::swap(rhs[k], rhs[pivot]);
-    for (std::size_t i = k + 1; i < kStates; ++i) {
-      const double factor = M[i][k] / M[k][k];
-      if (factor == 0) continue;
-      for (std::size_t j = k; j < kStates; ++j) M[i][j] -= factor * M[k][j];
-      for (std::size_t j = 0; j < Columns; ++j) rhs[i][j] -= factor * rhs[k][j];
-    }
-  }
-  for (std::size_t k = kStates; k-- > 0;)
-    for (std::size_t j = 0; j < Columns; ++j) {
-      double value = rhs[k][j];
-      for (std::size_t i = k + 1; i < kStates; ++i) value -= M[k][i] * rhs[i][j];
-      rhs[k][j] = value / M[k][k];
-    }
-}
-
 Square product(const Square& a, const Square& b) {
   Square result{};
   for (std::size_t i = 0; i < kStates; ++i)
@@ -98,7 +74,7 @@ void discretise(double h, Square& A, std::array<Control, kStates>& B, State& f) 
         right[i][kStates + c] += h * (one - h / 6 * A[i][j]) * B[j][c];
       right[i][kInputs] += h * (one - h / 6 * A[i][j]) * f[j];
     }
-  solve(left, right);
+  Lu<kStates>(left).solve(right);
   for (std::size_t i = 0; i < kStates; ++i) {
     for (std::size_t j = 0; j < kStates; ++j) A[i][j] = right[i][j];
     for (std::size_t c = 0; c < kControls; ++c) B[i][c] = right[i][kStates + c];

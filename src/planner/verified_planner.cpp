@@ -23,6 +23,9 @@ constexpr double kLongestWaits = 8;
 constexpr double kTurn = 10'000;
 /// Errors of belief are remembered for so long [s].
 constexpr double kRemembered = 5;
+/// Where nothing is good, the search for ways to the goal has this share of the time that is left
+/// before stops elsewhere are tried, for those take longer than a short cycle.
+constexpr double kBeforeMoreStops = 0.6;
 /// Standing costs so much more than arriving, and each metre to the goal this; not the time at
 /// which the vehicle stands, for the later it brakes the better.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
@@ -93,9 +96,13 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
   if (task_.planner.fallback) {
     continue_last(cycle);
     follow_course(cycle);
-    if (cycle.good.empty() && !(cycle.rest && cycle.trusts(*cycle.rest))) stop(cycle);
+    if (cycle.good.empty() && !(cycle.rest && cycle.trusts(*cycle.rest)) && !stop(cycle) &&
+        task_.road) {
+      look_further(cycle, kBeforeMoreStops);
+      if (cycle.good.empty()) stop_elsewhere(cycle);
+    }
   }
-  look_further(cycle);
+  look_further(cycle, 1);
   return choose(cycle);
 }
 
@@ -225,15 +232,6 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   return driven_on(std::move(rest), t0 + cycle.beyond());
 }
 
-/// A motion, and on from its end until then at no acceleration and no steering rate.
-Motion VerifiedPlanner::driven_on(Motion motion, double until) const {
-  while (motion.end() < until) {
-    const double next = motion.end() + Tracker::kStep;
-    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
-  }
-  return motion;
-}
-
 /// Notes how far the vehicle and the obstacles are from where they were believed to be.
 void VerifiedPlanner::note_error(const Cycle& cycle, double state_error) {
   const double t0 = cycle.t_start();
@@ -292,8 +290,8 @@ void VerifiedPlanner::ask(Cycle& cycle) {
 }
 
 /// Looks for what is better. As long as something leads to the goal, so much is done in a cycle;
-/// else all there is time for.
-void VerifiedPlanner::look_further(Cycle& cycle) {
+/// else all there is time for in a share of what is left of the cycle.
+void VerifiedPlanner::look_further(Cycle& cycle, double share) {
   Turns& turns = proposals_.turns();
   const bool leads = cycle.leads();
   if (!leads && asked_while_leading_) turns.cancel();
@@ -302,9 +300,12 @@ void VerifiedPlanner::look_further(Cycle& cycle) {
   double work = leads && !cycle.request.warm_up
                     ? Proposals::kPlacesPerSecond * cycle.for_better(task_.planner.improvement_time)
                     : std::numeric_limits<double>::infinity();
-  while (turns.under_way() && work > 0 && !cycle.over()) {
+  const auto others = [share](double left) { return std::isinf(left) ? 0 : (1 - share) * left; };
+  const double cpu = others(cycle.left()), clock = others(cycle.clock_left());
+  while (turns.under_way() && work > 0 && !cycle.over() && cycle.left() > cpu &&
+         cycle.clock_left() > clock) {
     const double turn = std::min(work, kTurn);
-    turns.go_on({turn, cycle.left(), cycle.clock_left()});
+    turns.go_on({turn, cycle.left() - cpu, cycle.clock_left() - clock});
     work -= turn;
     cycle.beside_s = turns.cpu_s() - before;
     cycle.iterations += proposals_.take_iterations();

@@ -119,11 +119,12 @@ class VerifiedPlanner final : public PlanningMethod {
   void continue_last(Cycle& cycle);
   Motion rest_of_last(Cycle& cycle);
   Motion driven_on(Motion motion, double until) const;
-  void look_further(Cycle& cycle);
+  void look_further(Cycle& cycle, double share);
   bool due(const Cycle& cycle) const;
   void ask(Cycle& cycle);
   void adopt(Cycle& cycle, const Proposal& proposal);
-  void stop(Cycle& cycle);
+  bool stop(Cycle& cycle);
+  void stop_elsewhere(Cycle& cycle);
   bool stop_aside(Cycle& cycle);
   bool stop_in_time(Cycle& cycle);
   bool stop_on(Cycle& cycle, const world::RoadWay& found);

@@ -37,6 +37,15 @@ constexpr int kStopPlaces = 4000, kStopWays = 4;
 
 }  // namespace
 
+/// A motion, and on from its end until then at no acceleration and no steering rate.
+Motion VerifiedPlanner::driven_on(Motion motion, double until) const {
+  while (motion.end() < until) {
+    const double next = motion.end() + Tracker::kStep;
+    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
+  }
+  return motion;
+}
+
 /// Comes to a creep at no acceleration and no steering rate, and creeps on until then.
 Motion VerifiedPlanner::settled(Motion motion, double until) const {
   if (motion.size() < 3) {  // it creeps already
@@ -119,13 +128,13 @@ void VerifiedPlanner::follow_course(Cycle& cycle) {
 }
 
 /// Stops along the rest, late or at once; along the road, or straight on and after swerves where
-/// there is none: the first that is good.
-void VerifiedPlanner::stop(Cycle& cycle) {
+/// there is none: the first that is good. Whether one is.
+bool VerifiedPlanner::stop(Cycle& cycle) {
   const State& X0p = cycle.request.X0p;
   const double t0 = cycle.t_start();
   std::vector<Stop> stops;
   if (cycle.rest && cycle.rest->motion().size() > 3) {
-    if (stop_late(cycle, cycle.rest->proposal)) return;
+    if (stop_late(cycle, cycle.rest->proposal)) return true;
     stops.push_back({"stop along the rest", {}, cycle.rest->motion()});
   }
   const double can = agility(task_.vehicle).braking;
@@ -145,8 +154,13 @@ void VerifiedPlanner::stop(Cycle& cycle) {
   }
   for (const Stop& stop : stops)
     for (const double deceleration : kStops)
-      if (stop_along(cycle, stop, can * deceleration, {})) return;
-  if (task_.road && !stop_aside(cycle) && !stop_in_time(cycle)) escape(cycle);
+      if (stop_along(cycle, stop, can * deceleration, {})) return true;
+  return false;
+}
+
+/// Stops beside the way or later, where there is a road.
+void VerifiedPlanner::stop_elsewhere(Cycle& cycle) {
+  if (!stop_aside(cycle) && !stop_in_time(cycle)) escape(cycle);
 }
 
 /// Moves over on the road and brakes hard: where something cuts in, there may be room beside it and

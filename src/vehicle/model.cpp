@@ -259,6 +259,22 @@ State Dynamics::derivative(const State& state, const Control& control) const {
   return result;
 }
 
+std::array<State, kStates> Dynamics::jacobian(const State& state, const Control& control) const {
+  constexpr std::size_t kInputs = std::size_t{kStates} + std::size_t{kControls};
+  std::array<double, kInputs> inputs;
+  for (std::size_t i = 0; i < kStates; ++i) inputs[i] = state[i];
+  for (std::size_t i = 0; i < kControls; ++i) inputs[kStates + i] = control[i];
+  State values;
+  std::array<double, kStates * kInputs> entries;
+  const auto& pattern = derivative_.jacobian_pattern();
+  derivative_.evaluate(1, inputs, {}, {}, {.jacobian = true}, values,
+                       std::span(entries).first(pattern.size()), {});
+  std::array<State, kStates> result{};
+  for (std::size_t e = 0; e < pattern.size(); ++e)
+    if (pattern[e].col < kStates) result[pattern[e].row][pattern[e].col] = entries[e];
+  return result;
+}
+
 WheelLoads Dynamics::wheel_loads(const State& state) const {
   WheelLoads result;
   loads_(state, {}, result);

@@ -10,6 +10,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 
+#include "../base/extrapolated_euler.hpp"
 #include "../base/integrate.hpp"
 
 namespace slalom::vehicle {
@@ -23,6 +24,28 @@ constexpr double kSameInstant = 1e-7;
 using Method = odeint::runge_kutta_fehlberg78<State>;
 /// Copied for every integration; static, so that its scratch arrays start as zeros.
 const Method kMethod;
+/// Slower than this the tyres' lateral response, at a rate of about C / (m ux), is stiff [m/s].
+constexpr double kStiff = 1;
+
+/// x' while the control goes linearly from one to another over a length of time, from t = 0 on.
+struct Driven {
+  const Dynamics& dynamics;
+  const Control &first, &last;
+  double length;
+
+  Control control(double t) const {
+    Control result;
+    for (std::size_t i = 0; i < kControls; ++i)
+      result[i] = first[i] + (last[i] - first[i]) * (t / length);
+    return result;
+  }
+  void operator()(const State& x, State& dxdt, double t) const {
+    dxdt = dynamics.derivative(x, control(t));
+  }
+  Square<kStates> jacobian(const State& x, double t) const {
+    return dynamics.jacobian(x, control(t));
+  }
+};
 
 }  // namespace
 
@@ -37,17 +60,15 @@ State Plant::advance(const State& state, const Control& first, const Control& la
                      double t1) const {
   const double length = t1 - t0;
   if (!(length > 0)) return state;
-  const auto rhs = [&](const State& x, State& dxdt, double t) {
-    Control control;
-    for (std::size_t i = 0; i < kControls; ++i)
-      control[i] = first[i] + (last[i] - first[i]) * (t / length);
-    dxdt = dynamics_.derivative(x, control);
-  };
-
+  const Driven rhs{dynamics_, first, last, length};
   State x = state;
   x[X] = x[Y] = 0;
   double t = 0;
-  if (integrate(odeint::make_controlled(tolerance_, tolerance_, kMethod), rhs, length, 0, x, t)) {
+  const bool there = state[UX] < kStiff
+                         ? integrate(ExtrapolatedEuler<kStates>(tolerance_), rhs, length, 0, x, t)
+                         : integrate(odeint::make_controlled(tolerance_, tolerance_, kMethod), rhs,
+                                     length, 0, x, t);
+  if (there) {
     x[X] += state[X];
     x[Y] += state[Y];
     return x;

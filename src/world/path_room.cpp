@@ -18,6 +18,15 @@ constexpr double kStandLook = 0.25;
 
 }  // namespace
 
+State PathSpeeds::state_of(const PathPlace& place, double v) {
+  State x{};
+  x[vehicle::X] = place.x;
+  x[vehicle::Y] = place.y;
+  x[vehicle::PSI] = place.psi;
+  x[vehicle::UX] = v;
+  return x;
+}
+
 bool PathSpeeds::is_free(double along, std::int32_t look) {
   const std::size_t at = path_->index(along);
   auto& known = free_[static_cast<std::size_t>(look) * path_->size() + at];

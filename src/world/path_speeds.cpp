@@ -46,6 +46,8 @@ constexpr double kAlong = 0.5, kAcross = 0.15, kTime = 0.15, kOff = 0.25;
 constexpr double kLimitSlack = 1.03, kGreed = 1.3;
 /// The fastest motion is known for so long [s].
 constexpr double kFastest = 60;
+/// Longer than twice as long as at its speed, or than it has to wait, a way is not looked for [s].
+constexpr double kDetour = 10;
 /// As far as possible: so many metres are worth a second.
 constexpr double kProgressSpeed = 10;
 /// Of an angle and of a range of speeds this share is used.
@@ -128,8 +130,9 @@ double PathSpeeds::longest(const Question& question) const {
     return std::min(question.search.t_max, 2 * v / -vehicle_.ax_min_at(v) + 4);
   const Goal& goal = environment_.goal;
   if (goal.kind() == GoalKind::time) return goal.time - question.t_start + kLook;
-  const double latest = goal.t_max - question.t_start;
-  return std::min({question.search.t_max, latest, 2 * question.to_go / std::max(v, 3.) + 10});
+  const double earliest = goal.t_min - question.t_start, latest = goal.t_max - question.t_start;
+  const double enough = std::max(2 * question.to_go / std::max(v, 3.), earliest) + kDetour;
+  return std::min({question.search.t_max, latest, enough});
 }
 
 void PathSpeeds::begin(const RoadPath& path, const Question& question) {
@@ -190,7 +193,7 @@ std::optional<RoadWay> PathSpeeds::run(const RoadPath& path, const Question& que
   const bool to_place = question.aim == Aim::arrive && environment_.goal.kind() != GoalKind::time;
   if (to_place && usable_ < question.to_go) return std::nullopt;
   const State& x = question.start;
-  add({0, std::max(x[vehicle::UX], 0.), x[vehicle::AX], 0, 0, -1});
+  add({.v = std::max(x[vehicle::UX], 0.), .a = x[vehicle::AX]});
   for (int looked = 0; !open_.empty() && looked < question.search.max_places; ++looked) {
     if (looked % RoadWays::kAskedEvery == 0 && question.out_of_budget && question.out_of_budget())
       break;
@@ -233,10 +236,13 @@ double PathSpeeds::rank_of(const Place& place) const {
   }
   const double arrival = t + left_to_goal(place);
   if (arrival >= goal.t_min) return place.cost + t + kGreed * (arrival - t);
-  // In time at the speed that it has; what comes too early has to wait.
-  const double at_speed =
-      std::max(arrival, t + std::max(0., question_->to_go - place.s) / std::max(place.v, 0.3));
-  return place.cost + goal.t_min + 0.2 * std::fabs(goal.t_min - at_speed);
+  // How long before or after its time it is there at the speed that it has; what comes too early
+  // has to wait, and what would be through by then to slow down.
+  const double v = std::max(place.v, 0.3);
+  const double comes = std::max(arrival, t + std::max(0., question_->to_go - place.s) / v);
+  const double goes = t + (question_->to_leave - place.s) / v;
+  const double off = std::max({0., comes - goal.t_min, goal.t_min - goes});
+  return place.cost + goal.t_min + 0.2 * off;
 }
 
 void PathSpeeds::add(const Place& place) {
@@ -284,11 +290,10 @@ bool PathSpeeds::move(Place& place, double a, bool& arrived) {
   const double least = std::min(question_->search.creep, place.v);
   const double most = std::max(vehicle_.ux_max - 1, place.v);
   const bool stops = question_->aim == Aim::stand;
+  const double before = place.a;
   for (int look = 0; look < looks_per_move_ && !arrived; ++look) {
-    const double v = std::clamp(place.v + a * kLook, least, most);
-    place.s += kLook * (place.v + v) / 2;
-    place.v = v;
-    ++place.looks;
+    advance(place, a, least, most);
+    const double v = place.v;
     const std::size_t at = path_->index(place.s);
     if (place.s > usable_ || !drives(at, v, a, place.looks, place.cost) ||
         !is_free(place.s, place.looks))
@@ -296,10 +301,22 @@ bool PathSpeeds::move(Place& place, double a, bool& arrived) {
     arrived = !stops && within_.outside(state_of(path_->at(place.s), v), time_at(place.looks),
                                         environment_.road.get()) <= 0;
   }
-  place.cost += kChange * std::fabs(a - place.a) +
+  place.cost += kChange * std::fabs(a - before) +
                 (stops ? kStopEffort : kEffort) * a * a * kLook * looks_per_move_;
-  place.a = place.v > question_->search.creep ? a : 0;
+  place.towards = a;
+  if (place.v <= question_->search.creep) place.a = 0;
   return !arrived || goes_on(place);
+}
+
+/// Drives a place on for one look, at an acceleration as soon as jerk allows, between two speeds.
+void PathSpeeds::advance(Place& place, double a, double least, double most) const {
+  const double change = kJerk * vehicle_.jx_max * kLook;
+  const double next = std::clamp(a, place.a - change, place.a + change);
+  const double v = std::clamp(place.v + (place.a + next) / 2 * kLook, least, most);
+  place.s += kLook * (place.v + v) / 2;
+  place.v = v;
+  place.a = next;
+  ++place.looks;
 }
 
 /// Whether the vehicle can drive a place of the path at a speed and acceleration, and what that
@@ -319,25 +336,10 @@ bool PathSpeeds::drives(std::size_t at, double v, double a, std::int32_t look, d
   return std::hypot(question_->search.limits * along, lateral) <= question_->search.limits;
 }
 
-State PathSpeeds::state_of(const PathPlace& place, double v) {
-  State x{};
-  x[vehicle::X] = place.x;
-  x[vehicle::Y] = place.y;
-  x[vehicle::PSI] = place.psi;
-  x[vehicle::UX] = v;
-  return x;
-}
-
 /// Brakes on for one look.
 void PathSpeeds::brake(Place& place) const {
-  const double change = kJerk * vehicle_.jx_max * kLook;
-  const double a =
-      std::max(std::max(kBeyond * hardest(place.v), place.a - change), settle(place.v));
-  const double v = std::max(std::min(place.v, question_->search.creep), place.v + a * kLook);
-  place.s += kLook * (place.v + v) / 2;
-  place.v = v;
-  place.a = a;
-  ++place.looks;
+  place.towards = std::max(kBeyond * hardest(place.v), settle(place.v));
+  advance(place, place.towards, std::min(place.v, question_->search.creep), vehicle_.ux_max);
 }
 
 std::int32_t PathSpeeds::looks_beyond() const {
@@ -354,7 +356,6 @@ bool PathSpeeds::goes_on(Place place) {
 }
 
 RoadWay PathSpeeds::way_of(std::int32_t last, bool complete) const {
-  constexpr double kWayStep = 0.05;
   std::vector<Place> chain;
   for (auto k = last; k >= 0; k = places_[static_cast<std::size_t>(k)].parent)
     chain.push_back(places_[static_cast<std::size_t>(k)]);
@@ -375,16 +376,14 @@ RoadWay PathSpeeds::way_of(std::int32_t last, bool complete) const {
   const double most = std::max(vehicle_.ux_max - 1, chain[0].v);
   for (std::size_t k = 1; k < chain.size(); ++k) {
     const Place &from = chain[k - 1], &to = chain[k];
-    const auto parts = static_cast<int>(std::lround((to.looks - from.looks) * kLook / kWayStep));
     const double least = std::min(question_->search.creep, from.v);
-    double s = from.s, v = from.v;
-    // A place that creeps has no acceleration; the move that led to it had.
-    const double a = (to.v - from.v) / (kLook * (to.looks - from.looks));
-    for (int part = 1; part <= parts; ++part) {
-      const double then = std::clamp(v + a * kWayStep, least, most);
-      s += kWayStep * (v + then) / 2;
-      v = then;
-      put(time_at(from.looks) + part * kWayStep, s, v, to.a);
+    for (Place here = from; here.looks < to.looks;) {
+      const Place before = here;
+      advance(here, to.towards, least, most);
+      const double a = (here.v - before.v) / kLook, half = kLook / 2;
+      put(time_at(before.looks) + half, before.s + half * (before.v + a * half / 2),
+          before.v + a * half, a);
+      put(time_at(here.looks), here.s, here.v, here.a);
     }
   }
   return found;

@@ -14,8 +14,9 @@
 namespace slalom::world {
 
 /// The search for speeds along a path: A* (P. Hart, N. Nilsson and B. Raphael, IEEE Trans. Systems
-/// Science and Cybernetics 4(2), 1968) over place, speed and time. A move holds one acceleration
-/// for a step of time; of the places in a cell the first alone is gone on from.
+/// Science and Cybernetics 4(2), 1968) over place, speed and time. A move comes to one acceleration
+/// by the jerk that the vehicle can, and holds it for a step of time; of the places in a cell the
+/// first alone is gone on from.
 class PathSpeeds {
  public:
   /// What is looked for.
@@ -26,7 +27,8 @@ class PathSpeeds {
     double t_start;
     const std::vector<Obstacle>& obstacles;
     RoadWaySearch search;
-    double to_go;  ///< along the path to where the goal begins [m]
+    double to_go;     ///< along the path to where the goal begins [m]
+    double to_leave;  ///< and to where it ends [m]
     const std::function<bool()>& out_of_budget;
   };
 
@@ -36,10 +38,10 @@ class PathSpeeds {
   std::optional<RoadWay> run(const RoadPath& path, const Question& question);
 
  private:
-  /// After so many looks: how far along the path [m], speed, the acceleration that led here, and
-  /// what it cost beside time [s].
+  /// After so many looks: how far along the path [m], speed, acceleration, the one that the move
+  /// here came to, and what it cost beside time [s].
   struct Place {
-    double s = 0, v = 0, a = 0, cost = 0;
+    double s = 0, v = 0, a = 0, towards = 0, cost = 0;
     std::int32_t looks = 0, parent = -1;
   };
   /// What is known of a place at a look.
@@ -64,6 +66,7 @@ class PathSpeeds {
   void add(const Place& place);
   void go_on(std::int32_t from);
   bool move(Place& place, double a, bool& arrived);
+  void advance(Place& place, double a, double least, double most) const;
   bool drives(std::size_t at, double v, double a, std::int32_t look, double& cost) const;
   bool is_free(double along, std::int32_t look);
   double spare_at(const PathPlace& place, double t) const;

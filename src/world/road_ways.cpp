@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "path_speeds.hpp"
@@ -44,9 +45,9 @@ class RoadWays::Impl {
     const Road& road = *environment_.road;
     const OnRoad on = road.project({start[vehicle::X], start[vehicle::Y]});
     const double v = std::max(start[vehicle::UX], 0.);
-    const double to_go = aim == PathSpeeds::Aim::arrive ? goal_ahead(on) : 0;
-    const PathSpeeds::Question question{aim,    start, t_start,      obstacles,
-                                        search, to_go, out_of_budget};
+    const auto [to_go, to_leave] = goal_ahead(aim, on);
+    const PathSpeeds::Question question{aim,    start, t_start,  obstacles,
+                                        search, to_go, to_leave, out_of_budget};
     std::vector<RoadWay> found;
     const auto narrow = narrowings(obstacles, search.clearance + kBeside);
     for (const double offset : offsets(on))
@@ -69,22 +70,17 @@ class RoadWays::Impl {
   }
 
  private:
-  /// From a place on the road along it to where the goal begins [m].
-  double goal_ahead(const OnRoad& on) const {
+  /// From a place on the road along it to where the goal begins and ends [m].
+  std::pair<double, double> goal_ahead(PathSpeeds::Aim aim, const OnRoad& on) const {
+    constexpr double kNowhere = std::numeric_limits<double>::infinity();
     const Road& road = *environment_.road;
     const Goal& goal = environment_.goal;
-    double ahead = 0;
-    if (goal.kind() == GoalKind::line) ahead = goal.s - on.s;
-    if (goal.is_place()) {
-      ahead = road.project({goal.x, goal.y}).s - on.s;
-      const double half = goal_half();
-      if (std::fabs(ahead) <= half) return 0;
-      if (road.closed() && ahead < 0) ahead += road.length();
-      ahead -= half;
-    } else if (road.closed() && ahead < 0) {
-      ahead += road.length();
-    }
-    return std::max(ahead, 0.);
+    const bool line = goal.kind() == GoalKind::line;
+    if (aim == PathSpeeds::Aim::stand || (!line && !goal.is_place())) return {0, kNowhere};
+    const double half = goal_half();
+    double ahead = (line ? goal.s : road.project({goal.x, goal.y}).s) - on.s;
+    if (road.closed() && ahead < -half) ahead += road.length();
+    return {std::max(ahead - half, 0.), line ? kNowhere : ahead + half};
   }
 
   double length_of(PathSpeeds::Aim aim, double v, double t_start, double to_go) const {

@@ -185,13 +185,14 @@ TEST(RoadPlanner, ItStopsWhenWhatComesFromBehindIsGone) {
   task.road = straight_road();
   task.goal = {};
   task.goal.s = 150;
+  task.goal.t_max = 2;  // nothing arrives
   task.goal = world::placed(task.goal, task.road.get());
   task.planner.guidance = false;
   task.vehicle.sr_max_deg = 25;
   task.vehicle.jx_max = 20;
   world::Obstacle chaser{"chaser", 0, 0, 3, 3, 0, 0};
   chaser.trajectory = std::make_shared<world::TableTrajectory>(
-      std::vector<world::TrajectoryRow>{{0, -24, 0, 0}, {4, 30, 0, 0}}, world::BeyondEnd::goes_on,
+      std::vector<world::TrajectoryRow>{{0, -26, 0, 0}, {4, 31, 0, 0}}, world::BeyondEnd::goes_on,
       world::BeyondEnd::absent, "chaser");
   task.obstacles = {chaser};
   const Plan plan = Planner(task).plan(first());

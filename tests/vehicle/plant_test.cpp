@@ -66,6 +66,20 @@ TEST(Plant, AgreesWithAnIndependentIntegrator) {
     EXPECT_NEAR(end[i], expected[i], 1e-8) << kStateNames[i];
 }
 
+/// To a creep and on, where the equations are stiff.
+TEST(Plant, AgreesWithAnIndependentIntegratorAtACreep) {
+  const Plant plant(Parameters{}, 1e-9, .02);
+  const ControlSignal signal({0, .5, 1, 1.5, 2},
+                             {{.02, -1}, {-.02, -.35}, {.01, .35}, {0, 1}, {0, 0}});
+  const State start = {20, 5, 0, .02, 1.5, .03, .95, 0};
+  const State end = plant.predict(start, signal, 0, 2.5);
+  const State expected = testing::integrate_rk4(
+      start, [&](double t) { return signal.at(t); }, {0, .5, 1, 1.5, 2, 2.5}, true, 2e-5);
+  EXPECT_LT(end[UX], .8);
+  for (std::size_t i = 0; i < kStates; ++i)
+    EXPECT_NEAR(end[i], expected[i], 2e-8) << kStateNames[i];
+}
+
 TEST(Plant, OneLongStretchIsAsAccurateAsManyShortOnes) {
   const Plant plant(Parameters{}, 1e-9, .02);
   const State start = {0, 0, .1, .05, 1.5, .03, 17, .2};

@@ -9,12 +9,12 @@
 
 namespace slalom::vehicle::testing {
 
-/// Classical Runge–Kutta of order 4 with steps of at most 1 ms and the reference model: another
-/// method, another step and another implementation of the model than the plant's. `corners`:
-/// start, every kink or jump of the control, end.
+/// Classical Runge–Kutta of order 4 with steps of at most `longest` [s] and the reference model:
+/// another method, another step and another implementation of the model than the plant's.
+/// `corners`: start, every kink or jump of the control, end.
 template <class ControlAt>
 State integrate_rk4(State x, const ControlAt& control_at, const std::vector<double>& corners,
-                    bool asymmetric = true) {
+                    bool asymmetric = true, double longest = 1e-3) {
   const reference::HMMWV model{asymmetric};
   const auto plus = [](const State& a, double h, const State& b) {
     State sum = a;
@@ -23,7 +23,7 @@ State integrate_rk4(State x, const ControlAt& control_at, const std::vector<doub
   };
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
     const double from = corners[k], length = corners[k + 1] - from;
-    const int steps = std::max(1, static_cast<int>(std::ceil(length / 1e-3)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / longest)));
     const double h = length / steps;
     // The control is linear between corners: its values there, from the inside.
     const double edge = std::min(1e-9, length / 4);

@@ -153,6 +153,42 @@ TEST_F(Ways, ComesInItsWindowOfTime) {
   EXPECT_TRUE(to_goal().empty()) << "55 m in 2 s";
 }
 
+// It begins in a long goal whose time comes late: it has to be slow enough not to leave it before.
+TEST_F(Ways, StaysInALongGoalUntilItsTime) {
+  environment.goal = {30, 0, 0};
+  environment.goal.length = 80;
+  environment.goal.width = 2;
+  environment.goal.t_min = 16;
+  environment.goal.t_max = 16.1;
+  Obstacle ahead = test::box(14, 0, 5, 1.8, 0), behind = test::box(-12, 0, 5, 1.8, 0);
+  ahead.vx = behind.vx = 3;
+  const auto ways = to_goal({ahead, behind});
+  ASSERT_FALSE(ways.empty());
+  EXPECT_NEAR(ways[0].end, 16.05, 0.06);
+  for (const auto& at : ways[0].way)
+    if (at.t <= ways[0].end) EXPECT_LT(at.x, 70);
+  EXPECT_GE(std::min(distance(ways[0].way, ahead), distance(ways[0].way, behind)),
+            search.clearance - 0.05);
+}
+
+TEST_F(Ways, ChangesItsAccelerationNoFasterThanTheVehicle) {
+  const Obstacle parked = test::box(40, 0, 5, 4, 0);
+  environment.road = straight(2, 2);
+  start[UX] = 15;
+  const auto stops = to_stand({parked});
+  ASSERT_FALSE(stops.empty());
+  const Way& way = stops[0].way;
+  double hardest = 0;
+  for (std::size_t k = 1; k < way.size() && way[k].v > 1; ++k) {
+    const double dt = way[k].t - way[k - 1].t;
+    const double a = (way[k].v - way[k - 1].v) / dt;
+    // By the jerk from rest on, with the half step over which speeds are differenced.
+    EXPECT_GE(a, -vehicle.jx_max * (way[k].t + 0.05)) << way[k].t;
+    hardest = std::min(hardest, a);
+  }
+  EXPECT_LT(hardest, -4);
+}
+
 // In the middle of the lane the rear wheels would cut the corner.
 TEST_F(Ways, SwingsOutInATightBend) {
   environment.road = corner(1.5);

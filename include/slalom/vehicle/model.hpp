@@ -55,6 +55,8 @@ class Dynamics {
   explicit Dynamics(const Parameters& parameters);
   /// Time derivative of the state [state's units per s]; section 1 of docs/formulation.md.
   State derivative(const State& state, const Control& control) const;
+  /// Its derivatives by the states: row i is that of the i-th state's.
+  std::array<State, kStates> jacobian(const State& state, const Control& control) const;
   /// The same as a function of the states and then the controls, with its derivatives, for many
   /// points at once.
   const expr::Function& derivative_function() const { return derivative_; }

@@ -16,8 +16,9 @@ class PlantError : public Error {
 };
 
 /// The vehicle as driven: the 3DoF model with Pacejka tyres, integrated by an adaptive
-/// Runge–Kutta–Fehlberg method of order 8(7). Prediction is a plant too, of the vehicle believed
-/// in. SI units, state and frame as in vehicle/state.hpp. Thread-safe.
+/// Runge–Kutta–Fehlberg method of order 8(7), and from below 1 m/s, where the tyres make it stiff,
+/// by an extrapolated linearly implicit Euler method of order 7. Prediction is a plant too, of the
+/// vehicle believed in. SI units, state and frame as in vehicle/state.hpp. Thread-safe.
 class Plant {
  public:
   /// Relative and absolute `tolerance` of each step; instants at most `sample_step` [s] apart.

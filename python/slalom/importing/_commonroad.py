@@ -10,13 +10,14 @@ import numpy as np
 import shapely
 
 from . import _goal
+from ._body import in_bends, turning_in
 from ._files import BadFile
 from ._lanes import Lane, Lanes, at_place, near_place, extended, lanes_of, shortest, without_changes
 from ._line import Array, at, lengths, project, without_doubles
 from ._obstacles import Clock, obstacles_of
 from ._road import Road, holding, joined, road_along
 from ._scene import Scene, Vehicle
-from ._start import exact, place_of, start_of, turning_in
+from ._start import exact, place_of, start_of
 from ._xml import open_file
 
 ACCELERATION = 4.0
@@ -31,6 +32,10 @@ TURNED_AWAY = 10.0
 """What it costs to start in a lane of another direction [m/rad]."""
 BESIDE_IT = 10.0
 """What it costs to start in a lane that is beside the vehicle's middle, for each metre."""
+BENDS = 0.3
+"""How much of the road is kept beside the body in bends [m]: a driven way is off its line."""
+NARROWER = 0.15
+"""By how much a road may be narrower than its lanes anyway [m], since it is as wide as they are all around."""
 TURNS = 2.0
 """The same of a lane's turn ahead, where several lie under a vehicle without a goal of place."""
 
@@ -163,7 +168,20 @@ class _Way:
         road = road_along(self.lanes, way, without_doubles(at(line, np.array(inner))), self.oncoming)
         s = project(road.line, self.place)[0]
         end = project(road.line, target)[0] if target is not None else s
-        return self._wide_enough(road.between(s - self.car.length / 2 - BEHIND, end + ahead), target)
+        road = self._holding_bends(road.between(s - self.car.length / 2 - BEHIND, end + ahead))
+        return self._wide_enough(road, target)
+
+    def _holding_bends(self, road: Road) -> Road:
+        """The road so wide that it holds the vehicle's body in bends, as far as there are lanes for cars beside it."""
+        bodies = in_bends(road.line, self.car)
+        if not bodies:
+            return road
+        lanes = [lane.polygon.buffer(0.05) for lane in self.lanes.values() if lane.for_cars()]
+        held, _ = holding(road, bodies, shapely.union_all([*lanes, road.area]).buffer(-0.05), BENDS)
+        added = float(np.max([held.left - road.left, held.right - road.right]))
+        if added > NARROWER:
+            self.notes.append(f"road: up to {added:.2f} m wider in bends, over other lanes, for the vehicle's body")
+        return held
 
     def _from_behind(self, line: Array) -> Array:
         """A line that begins ahead of the vehicle's rear is led on straight to behind it."""

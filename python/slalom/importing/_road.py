@@ -128,27 +128,41 @@ def _joints(row: list[Lane], following: list[Lane]) -> list[Any]:
     return [hull for four in ends if (hull := shapely.MultiPoint(four).convex_hull).area > 1e-3]
 
 
-def holding(road: Road, bodies: list[Any], area: Any = None) -> tuple[Road, float]:
+def holding(road: Road, bodies: list[Any], area: Any = None, beside: float = BESIDE) -> tuple[Road, float]:
     """The road, as much wider as it must be to hold bodies that are partly beside it, and by how much [m]; where an
-    area is given, no wider than that.
+    area is given, no wider than that. `beside` is how much of the road is kept beside them [m].
 
-    Widths change by RETURNING from there on, for the vehicle to come back, and stay within a bend's radius.
+    Widths change by RETURNING from there on, for the vehicle to come back, and stay within a bend's radius. What a
+    side has no room for is added to the other.
     """
     corners = np.vstack([body.exterior.segmentize(FINE_STEP).coords for body in bodies])
     places = np.array([project(road.line, corner)[:2] for corner in corners])
-    away = np.abs(lengths(road.line)[:, None] - places[None, :, 0])
+    along = lengths(road.line)
+    away = np.abs(along[:, None] - places[None, :, 0])
     slope = RETURNING * np.maximum(away - POINT_STEP, 0)
-    psi, bend, widths, most = headings(road.line), curvature(road.line), [], 0.0
+    psi, bend = headings(road.line), curvature(road.line)
     normal = np.column_stack([-np.sin(psi), np.cos(psi)])
-    for width, side, inwards in ((road.right, -1, -bend), (road.left, 1, bend)):
-        needed = np.max(side * places[None, :, 1] + BESIDE - slope, axis=1)
-        if area is not None:
-            needed = np.minimum(needed, ray_lengths(road.line, side * normal, _edges(area)))
-        with np.errstate(divide="ignore"):
-            needed = np.where(inwards > 1e-6, np.minimum(needed, NEAR_RADIUS / inwards), needed)
-        most = max(most, float(np.max(needed - width)))
-        widths.append(np.maximum(width, needed))
-    return replace(road, right=widths[0], left=widths[1]), max(most - BESIDE, 0.0)
+    sides = ((-1, -bend), (1, bend))
+    needed = [np.max(side * places[None, :, 1] + beside - slope, axis=1) for side, _ in sides]
+    room = [_room(road.line, side * normal, inwards, area) for side, inwards in sides]
+    # Where one side has no room for what sticks out there, the body keeps to the other.
+    slope = RETURNING * np.maximum(np.abs(along[:, None] - along[None, :]) - POINT_STEP, 0)
+    lacking = [np.max(np.maximum(n - r, 0)[None, :] - slope, axis=1) for n, r in zip(needed, room)]
+    widths = [road.right, road.left]
+    wider = [
+        np.maximum(width, np.minimum(n + np.maximum(lack, 0), r))
+        for width, n, lack, r in zip(widths, needed, reversed(lacking), room)
+    ]
+    most = max(float(np.max(new - width)) for new, width in zip(wider, widths))
+    return replace(road, right=wider[0], left=wider[1]), max(most - beside, 0.0)
+
+
+def _room(line: Array, normals: Array, inwards: Array, area: Any) -> Array:
+    """How wide a road along a line may be to a side: within an area, if there is one, and within the radius of a bend
+    towards there."""
+    room = np.full(len(line), np.inf) if area is None else ray_lengths(line, normals, _edges(area))
+    with np.errstate(divide="ignore"):
+        return np.where(inwards > 1e-6, np.minimum(room, NEAR_RADIUS / inwards), room)
 
 
 def _line_inside(line: Array, area: Any) -> Array:

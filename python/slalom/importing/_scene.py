@@ -23,10 +23,16 @@ class Vehicle:
     width: float
     la: float
     """From the front axle back to the centre of gravity."""
+    lb: float
+    """From there back to the rear axle."""
     front_overhang: float
     """From the front axle on to the front of the body."""
     ux_min: float
     ux_max: float
+
+    @property
+    def wheelbase(self) -> float:
+        return self.la + self.lb
 
     @property
     def centre(self) -> float:
@@ -38,7 +44,7 @@ class Vehicle:
         """A built-in vehicle or one of a file. Raises InvalidValue for what is none."""
         plain = {"vehicle": name, "start": {"x": 0, "y": 0}, "goal": {"x": 0, "y": 100}}
         scenario = slalom.load_scenario(plain)
-        keys = ("length", "width", "la", "front_overhang", "ux_min", "ux_max")
+        keys = ("length", "width", "la", "lb", "front_overhang", "ux_min", "ux_max")
         return cls(name, *(float(scenario["vehicle." + key]) for key in keys))
 
 

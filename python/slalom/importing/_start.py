@@ -6,20 +6,15 @@ import os
 from typing import Any
 
 import numpy as np
-import shapely
 
 import slalom
 
 from ._files import BadFile
-from ._line import Array, project
+from ._line import Array
 from ._scene import Vehicle
 
 ROLLS_BACK = 0.5
 """Up to which speed backwards [m/s] a vehicle is taken to stand: what a recording takes for that of one that stands."""
-LATERAL, TIGHTEST = 4.0, 1 / 6
-"""With which lateral acceleration [m/s^2], and in how tight a bend [1/m], a vehicle turns into its lane."""
-ALONG, STEP, TURNS_IN_WITHIN = 0.1, 0.5, 20.0
-"""Within which direction [rad] it is in it; how far apart the places on the way are, and how long that is [m]."""
 SOURCES = {
     "ux": "speed",
     "ax": "acceleration",
@@ -75,31 +70,6 @@ def start_of(file: str | os.PathLike[str], state: Any, car: Vehicle, notes: list
     }
     start = _as_the_vehicle_can(car, start, notes)
     return {key: float(value) for key, value in start.items() if value or key in ("x", "y", "psi", "ux")}
-
-
-def body_at(start: dict[str, float], car: Vehicle) -> Any:
-    """The vehicle's rectangle at the start."""
-    along = np.array([np.cos(start["psi"]), np.sin(start["psi"])])
-    across = np.array([-along[1], along[0]]) * car.width / 2
-    front = np.array([start["x"], start["y"]]) + car.front_overhang * along
-    rear = front - car.length * along
-    return shapely.Polygon([front - across, front + across, rear + across, rear - across])
-
-
-def turning_in(start: dict[str, float], car: Vehicle, line: Array) -> list[Any]:
-    """The vehicle's rectangle at the start, and while it turns into the direction of a road's line, half a metre
-    after the other: at the start's speed, with a lateral acceleration of LATERAL at the most."""
-    place, psi = np.array([start["x"], start["y"]]), start["psi"]
-    bodies = [body_at(start, car)]
-    tightest = min(LATERAL / max(start["ux"], 1e-3) ** 2, TIGHTEST)
-    for _ in range(int(TURNS_IN_WITHIN / STEP)):
-        off = float(np.angle(np.exp(1j * (project(line, place)[2] - psi))))
-        if abs(off) < ALONG:
-            break
-        psi += float(np.clip(off, -STEP * tightest, STEP * tightest))
-        place = place + STEP * np.array([np.cos(psi), np.sin(psi)])
-        bodies.append(body_at({"x": float(place[0]), "y": float(place[1]), "psi": psi}, car))
-    return bodies
 
 
 def _as_the_vehicle_can(car: Vehicle, start: dict[str, float], notes: list[str]) -> dict[str, float]:
