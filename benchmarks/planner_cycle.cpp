@@ -14,8 +14,8 @@ using namespace vehicle;
 
 Form::Form(const sim::Scenario& scenario, bool goal_in_range)
     : problem(scenario,
-              planner::covered(scenario.planner, world::Footprint(scenario.vehicle),
-                               scenario.obstacles),
+              planner::stand_ins(scenario.planner, world::Footprint(scenario.vehicle),
+                                 scenario.obstacles),
               goal_in_range),
       transcription(
           [&]() -> const ocp::Problem& {

@@ -39,9 +39,11 @@ single-track model, least time with little of steering rate and acceleration) ke
 
 Forms (`benchmarks/shape_rows.cpp`):
 
-- **discs-E**: circles that cover each rectangle and stick out by E at the most, as many as that takes, and the smooth
-  distance of the vehicle's rectangle: what the planner has ([keeping-off.md](../keeping-off.md)), but for its limit of 16.
+- **discs-E**: circles that cover each rectangle and stick out by E at the most, as many as that takes, and a smooth
+  distance of the vehicle's rectangle (`benchmarks/smooth_box.hpp`).
 - **superellipse-P**: the corners of each of two rectangles stay out of a superellipse of exponent P about the other.
+- **axes**: how far they are apart along the axes of both, in one smooth number: what the planner has
+  ([keeping-off.md](../keeping-off.md)).
 - **line**: a line between vehicle and rectangle at each point; its angle and its offset are variables, and the corners of
   both are on their sides of it.
 - **dual**: the distance by its dual, as in Zhang, Liniger and Borrelli's OBCA: eight variables for each rectangle.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "separation.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/world/obstacle.hpp"
 #include "smooth_box.hpp"
@@ -89,15 +90,14 @@ struct Family {
   }
 };
 
-/// The planner has no more than 16 for each body.
 constexpr int kNoMost = 10000;
 
-/// As the planner has them: circles that cover a body (world::covering_discs), and the smooth
-/// distance of the vehicle's rectangle (planner::SmoothBox).
+/// Circles that cover a body (world::covering_discs), and the smooth distance of the vehicle's
+/// rectangle (SmoothBox).
 class Discs final : public ShapeRows {
  public:
   Discs(const Parts& parts, double excess) {
-    const planner::SmoothBox box(parts.vehicle.footprint, excess);
+    const SmoothBox box(parts.vehicle.footprint, excess);
     const Expr u = Expr::symbol("u"), v = Expr::symbol("v"), r = Expr::symbol("r");
     Family family(parts, {u, v, r});
     for (const Body& body : parts.scene.bodies) {
@@ -174,6 +174,38 @@ class Superellipses final : public ShapeRows {
     at.x = at.x - parts.middle();
     theirs.state(parts, "corner of theirs", outside(at, about.a, about.b));
     rows_ = ours.members.size() + theirs.members.size();
+  }
+  std::size_t rows() const override { return rows_; }
+  std::size_t variables() const override { return 0; }
+  void guess(ocp::Guess& /*guess*/, const PoseAt& /*pose*/) const override {}
+
+ private:
+  std::size_t rows_;
+};
+
+/// As the planner has them: one smooth number of how far two rectangles are apart
+/// (planner::Separation).
+class Separations final : public ShapeRows {
+ public:
+  explicit Separations(const Parts& parts) {
+    const Expr l = Expr::symbol("l"), w = Expr::symbol("w"), half = Expr::symbol("half"),
+               most = Expr::symbol("most");
+    Family family(parts, {l, w, half, most});
+    const planner::HalfSides ours{parts.half_length(), parts.half_width()};
+    for (const Body& body : parts.scene.bodies) {
+      const planner::HalfSides theirs{body.length / 2, body.width / 2};
+      const auto found = planner::separate(theirs, ours, kKept);
+      family.add(parts, body, {theirs.length, theirs.width, found.exponent / 2, found.most});
+    }
+    const Vector middle = parts.body.out({parts.middle(), 0});
+    family.state(parts, "separation",
+                 planner::square_of_shares(
+                     {family.frame.origin.x, family.frame.origin.y, family.frame.c, family.frame.s},
+                     {l, w}, {middle.x, middle.y, parts.body.c, parts.body.s},
+                     {ours.length, ours.width}, kKept, half) /
+                         square(most) -
+                     1);
+    rows_ = family.members.size();
   }
   std::size_t rows() const override { return rows_; }
   std::size_t variables() const override { return 0; }
@@ -319,7 +351,7 @@ class Duals final : public ShapeRows {
 const std::vector<std::string>& shape_forms() {
   static const std::vector<std::string> forms = {
       "discs-0.4",      "discs-0.2",       "discs-0.1", "discs-0.05", "superellipse-4",
-      "superellipse-8", "superellipse-16", "line",      "dual"};
+      "superellipse-8", "superellipse-16", "axes",      "line",       "dual"};
   return forms;
 }
 
@@ -332,9 +364,10 @@ std::unique_ptr<ShapeRows> make_rows(const std::string& form, const ShapeScene& 
   const double number = dash == std::string::npos ? 0 : std::stod(form.substr(dash + 1));
   if (kind == "discs") return std::make_unique<Discs>(parts, number);
   if (kind == "superellipse") return std::make_unique<Superellipses>(parts, number);
+  if (kind == "axes") return std::make_unique<Separations>(parts);
   if (kind == "line") return std::make_unique<Lines>(parts);
   if (kind == "dual") return std::make_unique<Duals>(parts);
-  throw InvalidValue("form", form, "discs-E, superellipse-P, line or dual", {});
+  throw InvalidValue("form", form, "discs-E, superellipse-P, axes, line or dual", {});
 }
 
 }  // namespace slalom::bench

@@ -34,7 +34,7 @@ OPTIONS = {
     "planner.obstacle_constraint": ("hard", "hard", "soft"),
     "planner.floor": (0.9, 0.1, 0),
     "planner.L_range": (50, 30, 90),
-    "planner.between_nodes": ("report", "refine"),
+    "planner.between_nodes": ("by_shape", "report", "refine"),
     "planner.retry_sides": ("false", "true"),
     "loop.tex": (0.5, 0.1, 0.25, 1),
     "loop.latency": ("paper", "instant"),

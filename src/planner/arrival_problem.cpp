@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
 #include "in_terms_of.hpp"
+#include "obstacle_view.hpp"
 #include "region_rows.hpp"
 #include "slalom/ocp/scheme.hpp"
 #include "solving.hpp"
@@ -49,17 +51,29 @@ ArrivalProblem::Room ArrivalProblem::room_for(const Obstacles& obstacles) {
     while (room < number) room = std::max(first, 2 * room);
     return room;
   };
-  return {in_steps(obstacles.far.size(), 4), in_steps(obstacles.close.size(), 2)};
+  Room room{ObstacleRows::counts(obstacles.far), ObstacleRows::counts(obstacles.close)};
+  for (const auto kind : ObstacleRows::kKinds) {
+    const auto of = static_cast<std::size_t>(kind);
+    room.far[of] = in_steps(room.far[of], 4);
+    room.close[of] = in_steps(room.close[of], 2);
+  }
+  return room;
+}
+
+bool ArrivalProblem::Room::holds(const Room& other) const {
+  const auto each = [](const auto& some, const auto& more) {
+    return std::equal(some.begin(), some.end(), more.begin(), std::less_equal<>());
+  };
+  return each(other.far, far) && each(other.close, close);
 }
 
 ArrivalProblem::ArrivalProblem(const Task& task, const Room& room)
     : room_(room),
       intervals_(task.planner.arrival_N),
       shares_(shares(task.planner.rows_between)),
+      rows_(world::Footprint(task.vehicle), 0, room.close[2] > 0),
       problem_("arrival"),
       road_(task.road) {
-  if (const world::Footprint footprint(task.vehicle); !footprint.is_point())
-    box_.emplace(footprint, task.planner.cover_excess);
   add_dynamics(task);
   add_obstacles();
   if (road_) corridor_.emplace(problem_, X_[X], X_[Y], X_[PSI], world::Footprint(task.vehicle));
@@ -116,78 +130,75 @@ void ArrivalProblem::add_limits(const Model& model, double wheel_load) {
     add(std::string("wheel load ") + kWheelNames[w], kKilo * (Fz[w] - wheel_load));
 }
 
-/// How far the vehicle is outside a body whose centre lies (x, y) from the front axle's: >= 0. A
-/// point keeps off the ellipse with the semi-axes a and b; the body keeps the smooth distance a.
-ocp::Expr ArrivalProblem::outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a,
-                                  const Expr& b) const {
-  if (box_) return box_->square_of_distance(-x, -y, psi) / square(a) - 1;
-  return square(x / a) + square(y / b) - 1;
-}
-
 void ArrivalProblem::add_obstacles() {
-  const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
-  const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
-  const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
   const Expr share = Expr::symbol("share");
-  if (room_.far > 0)
-    far_rows_ = problem_.path_family("far obstacle", {xo, yo, a, b},
-                                     outside(X_[X] - xo, X_[Y] - yo, X_[PSI], a, b),
-                                     Bounds::at_least(0), Points::after_first);
-  if (room_.close == 0) return;
   // The length of the interval about a point, as the mesh grows along tau.
   const double whole = std::pow(kGrowth, intervals_) - 1;
   const Expr interval =
       (1 + whole * problem_.tau()) * ((kGrowth - 1) / whole) * problem_.final_time();
   const Expr after = share * interval;
   const Expr t = t_start_ + problem_.time() + after;
-  const Expr x = X_[X] + after * rate_[X] - xo - vx * t, y = X_[Y] + after * rate_[Y] - yo - vy * t;
-  close_rows_ = problem_.path_family("close obstacle", {xo, yo, a, b, vx, vy, share},
-                                     outside(x, y, X_[PSI] + after * rate_[PSI], a, b),
-                                     Bounds::at_least(0), Points::after_first);
+  for (const auto kind : ObstacleRows::kKinds) {
+    const auto of = static_cast<std::size_t>(kind);
+    if (room_.far[of] > 0)
+      far_rows_[of] = problem_.path_family(
+          std::string("far ") + ObstacleRows::name(kind), rows_.symbols(kind, false),
+          rows_.outside(kind, X_[X] - rows_.x(), X_[Y] - rows_.y(), X_[PSI], 0, {}),
+          Bounds::at_least(0), Points::after_first);
+    if (room_.close[of] == 0) continue;
+    const Expr dx = X_[X] + after * rate_[X] - rows_.x() - rows_.vx() * t;
+    const Expr dy = X_[Y] + after * rate_[Y] - rows_.y() - rows_.vy() * t;
+    auto symbols = rows_.symbols(kind, true);
+    symbols.push_back(share);
+    close_rows_[of] =
+        problem_.path_family(std::string("close ") + ObstacleRows::name(kind), symbols,
+                             rows_.outside(kind, dx, dy, X_[PSI] + after * rate_[PSI], 0, t),
+                             Bounds::at_least(0), Points::after_first);
+  }
 }
 
-/// Of a row that holds the share of an interval after each point. Those that vary are taken as they
-/// are when a motion over tf from t_start is at the point.
-std::vector<double> ArrivalProblem::row_numbers(const world::Obstacle& o, double share,
-                                                double t_start, double tf) const {
+/// Of a row; of one of the close ones, the share of an interval after each point at which it holds.
+/// Those that vary are taken as they are when a motion over tf from t_start is at the point.
+std::vector<double> ArrivalProblem::row_numbers(const world::Obstacle& o,
+                                                std::optional<double> share, double t_start,
+                                                double tf) const {
   std::vector<double> row;
-  const auto add = [&](double t, double around) {
-    auto n = numbers_at(o, t, around);
-    if (box_) n[2] = box_->smooth_radius(n[2]);
-    row.insert(row.end(), n.begin(), n.end());
-    row.push_back(share);
+  const auto add = [&](const ObstacleRows::Moment& moment) {
+    const auto at = rows_.numbers(o, moment, share.has_value());
+    row.insert(row.end(), at.begin(), at.end());
+    if (share) row.push_back(*share);
   };
   if (!varies(o)) {
-    add(0, 0);
+    add({});
     return row;
   }
   for (std::size_t k = 0; k < tau_.size(); ++k)
-    add(t_start + tau_[k] * tf, tf * (k > 0 ? tau_[k] - tau_[k - 1] : tau_[1]));
+    add({.t = t_start + tau_[k] * tf, .around = tf * (k > 0 ? tau_[k] - tau_[k - 1] : tau_[1])});
   return row;
 }
 
 /// Places that no obstacle takes are taken by one far away from everything.
 void ArrivalProblem::set_obstacles(const Obstacles& obstacles, double t_start, double tf) {
-  std::vector<std::vector<double>> far, close;
-  for (const auto& o : obstacles.far) {
-    const auto all = row_numbers(o, 0, t_start, tf);
-    auto& row = far.emplace_back();
-    for (std::size_t k = 0; k < all.size(); k += 7) row.insert(row.end(), &all[k], &all[k] + 4);
-  }
-  for (const auto& o : obstacles.close)
-    for (const double share : shares_) close.push_back(row_numbers(o, share, t_start, tf));
-  far.resize(room_.far, {kNowhere.begin(), kNowhere.begin() + 4});
-  auto nowhere = std::vector(kNowhere.begin(), kNowhere.end());
-  nowhere.push_back(0);
-  close.resize(room_.close * shares_.size(), nowhere);
   const auto set = [&](ocp::ConstraintId rows, std::vector<std::vector<double>> numbers) {
-    if (numbers.empty()) return;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < numbers.size(); ++k) names.push_back(fmt::format("{}", k));
     problem_.set_members(rows, std::move(names), std::move(numbers));
   };
-  set(far_rows_, std::move(far));
-  set(close_rows_, std::move(close));
+  for (const auto kind : ObstacleRows::kKinds) {
+    const auto of = static_cast<std::size_t>(kind);
+    std::vector<std::vector<double>> far, close;
+    for (const auto& o : obstacles.far)
+      if (ObstacleRows::kind_of(o) == kind) far.push_back(row_numbers(o, {}, t_start, tf));
+    for (const auto& o : obstacles.close)
+      if (ObstacleRows::kind_of(o) == kind)
+        for (const double share : shares_) close.push_back(row_numbers(o, share, t_start, tf));
+    far.resize(room_.far[of], rows_.nowhere(kind, false));
+    auto nowhere = rows_.nowhere(kind, true);
+    nowhere.push_back(0);
+    close.resize(room_.close[of] * shares_.size(), nowhere);
+    if (room_.far[of] > 0) set(far_rows_[of], std::move(far));
+    if (room_.close[of] > 0) set(close_rows_[of], std::move(close));
+  }
 }
 
 void ArrivalProblem::add_cost(const Task& task) {

@@ -8,12 +8,11 @@
 #include "arrival_end.hpp"
 #include "corridor_rows.hpp"
 #include "motion.hpp"
-#include "obstacle_view.hpp"
+#include "obstacle_rows.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/transcription.hpp"
 #include "slalom/planner/task.hpp"
-#include "smooth_box.hpp"
 
 namespace slalom::planner {
 
@@ -26,17 +25,17 @@ namespace slalom::planner {
 /// is there. Transcribed once for a number of obstacles, and solved for any fewer.
 class ArrivalProblem {
  public:
-  /// Obstacles as covered() leaves them, grown by their margins.
+  /// Obstacles as stand_ins() leaves them, grown by their margins.
   struct Obstacles {
     std::vector<world::Obstacle> far;    ///< that stand and are not close
     std::vector<world::Obstacle> close;  ///< with rows between the points
   };
   /// How many of each kind there is room for.
   struct Room {
-    std::size_t far = 0, close = 0;
-    friend bool operator<(const Room& a, const Room& b) {
-      return std::pair(a.far, a.close) < std::pair(b.far, b.close);
-    }
+    ObstacleRows::Counts far{}, close{};
+    friend auto operator<=>(const Room&, const Room&) = default;
+    /// Whether there is as much of each.
+    bool holds(const Room& other) const;
   };
 
   ArrivalProblem(const Task& task, const Room& room);
@@ -59,18 +58,17 @@ class ArrivalProblem {
   void add_dynamics(const Task& task);
   void add_limits(const vehicle::Model& model, double wheel_load);
   void add_obstacles();
-  Expr outside(const Expr& x, const Expr& y, const Expr& psi, const Expr& a, const Expr& b) const;
-  std::vector<double> row_numbers(const world::Obstacle& o, double share, double t_start,
-                                  double tf) const;
+  std::vector<double> row_numbers(const world::Obstacle& o, std::optional<double> share,
+                                  double t_start, double tf) const;
   void add_cost(const Task& task);
   void set_corridor(const Motion& guess, const vehicle::State& X0p, double tf, double margin);
 
   Room room_;
   int intervals_;
-  std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
   const std::vector<double>& shares_;
+  ObstacleRows rows_;
   ocp::Problem problem_;
-  ocp::ConstraintId far_rows_{}, close_rows_{};
+  std::array<ocp::ConstraintId, 2> far_rows_{}, close_rows_{};  ///< of ObstacleRows::kKinds
   std::optional<CorridorRows> corridor_;
   std::optional<ArrivalEnd> end_;
   std::shared_ptr<const world::Road> road_;

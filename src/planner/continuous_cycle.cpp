@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "guess.hpp"
+#include "obstacle_view.hpp"
 #include "trajectory_problem.hpp"
 
 namespace slalom::planner {
@@ -15,8 +16,8 @@ ContinuousCycle continuous_cycle(const Task& task, const Request& request) {
     way.in_range = goal_in_range(task, request.X0p);
   Settings straight = task.planner;
   straight.prediction = Prediction::constant_velocity;
-  const auto obstacles = covered(task.planner, world::Footprint(task.vehicle),
-                                 believed(straight, task.obstacles, request.t0));
+  const auto obstacles = stand_ins(task.planner, world::Footprint(task.vehicle),
+                                   believed(straight, task.obstacles, request.t0));
   TrajectoryProblem stated(task, obstacles, way.in_range);
   stated.update(request, way);
   ocp::Trajectory straight_on = Guess(task)(request, way, nullptr);

@@ -187,11 +187,12 @@ std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Re
                                               const std::vector<world::Obstacle>& obstacles,
                                               const world::Footprint& footprint) {
   if (settings.obstacle_choice == ObstacleChoice::in_reach)
-    return in_reach(settings, request, covered(settings, footprint, obstacles), footprint.reach());
-  auto chosen = covered(settings, footprint,
-                        settings.obstacle_choice == ObstacleChoice::nearest
-                            ? nearest(settings, request, obstacles)
-                            : obstacles);
+    return in_reach(settings, request, stand_ins(settings, footprint, obstacles),
+                    footprint.reach());
+  auto chosen = stand_ins(settings, footprint,
+                          settings.obstacle_choice == ObstacleChoice::nearest
+                              ? nearest(settings, request, obstacles)
+                              : obstacles);
   for (auto& o : chosen)
     if (far(settings, request, o)) o = parked(settings, request, o);
   return chosen;

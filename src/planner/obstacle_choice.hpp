@@ -26,8 +26,8 @@ bool any_far(const Settings& settings, const Request& request,
              const std::vector<world::Obstacle>& obstacles);
 
 /// Of `obstacles`, in their order, those that a plan for `request` knows of, as
-/// Settings::obstacle_choice says, as the discs that cover them. Of a long one in_reach keeps the
-/// discs in reach. Far ones stand nearer than they are, still out of reach.
+/// Settings::obstacle_choice says, as rows have them (stand_ins()). Of one in parts in_reach keeps
+/// the parts in reach. Far ones stand nearer than they are, still out of reach.
 std::vector<world::Obstacle> choose_obstacles(const Settings& settings, const Request& request,
                                               const std::vector<world::Obstacle>& obstacles,
                                               const world::Footprint& footprint);

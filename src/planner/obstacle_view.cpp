@@ -1,8 +1,12 @@
 #include "obstacle_view.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
+
+#include "obstacle_rows.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -16,6 +20,17 @@ void go_straight(Obstacle& o, const world::Pose& at, double t0) {
   o.vx = at.vx;
   o.vy = at.vy;
   o.psi = at.psi;
+}
+
+/// More rows than these are not worth their time.
+constexpr int kMostParts = 6;
+
+/// Into how many a rectangle is cut: parts about half as long as wide.
+int parts_of(const Obstacle& rectangle) {
+  const HalfSides half = half_sides(rectangle);
+  const double longer = std::max(half.length, half.width),
+               shorter = std::min(half.length, half.width);
+  return std::clamp(static_cast<int>(std::lround(2 * longer / shorter)), 1, kMostParts);
 }
 
 }  // namespace
@@ -46,24 +61,23 @@ bool belief_varies(const Settings& settings, const std::vector<Obstacle>& obstac
   });
 }
 
-std::array<double, 6> numbers_at(const Obstacle& o, double t, double around) {
-  if (!o.present(t - around, t + around)) return kNowhere;
-  const double margin = o.margin(t), a = o.a + margin, b = o.b + margin;
-  if (!o.trajectory) return {o.x, o.y, a, b, o.vx, o.vy};
-  const world::Pose at = o.pose_at(t);
-  return {at.x - at.vx * t, at.y - at.vy * t, a, b, at.vx, at.vy};
-}
-
-std::vector<Obstacle> covered(const Settings& settings, const world::Footprint& footprint,
-                              const std::vector<Obstacle>& obstacles) {
-  std::vector<Obstacle> discs;
-  for (auto o : obstacles) {
-    if (!footprint.is_point() && !o.outline && o.a != o.b)
-      o.outline = std::make_shared<world::Polygon>(world::Polygon::rectangle(2 * o.a, 2 * o.b));
-    for (auto& disc : world::covering_discs(o, settings.cover_excess))
-      discs.push_back(std::move(disc));
+std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,
+                                const std::vector<Obstacle>& obstacles) {
+  std::vector<Obstacle> result;
+  for (const auto& o : obstacles) {
+    const bool round = !o.outline && (o.a == o.b || (o.is_plain() && footprint.is_point()));
+    if (round || (footprint.is_point() && !o.outline)) {
+      result.push_back(o);
+      continue;
+    }
+    auto whole = world::covering_rectangles(o);
+    auto discs = world::covering_discs(whole.front(), settings.cover_excess);
+    if (discs.size() > 1)
+      discs = footprint.is_point() ? world::covering_rectangles(o, parts_of(whole.front()))
+                                   : std::move(whole);
+    std::move(discs.begin(), discs.end(), std::back_inserter(result));
   }
-  return discs;
+  return result;
 }
 
 }  // namespace slalom::planner

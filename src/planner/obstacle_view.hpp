@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "slalom/planner/settings.hpp"
@@ -19,16 +18,12 @@ bool varies(const world::Obstacle& obstacle);
 /// Whether believed() depends on when one plans.
 bool belief_varies(const Settings& settings, const std::vector<world::Obstacle>& obstacles);
 
-/// The numbers of a row about t [s]: xo, yo, a, b, vx, vy, the place at t = 0 of a body that passes
-/// with the obstacle's velocity where it is at t. Where it is absent for `around` s before and
-/// after, kNowhere.
-std::array<double, 6> numbers_at(const world::Obstacle& obstacle, double t, double around = 0);
-/// Those of one far from everything.
-inline constexpr std::array<double, 6> kNowhere = {1e5, 1e5, 1e3, 1e3, 0, 0};
-
-/// Obstacles as rows and search have them: discs that cover them (Settings::cover_excess), but for
-/// plain ones to a footprint that is a point, and for circles.
-std::vector<world::Obstacle> covered(const Settings& settings, const world::Footprint& footprint,
-                                     const std::vector<world::Obstacle>& obstacles);
+/// Obstacles as rows have them (ObstacleRows): plain ellipses to a footprint that is a point, and
+/// circles, as they are; circles over bodies out of which they stick by Settings::cover_excess at
+/// the most; else a rectangle that covers the body, or to a point an ellipse. To a point it is
+/// cut into up to six in a row: each row is a term of the barrier that keeps plans off it, and
+/// is as round as its margin at its corners.
+std::vector<world::Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,
+                                       const std::vector<world::Obstacle>& obstacles);
 
 }  // namespace slalom::planner

@@ -221,7 +221,7 @@ ArrivalProblem::Obstacles Proposals::near(const Motion& guess,
   std::vector<std::vector<Passed>> places;
   for (const auto& disc : vehicle) places.push_back(places_of(guess, disc.ahead));
   for (std::size_t k = 0; k < question_.obstacles.size(); ++k)
-    for (const auto& o : covered(s, footprint_, {question_.obstacles[k]})) {
+    for (const auto& o : stand_ins(s, footprint_, {question_.obstacles[k]})) {
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t d = 0; d < vehicle.size(); ++d)
         least = std::min(least, least_distance(o, places[d]) - vehicle[d].radius);
@@ -248,7 +248,7 @@ ArrivalProblem* Proposals::problem_for(const ArrivalProblem::Obstacles& obstacle
     return &made;
   }
   for (auto& [other, problem] : problems_)
-    if (other.far >= room.far && other.close >= room.close) return &problem;
+    if (other.holds(room)) return &problem;
   return nullptr;
 }
 

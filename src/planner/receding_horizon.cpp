@@ -11,6 +11,7 @@
 #include "between_nodes.hpp"
 #include "free_way.hpp"
 #include "obstacle_choice.hpp"
+#include "obstacle_view.hpp"
 #include "solving.hpp"
 
 namespace slalom::planner {
@@ -120,7 +121,7 @@ Plan RecedingHorizon::plan(const Request& request) {
   Attempt best = attempt(cycle, settings_.N, guess, warm);
   if (bendable && !best.plan.report.solved) try_sides(cycle, *bendable, best);
   if (task_.road && !best.plan.report.solved && !best.cut_short) try_free_way(cycle, best);
-  if (settings_.between_nodes == BetweenNodes::refine) refine(cycle, best);
+  if (refines(task_)) refine(cycle, best);
   keep(cycle, best);
   best.plan.report.planning_cpu_s = timer.cpu();
   return std::move(best.plan);
@@ -134,7 +135,7 @@ void RecedingHorizon::record(const Recorder& recorder) {
 /// The form for the goal in or out of range and for as many obstacles as are chosen, transcribed
 /// when it is first wanted.
 RecedingHorizon::Form& RecedingHorizon::form(bool in_range, int intervals) {
-  const FormKey key{in_range, chosen_.size(), intervals};
+  const FormKey key{in_range, ObstacleRows::counts(chosen_), intervals};
   const auto found = forms_.find(key);
   if (found != forms_.end()) return found->second;
   return forms_.try_emplace(key, TrajectoryProblem(task_, chosen_, in_range), settings_, intervals)
@@ -166,8 +167,9 @@ void RecedingHorizon::choose(const Request& request) {
                request.obstacles ? group_obstacles(settings_, *request.obstacles) : task_.obstacles,
                request.t0);
   chosen_ = choose_obstacles(settings_, request, known_, footprint_);
+  const auto counts = ObstacleRows::counts(chosen_);
   for (auto& [key, form] : forms_)
-    if (std::get<1>(key) == chosen_.size()) form.problem.set_obstacles(chosen_, {request.t0});
+    if (std::get<1>(key) == counts) form.problem.set_obstacles(chosen_, {request.t0});
 }
 
 /// Gives rows of obstacles whose numbers vary those of the times at which the start of the solve is
@@ -265,10 +267,11 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
   if (row.empty()) return "";
   const auto plain = fmt::format("{} falls short by {:.3g}", row, plan.report.worst_violation);
   for (const auto& o : known_) {
-    const auto begin = fmt::format("obstacle[{}] at node ", o.name);
-    if (!row.starts_with(begin)) continue;
+    const auto part = fmt::format("obstacle[{}] at node ", o.name);
+    const auto found = row.find(part);
+    if (found == std::string::npos) continue;
     char* end = nullptr;
-    const auto node = std::strtoul(row.c_str() + begin.size(), &end, 10);
+    const auto node = std::strtoul(row.c_str() + found + part.size(), &end, 10);
     if (*end != '\0' || node >= plan.t.size() || !(plan.tf > 0)) return plain;
     const State& x = plan.states[node];
     const double t =
@@ -301,7 +304,7 @@ void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
     report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
                                      footprint_, task_.vehicle.la);
     const Passage& deepest = report.passage;
-    if (deepest.depth > settings_.passage_depth)
+    if (deepest.depth > settings_.most_passage())
       found = fmt::format("{:.2f} m deep into the margin of {} at {:.2f} s", deepest.depth,
                           deepest.obstacle, deepest.t);
   }
@@ -355,7 +358,7 @@ void RecedingHorizon::try_free_way(const Cycle& cycle, Attempt& best) {
 }
 
 /// On finer meshes, whose rows stand closer, until the plan stays out of obstacles and on its
-/// road; a plan that never does is not solved.
+/// road; a plan that never does is not solved, if they must.
 void RecedingHorizon::refine(const Cycle& cycle, Attempt& best) {
   if (best.plan.report.status != PlanStatus::passes_through) return;
   best.carries = false;  // what is tried takes the multipliers' place
@@ -367,7 +370,7 @@ void RecedingHorizon::refine(const Cycle& cycle, Attempt& best) {
       return;
     }
   }
-  best.plan.report.solved = false;
+  if (settings_.between_nodes == BetweenNodes::refine) best.plan.report.solved = false;
 }
 
 /// The next solve starts from a plan to be driven, and goes on from one that was cut short.

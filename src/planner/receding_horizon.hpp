@@ -40,8 +40,8 @@ class RecedingHorizon final : public PlanningMethod {
     Form(TrajectoryProblem p, const Settings& settings, int intervals);
     void update(const Request& request, const WayAhead& way);
   };
-  /// Whether the goal is in range, and the numbers of obstacles and of mesh intervals.
-  using FormKey = std::tuple<bool, std::size_t, int>;
+  /// Whether the goal is in range, and the numbers of obstacles of each kind and of mesh intervals.
+  using FormKey = std::tuple<bool, ObstacleRows::Counts, int>;
   /// One solve of a cycle.
   struct Attempt {
     Plan plan;
@@ -74,7 +74,7 @@ class RecedingHorizon final : public PlanningMethod {
   const Settings& settings_;
   const world::Footprint footprint_;
   std::vector<world::Obstacle> known_;    ///< as believed in this cycle
-  std::vector<world::Obstacle> chosen_;   ///< of these, as discs
+  std::vector<world::Obstacle> chosen_;   ///< of these, as rows have them
   std::vector<world::Obstacle> of_last_;  ///< of the last plan, whose multipliers are there
   bool as_made_ = false;                  ///< none measured in the last cycle, and none too far
   std::map<FormKey, Form> forms_;

@@ -7,6 +7,7 @@
 #include "line_planner.hpp"
 #include "local_frame.hpp"
 #include "obstacle_choice.hpp"
+#include "obstacle_view.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/nlp/check.hpp"
 #include "slalom/ocp/transcription.hpp"

@@ -71,19 +71,20 @@ void add_what_tells_planners_apart(Table& table) {
           "not there yet is not known of. Obstacles without either go straight on anyway.")
       .real(
           "cover_excess", &S::cover_excess, Range::positive(), "m",
-          "By how much the discs that stand in for a box, a polygon or a turned ellipse may stick "
-          "out of it in the OCP and the search, where 16 discs do; half as much takes 1.4 times as "
-          "many rows. In the search discs stand in for the vehicle's body too, and the smooth "
-          "distance from it in the OCP is as much closer. What judges plans and drives has the "
-          "exact shapes.")
+          "By how much the discs that stand in for a box, a polygon, a turned ellipse or the "
+          "vehicle's body may stick out of it in the search, where 16 discs do; half as much takes "
+          "1.4 times as many. In the OCP one circle stands in for a body out of which it sticks by "
+          "no more. What judges plans and drives has the exact shapes.")
       .choice(
-          "between_nodes", &S::between_nodes, {"ignore", "report", "refine"},
+          "between_nodes", &S::between_nodes, {"ignore", "report", "refine", "by_shape"},
           "Rows of obstacles, and of the edges of a road, hold at nodes alone, as in the paper. A "
           "plan that between them goes deeper than passage_depth into the margin of an obstacle, "
-          "by the smaller of sm_start and sm_end, or whose footprint leaves the road: report: has "
-          "the status passes_through, and is driven; refine: is solved "
-          "again on finer meshes, up to eight times the intervals, and is not solved if that "
-          "does not help; ignore: is not looked for.")
+          "by the smaller of sm_start and sm_end, or into the obstacle, or whose footprint leaves "
+          "the road: report: has the status passes_through, and is driven; refine: is solved again "
+          "on finer meshes, up to eight times the intervals, and is not solved if that does not "
+          "help; by_shape: is solved again where the vehicle has a body or an obstacle is no plain "
+          "ellipse, and driven if that does not help; where all is as in the paper, as report; "
+          "ignore: is not looked for.")
       .real(
           "passage_depth", &S::passage_depth, Range::non_negative(), "m",
           "How deep a plan may go into a margin between its nodes: by the defaults, down to the 2 "

@@ -1,5 +1,6 @@
 #include "slalom/planner/task.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace slalom::planner {
@@ -7,6 +8,14 @@ namespace slalom::planner {
 bool goal_in_range(const Task& task, const vehicle::State& X0p) {
   return std::hypot(X0p[vehicle::X] - task.goal.x, X0p[vehicle::Y] - task.goal.y) <
          task.planner.L_range;
+}
+
+bool refines(const Task& task) {
+  if (task.planner.between_nodes != BetweenNodes::by_shape)
+    return task.planner.between_nodes == BetweenNodes::refine;
+  return task.vehicle.footprint != vehicle::FootprintKind::point ||
+         std::any_of(task.obstacles.begin(), task.obstacles.end(),
+                     [](const world::Obstacle& o) { return !o.is_plain(); });
 }
 
 double way_left(const Task& task, const vehicle::State& state) {

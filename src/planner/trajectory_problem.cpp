@@ -8,6 +8,7 @@
 #include "arrival_end.hpp"
 #include "in_terms_of.hpp"
 #include "local_frame.hpp"
+#include "obstacle_view.hpp"
 #include "region_rows.hpp"
 
 namespace slalom::planner {
@@ -55,9 +56,9 @@ TrajectoryProblem::TrajectoryProblem(const Task& task,
       goal_(task.goal),
       goal_in_range_(goal_in_range),
       map_(task.vehicle, task.planner.model),
+      rows_(world::Footprint(vehicle_), std::min(settings_.sm_start, settings_.sm_end),
+            ObstacleRows::counts(obstacles)[2] > 0),
       problem_("trajectory") {
-  if (const world::Footprint footprint(vehicle_); !footprint.is_point())
-    box_.emplace(footprint, settings_.cover_excess);
   const Model& model = map_.model();
   add_variables(model, task.region);
   add_dynamics(model, task);
@@ -197,52 +198,47 @@ void TrajectoryProblem::add_vehicle_limits(const Model& model) {
   }
 }
 
-/// Time-varying elliptical obstacle constraints with the growing safety margin sm (the paper's
-/// Eqn. for obstacle avoidance), at every node after the first.
+/// Time-varying obstacle constraints with the growing safety margin sm (the paper's Eqn. for
+/// obstacle avoidance), at every node after the first.
 void TrajectoryProblem::add_obstacles() {
-  const Expr xo = Expr::symbol("xo"), yo = Expr::symbol("yo");
-  const Expr a = Expr::symbol("a"), b = Expr::symbol("b");
-  const Expr vx = Expr::symbol("vx"), vy = Expr::symbol("vy");
   // Moving avoidance: where they are at the node's absolute time; else at the moment of planning.
   const Expr t = settings_.moving_avoidance ? t_start_ + problem_.time() : t_planning_;
-  const Expr x = xo + vx * t, y = yo + vy * t;
+  const Expr dx = X_[X] - rows_.x_at(t), dy = X_[Y] - rows_.y_at(t);
   const Expr sm = settings_.sm_start + (settings_.sm_end - settings_.sm_start) * problem_.tau();
-  // A point keeps off the ellipse; a body keeps the smooth distance a from the centre, for which a
-  // margin on top is on the safe side.
-  const Expr outside =
-      box_ ? box_->square_of_distance(x - X_[X], y - X_[Y], X_[PSI]) / square(a + sm)
-           : square((X_[X] - x) / (a + sm)) + square((X_[Y] - y) / (b + sm));
-  obstacle_rows_ = problem_.path_family("obstacle", {xo, yo, a, b, vx, vy}, outside - 1,
-                                        Bounds::at_least(0), Points::after_first);
-  if (settings_.obstacle_constraint == ObstacleConstraint::soft)
-    problem_.soften(obstacle_rows_, {ocp::Norm::l1, settings_.w_obstacle, 0});
+  for (const auto kind : ObstacleRows::kKinds) {
+    auto& family = families_[static_cast<std::size_t>(kind)];
+    family = problem_.path_family(ObstacleRows::name(kind), rows_.symbols(kind, true),
+                                  rows_.outside(kind, dx, dy, X_[PSI], sm, t), Bounds::at_least(0),
+                                  Points::after_first);
+    if (settings_.obstacle_constraint == ObstacleConstraint::soft)
+      problem_.soften(family, {ocp::Norm::l1, settings_.w_obstacle, 0});
+  }
 }
 
 void TrajectoryProblem::set_obstacles(const std::vector<world::Obstacle>& obstacles,
                                       const std::vector<double>& times) {
   const bool held = times.size() == 1;
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> numbers;
-  for (const auto& o : obstacles) {
-    names.push_back(o.name);
-    auto& row = numbers.emplace_back();
-    const auto add = [&](double t) {
-      auto at = numbers_at(o, t);
-      if (box_) at[2] = box_->smooth_radius(at[2]);
-      row.insert(row.end(), at.begin(), at.end());
-    };
-    if (!varies(o)) {
-      add(0);
-    } else if (held) {
-      add(times[0]);
-      row[0] += row[4] * times[0];
-      row[1] += row[5] * times[0];
-      row[4] = row[5] = 0;
-    } else {
-      for (const double t : times) add(t);
+  for (const auto kind : ObstacleRows::kKinds) {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> numbers;
+    for (const auto& o : obstacles) {
+      if (ObstacleRows::kind_of(o) != kind) continue;
+      names.push_back(o.name);
+      auto& row = numbers.emplace_back();
+      const auto add = [&](const ObstacleRows::Moment& moment) {
+        const auto at = rows_.numbers(o, moment, true);
+        row.insert(row.end(), at.begin(), at.end());
+      };
+      if (!varies(o))
+        add({});
+      else if (held)
+        add({.t = times[0], .held = true});
+      else
+        for (const double t : times) add({.t = t});
     }
+    problem_.set_members(families_[static_cast<std::size_t>(kind)], std::move(names),
+                         std::move(numbers));
   }
-  problem_.set_members(obstacle_rows_, std::move(names), std::move(numbers));
 }
 
 /// The trajectory stays in the region the LiDAR sees (the paper's LiDAR region constraint).

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model_map.hpp"
-#include "obstacle_view.hpp"
+#include "obstacle_rows.hpp"
 #include "road_terms.hpp"
 #include "slalom/ocp/problem.hpp"
 #include "slalom/ocp/scheme.hpp"
@@ -14,7 +14,6 @@
 #include "slalom/planner/planner.hpp"
 #include "slalom/planner/task.hpp"
 #include "slalom/vehicle/model.hpp"
-#include "smooth_box.hpp"
 
 namespace slalom::planner {
 
@@ -32,12 +31,12 @@ std::vector<double> obstacle_times(const Settings& settings, const Request& requ
 /// absent from it, not switched to zero. On a road its places are those of RoadTerms.
 class TrajectoryProblem {
  public:
-  /// Among obstacles as covered() leaves them; the task's are not used.
+  /// Among obstacles as stand_ins() leaves them; the task's are not used.
   TrajectoryProblem(const Task& task, const std::vector<world::Obstacle>& obstacles,
                     bool goal_in_range);
 
-  /// Puts others, as many, in the place of those the problem has. What varies has the numbers of
-  /// obstacle_times(); of one time for all it is held as it is then.
+  /// Puts others, of the same counts, in the place of those the problem has. What varies has the
+  /// numbers of obstacle_times(); of one time for all it is held as it is then.
   void set_obstacles(const std::vector<world::Obstacle>& obstacles,
                      const std::vector<double>& times);
   /// Sets what changes from cycle to cycle: X0p, and the absolute times of planning and of node 0.
@@ -70,11 +69,11 @@ class TrajectoryProblem {
   const world::Goal goal_;
   const bool goal_in_range_;
   const ModelMap map_;
+  ObstacleRows rows_;
 
   ocp::Problem problem_;
   std::optional<RoadTerms> road_;
-  std::optional<SmoothBox> box_;  ///< the vehicle's body, if it has one
-  ocp::ConstraintId obstacle_rows_{};
+  std::array<ocp::ConstraintId, 2> families_{};  ///< of ObstacleRows::kKinds
   /// Places of the front axle and the goal: x and y, or along and across the road's line.
   RoadTerms::Place here_, initial_, final_, goal_place_;
   std::array<Expr, vehicle::kStates> X_;    ///< states, and what the model derives from them

@@ -37,7 +37,7 @@ double gap_between(const world::Obstacle& p, const world::Obstacle& q) {
 /// Rows of obstacles hold at nodes: an obstacle that moves farther between two than it is long,
 /// grown, may pass between them.
 void passes_between(const Scenario& s, std::vector<std::string>& found) {
-  if (verifies(s) || s.planner.between_nodes == planner::BetweenNodes::refine) return;
+  if (verifies(s) || planner::refines(s)) return;
   const double speed = std::max(s.start[UX], kSlowest);
   const double horizon = std::min(s.planner.L_range / speed, s.planner.tf_max);
   const double margin = std::min(s.planner.sm_start, s.planner.sm_end);

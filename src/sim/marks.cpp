@@ -43,7 +43,7 @@ std::string plans(std::size_t count, const char* one, const char* several) {
 
 /// Plans that pass through something between their nodes: of `depth` [m] in the gravest, which
 /// `text` says.
-std::optional<Mark> passing(const Drive& drive, const char* kind,
+std::optional<Mark> passing(const Scenario& scenario, const Drive& drive, const char* kind,
                             const std::function<double(const planner::SolveReport&)>& depth,
                             const std::function<std::string(std::size_t, const Cycle&)>& text) {
   Cases<const Cycle*> cases;
@@ -53,16 +53,19 @@ std::optional<Mark> passing(const Drive& drive, const char* kind,
     if (const double size = depth(report); size > 0) cases.add(cycle.t_swap, size, &cycle);
   }
   if (cases.times.empty()) return std::nullopt;
-  return Mark{kind,
-              fmt::format("{} (cycle {}); planner.between_nodes: refine would solve again",
-                          text(cases.times.size(), *cases.gravest), cases.gravest->index),
-              cases.times};
+  return Mark{
+      kind,
+      fmt::format("{} (cycle {}); {}", text(cases.times.size(), *cases.gravest),
+                  cases.gravest->index,
+                  planner::refines(scenario) ? "finer meshes did not help"
+                                             : "planner.between_nodes: refine would solve again"),
+      cases.times};
 }
 
 std::optional<Mark> through_obstacles(const Scenario& scenario, const Drive& drive) {
-  const double allowed = scenario.planner.passage_depth;
+  const double allowed = scenario.planner.most_passage();
   return passing(
-      drive, "passes_through",
+      scenario, drive, "passes_through",
       [&](const auto& report) { return report.passage.depth > allowed ? report.passage.depth : 0; },
       [](std::size_t count, const Cycle& cycle) {
         const auto& passage = cycle.plan.report.passage;
@@ -73,9 +76,9 @@ std::optional<Mark> through_obstacles(const Scenario& scenario, const Drive& dri
       });
 }
 
-std::optional<Mark> through_edges(const Drive& drive) {
+std::optional<Mark> through_edges(const Scenario& scenario, const Drive& drive) {
   return passing(
-      drive, "plan_off_road", [](const auto& report) { return report.road_exit.depth; },
+      scenario, drive, "plan_off_road", [](const auto& report) { return report.road_exit.depth; },
       [](std::size_t count, const Cycle& cycle) {
         const auto& exit = cycle.plan.report.road_exit;
         return fmt::format(
@@ -196,9 +199,9 @@ StartSlack start_slack(const Cycle& cycle) {
 
 std::vector<Mark> marks(const Scenario& scenario, const Drive& drive) {
   std::vector<Mark> result;
-  for (auto& mark : {through_obstacles(scenario, drive), through_edges(drive), beside(drive),
-                     low_load(scenario, drive), speed(scenario, drive), outside(scenario, drive),
-                     away(scenario, drive)})
+  for (auto& mark : {through_obstacles(scenario, drive), through_edges(scenario, drive),
+                     beside(drive), low_load(scenario, drive), speed(scenario, drive),
+                     outside(scenario, drive), away(scenario, drive)})
     if (mark) result.push_back(*mark);
   return result;
 }

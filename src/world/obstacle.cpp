@@ -50,6 +50,36 @@ std::vector<Circle> circles_over(double length, double width, double excess) {
   return circles;
 }
 
+/// The rectangle about an outline or an ellipse along its own axes, in its own frame.
+struct Extent {
+  Point least, most;
+
+  explicit Extent(const Obstacle& o) : least{-o.a, -o.b}, most{o.a, o.b} {
+    if (!o.outline) return;
+    least = most = o.outline->corners().front();
+    for (const Point& p : o.outline->corners()) {
+      least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+      most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+    }
+  }
+  Point middle() const { return {(least.x + most.x) / 2, (least.y + most.y) / 2}; }
+  double along_x() const { return most.x - least.x; }
+  double along_y() const { return most.y - least.y; }
+};
+
+/// The obstacle with its point of reference at another one of its own frame.
+Obstacle moved_to(const Obstacle& obstacle, Point at) {
+  Obstacle result = obstacle;
+  if (obstacle.trajectory) {
+    result.trajectory = std::make_shared<OffsetTrajectory>(obstacle.trajectory, at);
+  } else {
+    const Point place = obstacle.pose_at(0).to_world(at);
+    result.x = place.x;
+    result.y = place.y;
+  }
+  return result;
+}
+
 /// Least signed distance to a convex body along the segment, along which it is convex.
 double distance_along(const Obstacle& o, Point from, Point to) {
   const auto at = [&](double share) { return distance_in_body(o, from + (to - from) * share); };
@@ -135,23 +165,29 @@ double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, dou
   return holds_centre ? std::min(least, -std::min(obstacle.a, obstacle.b)) : least;
 }
 
+std::vector<Obstacle> covering_rectangles(const Obstacle& obstacle, int parts) {
+  const Extent extent(obstacle);
+  Point size{extent.along_x(), extent.along_y()};
+  const Point across = size.x >= size.y ? Point{size.x / parts, 0} : Point{0, size.y / parts};
+  (size.x >= size.y ? size.x : size.y) /= parts;
+  const auto outline = std::make_shared<Polygon>(Polygon::rectangle(size.x, size.y));
+  std::vector<Obstacle> result;
+  for (int k = 0; k < parts; ++k) {
+    auto& part =
+        result.emplace_back(moved_to(obstacle, extent.middle() + across * (k - 0.5 * (parts - 1))));
+    part.outline = outline;
+    part.a = part.b = outline->reach();
+  }
+  return result;
+}
+
 std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess, int most) {
   if (obstacle.is_plain() || (!obstacle.outline && obstacle.a == obstacle.b)) return {obstacle};
-  double left = -obstacle.a, right = obstacle.a, low = -obstacle.b, high = obstacle.b;
-  if (obstacle.outline) {
-    left = low = std::numeric_limits<double>::infinity();
-    right = high = -left;
-    for (const Point& p : obstacle.outline->corners()) {
-      left = std::min(left, p.x);
-      right = std::max(right, p.x);
-      low = std::min(low, p.y);
-      high = std::max(high, p.y);
-    }
-  }
-  const Point middle{(left + right) / 2, (low + high) / 2};
-  const bool along_x = right - left >= high - low;
-  const double length = std::max(right - left, high - low);
-  const double width = std::min(right - left, high - low);
+  const Extent extent(obstacle);
+  const Point middle = extent.middle();
+  const bool along_x = extent.along_x() >= extent.along_y();
+  const double length = std::max(extent.along_x(), extent.along_y());
+  const double width = std::min(extent.along_x(), extent.along_y());
   auto circles = circles_over(length, width, excess);
   for (; circles.size() > static_cast<std::size_t>(most);
        circles = circles_over(length, width, excess))
@@ -159,18 +195,11 @@ std::vector<Obstacle> covering_discs(const Obstacle& obstacle, double excess, in
   std::vector<Obstacle> result;
   for (const auto& [centre, radius] : circles) {
     const Point at = middle + (along_x ? centre : Point{-centre.y, centre.x});
-    Obstacle disc = obstacle;
+    Obstacle disc = moved_to(obstacle, at);
     disc.outline = nullptr;
     disc.a = disc.b = radius + obstacle.rounding;
     disc.rounding = 0;
-    if (obstacle.trajectory) {
-      disc.trajectory = std::make_shared<OffsetTrajectory>(obstacle.trajectory, at);
-    } else {
-      const Point place = obstacle.pose_at(0).to_world(at);
-      disc.x = place.x;
-      disc.y = place.y;
-      disc.psi = 0;
-    }
+    disc.psi = 0;
     result.push_back(std::move(disc));
   }
   return result;

@@ -10,6 +10,20 @@ STRAIGHT = "road: {points: [[12, -50, 12, 12], [12, 800, 12, 12]]}\n"
 UNTIMED = ("--set", "loop.deadline=off", "--set", "loop.latency=paper")
 
 
+GAP = """\
+name: gap
+vehicle: {base: hmmwv, footprint: rectangle}
+planner: {base: P_D, sm_start: 0.3, sm_end: 0.3, N: 20}
+start: {x: 0, y: 0, psi_deg: 0, ux: 8}
+goal: {s: 70}
+road: {points: [[-20, 0, 8, 8], [40, 0, 8, 8], [110, 0, 8, 8]]}
+obstacles:
+  - {name: left, x: 35, y: 3.85, length: 14, width: 5}
+  - {name: right, x: 35, y: -3.85, length: 14, width: 5}
+loop: {tex: 0.5, sm_crash: 0}
+"""
+
+
 def line(points, width):
     """A road's points, all as wide."""
     return ", ".join(f"[{x:.3f}, {y:.3f}, {width}, {width}]" for x, y in points)
@@ -94,12 +108,20 @@ class Road(unittest.TestCase):
         """By margins for a body; the paper's are about a point."""
         closer = ("--planner", "P_D", "--set", "planner.sm_start=0.3", "--set", "planner.sm_end=0.3", *UNTIMED)
         with scratch() as folder:
-            jobs = {name: (name, *closer) for name in ("chicane", "parked-row", "pedestrian")}
+            jobs = {name: (name, *closer) for name in ("chicane", "door", "merge", "overtaking", "parked-row", "pedestrian",
+                                                 "turning-car")}
             for name, drive in simulate_all(folder, jobs).items():
                 with self.subTest(name):
                     self.assertEqual(drive.outcome, "goal", drive.ended())
                     self.assertGreater(drive.summary["least_clearance_m"], 0)
                     self.assertGreater(drive.summary["least_edge_distance_m"], 0)
+
+    def test_a_body_drives_through_a_gap_little_wider_than_its_margins(self):
+        """Two lorries side by side: .35 m beside a body that keeps .3 m at the nodes of its plans."""
+        with scratch() as folder:
+            drive = self.drives(folder, {"gap": (GAP,)})["gap"]
+            self.assertEqual(drive.outcome, "goal", drive.ended())
+            self.assertGreater(drive.summary["least_clearance_m"], 0.3)
 
 
 if __name__ == "__main__":

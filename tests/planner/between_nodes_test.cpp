@@ -117,6 +117,7 @@ double farthest_driven(const Scene& scene, const Plan& plan) {
 
 TEST(BetweenNodes, APlanOffItsRoadSaysSoAndIsDriven) {
   Scene scene = tight_bend();
+  scene.planner.between_nodes = BetweenNodes::report;
   const Plan plan = Planner(scene).plan(scene.first);
   ASSERT_TRUE(plan.report.solved);
   EXPECT_GE(least_edge_distance(scene, plan), -1e-3);  // at its nodes it is on the road
@@ -130,6 +131,20 @@ TEST(BetweenNodes, APlanOffItsRoadSaysSoAndIsDriven) {
   EXPECT_EQ(ignored.report.status, PlanStatus::solved);
   EXPECT_EQ(ignored.report.road_exit.depth, 0);
   expect_same(ignored, plan);
+}
+
+TEST(BetweenNodes, BodiesAndShapesAreRefinedAsTheyAre) {
+  Scene scene = tight_bend();
+  EXPECT_EQ(scene.planner.between_nodes, BetweenNodes::by_shape);
+  const Plan refined = Planner(scene).plan(scene.first);
+  EXPECT_EQ(refined.report.status, PlanStatus::solved) << "the vehicle has a body";
+  EXPECT_GT(refined.t.size(), static_cast<std::size_t>(scene.planner.N) + 1);
+  Scene plain = wrong_way();
+  EXPECT_FALSE(refines(plain));
+  EXPECT_EQ(Planner(plain).plan(plain.first).report.status, PlanStatus::passes_through);
+  plain.obstacles[0].psi = 0.3;
+  plain.obstacles[0].b += 1;
+  EXPECT_TRUE(refines(plain));
 }
 
 TEST(BetweenNodes, RefinedItStaysOnItsRoad) {

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <random>
 
 #include "../../src/planner/between_nodes.hpp"
 #include "../../src/planner/obstacle_view.hpp"
-#include "../../src/planner/smooth_box.hpp"
 #include "../../src/planner/verifier.hpp"
 #include "planner/expect_plan.hpp"
 #include "planner/scenes.hpp"
@@ -163,49 +161,6 @@ TEST(Believed, ATrajectoryIsKnownOrGoesOnAsItMovesNow) {
   const auto circling = believed(s, {turning}, 1.2)[0].pose_at(2.2);
   EXPECT_NEAR(circling.psi, now.psi + now.omega, 1e-12);
   EXPECT_NEAR(std::hypot(circling.vx, circling.vy), std::hypot(now.vx, now.vy), 1e-12);
-}
-
-TEST(Believed, ARowsNumbersAreThoseOfItsMoment) {
-  auto o =
-      along({.name = "walker", .a = 0.4, .b = 0.4}, {{0, 0, 0, 0}, {1, 2, 0, 0}, {2, 2, 3, 1.5}},
-            BeyondEnd::stands, BeyondEnd::absent);
-  o.margin_start = 0.1;
-  o.margin_rate = 0.2;
-  const double t = 1.3;
-  const auto at = o.pose_at(t);
-  const auto n = numbers_at(o, t);
-  EXPECT_NEAR(n[0] + n[4] * t, at.x, 1e-12);
-  EXPECT_NEAR(n[1] + n[5] * t, at.y, 1e-12);
-  EXPECT_DOUBLE_EQ(n[2], 0.4 + 0.1 + 0.2 * t);
-  EXPECT_DOUBLE_EQ(n[5], at.vy);
-  EXPECT_EQ(numbers_at(o, 2.5), kNowhere);
-  EXPECT_NE(numbers_at(o, 2.5, 0.6), kNowhere) << "it goes within the interval";
-}
-
-// What keeps the smooth distance keeps the true one, and .16 m more at the most.
-TEST(SmoothBox, IsOutsideTheBodyAndCloseToIt) {
-  Parameters vehicle;
-  vehicle.footprint = FootprintKind::rectangle;
-  const Footprint footprint(vehicle);
-  const SmoothBox box(footprint, 0.2);
-  const auto dx = ocp::Expr::symbol("dx"), dy = ocp::Expr::symbol("dy");
-  const auto psi = ocp::Expr::symbol("psi");
-  const expr::Function smooth({dx, dy, psi}, {}, {box.square_of_distance(dx, dy, psi)});
-  std::mt19937 draw(7);
-  std::uniform_real_distribution<double> place(-12, 12), turn(-4, 4), size(0.5, 6);
-  double most = 0;
-  for (int k = 0; k < 20000; ++k) {
-    const double x = place(draw), y = place(draw), heading = turn(draw), radius = size(draw);
-    const std::array<double, 3> in = {x, y, heading};
-    std::array<double, 1> out{};
-    smooth(in, {}, out);
-    const double d = footprint.distance({"", x, y, radius, radius}, {0, 0, 0, 0, heading}, 0);
-    const bool keeps = std::sqrt(out[0]) >= box.smooth_radius(radius);
-    if (keeps) EXPECT_GE(d, -1e-3);
-    if (!keeps) most = std::max(most, d);
-  }
-  EXPECT_LT(most, 0.16);
-  EXPECT_GT(most, 0.01);
 }
 
 /// Plans northwards at 15 m/s in the right lane; a car comes in the left one and turns across.

@@ -57,5 +57,31 @@ TEST(Covering, DiscsOfATableTurnWithIt) {
   }
 }
 
+TEST(Covering, ARectangleCoversAPolygonAsItMoves) {
+  Obstacle rock{"rock", 3, -2};
+  rock.outline = std::make_shared<Polygon>(std::vector<Point>{{-1, -1}, {2, 0}, {0, 1.5}}, "rock");
+  rock.a = rock.b = rock.outline->reach();
+  rock.psi = 0.7;
+  for (const bool turns : {false, true}) {
+    if (turns) rock.trajectory = std::make_shared<TurningTrajectory>(1, Pose{0, 0, 0.2, 3, 1, 0.7});
+    const auto cover = covering_rectangles(rock)[0];
+    EXPECT_NEAR(cover.a, std::hypot(1.5, 1.25), 1e-12);
+    for (const double t : {1., 2.5})
+      for (const Point& corner : rock.corners_at(t))
+        EXPECT_NEAR(distance(cover, corner.x, corner.y, t), 0, 1e-9) << "it touches them all";
+    const auto parts = covering_rectangles(rock, 3);
+    ASSERT_EQ(parts.size(), 3u);
+    for (const Point& corner : cover.corners_at(2)) {
+      double least = INFINITY, area = 0;
+      for (const auto& part : parts) {
+        least = std::min(least, std::fabs(distance(part, corner.x, corner.y, 2)));
+        area += part.outline->area();
+      }
+      EXPECT_NEAR(least, 0, 1e-9);
+      EXPECT_NEAR(area, cover.outline->area(), 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slalom::world

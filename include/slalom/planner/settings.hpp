@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -27,8 +28,8 @@ enum class ObstacleChoice { all, in_reach, nearest };
 enum class Prediction { known, constant_velocity, constant_turn };
 
 /// What becomes of a plan that goes through an obstacle between its nodes: nothing; it says so; it
-/// is solved again on finer meshes.
-enum class BetweenNodes { ignore, report, refine };
+/// is solved again on finer meshes; the last where something has a shape, else it says so.
+enum class BetweenNodes { ignore, report, refine, by_shape };
 
 /// How a planner plans: the paper's OCP over a receding horizon; whole ways to the goal of which
 /// none is driven before it is verified; or the fastest motion along a road without obstacles.
@@ -59,9 +60,11 @@ struct Settings {
   double w_obstacle = 1000;  ///< of `soft`: weight of the rows' excess (l1) [1/s]
   Prediction prediction = Prediction::known;
   double cover_excess = 0.2;  ///< by which discs stick out of the bodies that they cover [m]
-  BetweenNodes between_nodes = BetweenNodes::report;
+  BetweenNodes between_nodes = BetweenNodes::by_shape;
   double passage_depth = 0.5;  ///< a plan may go into a margin between its nodes [m]
-  bool retry_sides = false;    ///< try again from the left and the right before there is no plan
+  /// How deep it may, which is no deeper than the margin [m].
+  double most_passage() const { return std::min({passage_depth, sm_start, sm_end}); }
+  bool retry_sides = false;  ///< try again from the left and the right before there is no plan
 
   /// The vehicle as the planner has it, whatever drives.
   vehicle::ModelKind model = vehicle::ModelKind::pacejka;

@@ -17,6 +17,10 @@ struct Task : world::Environment {
 /// predicted state.
 bool goal_in_range(const Task& task, const vehicle::State& X0p);
 
+/// Whether plans that go through something between their nodes are solved again on finer meshes
+/// (Settings::between_nodes). Plain ellipses and a vehicle that is a point have no shape.
+bool refines(const Task& task);
+
 /// How far it is from a state to the goal [m]: along the road, to its end where the goal is a time;
 /// straight where there is no road.
 double way_left(const Task& task, const vehicle::State& state);

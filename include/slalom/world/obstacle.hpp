@@ -62,6 +62,11 @@ double distance(const Obstacle& obstacle, double x, double y, double t);
 /// obstacle at absolute time t [s]; negative where they overlap.
 double distance(const Obstacle& obstacle, const std::vector<Point>& polygon, double t);
 
+/// The rectangle about the body's outline or ellipse along its own axes, cut across its longer side
+/// into so many of one size: each with its point of reference in its middle, as it moves; rounded
+/// as the outline is. Named as it is.
+std::vector<Obstacle> covering_rectangles(const Obstacle& obstacle, int parts = 1);
+
 /// Circles that cover the body at all times; the body itself where it is plain. Named as it is.
 /// They cover the rectangle about a polygon or a turned ellipse by a row along its middle and cells
 /// in what that leaves of its corners, and stick out of it by at most `excess` [m], but for no more

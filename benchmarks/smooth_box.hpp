@@ -5,11 +5,11 @@
 #include "slalom/ocp/problem.hpp"
 #include "slalom/world/footprint.hpp"
 
-namespace slalom::planner {
+namespace slalom::bench {
 
 /// The vehicle's body to a row of an OCP: the distance from a place to its rectangle made smooth.
 /// One row does for a disc of an obstacle, where discs of the vehicle would take several, and it is
-/// closer to the body (docs/keeping-off.md has both in figures).
+/// closer to the body.
 ///
 /// With the place (u, v) in the rectangle's middle, l and w its half sides and e the smoothing, of
 /// f(z, h) = (q + sqrt(q^2 + e^2)) / 2, q = sqrt(z^2 + e^2) - h, which is above max(|z| - h, 0),
@@ -17,7 +17,7 @@ namespace slalom::planner {
 class SmoothBox {
  public:
   /// Of a footprint that is not a point; smoother where the stand-ins of shapes may stick out by
-  /// more (Settings::cover_excess).
+  /// more [m].
   SmoothBox(const world::Footprint& footprint, double cover_excess);
 
   /// The square of the distance to (dx, dy) from the front axle's centre, which the vehicle's
@@ -32,4 +32,4 @@ class SmoothBox {
   double smoothing_;  ///< e [m]
 };
 
-}  // namespace slalom::planner
+}  // namespace slalom::bench

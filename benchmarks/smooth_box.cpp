@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace slalom::planner {
+namespace slalom::bench {
 
 using ocp::Expr;
 
@@ -47,4 +47,4 @@ double SmoothBox::smooth_radius(double radius) const {
   return most;
 }
 
-}  // namespace slalom::planner
+}  // namespace slalom::bench
