@@ -224,7 +224,7 @@ class Refining {
       const auto chatter = chatter_in<Solves>(now, record.damping > 0);
       auto judged = judge(solves_, now, record);
       const auto unresolved = unresolved_by_phase(solves_, now, rules_, record);
-      const Shares shares(judged, rules_.tolerance);
+      const Shares shares(judged, rules_);
       record.objective_error = shares.sum();
       const bool low = damping_.lowered(), raised = damping_.raised(chatter);
       if (!(low && raised)) {  // else the answer with more weight is the better one

@@ -11,6 +11,9 @@ namespace {
 constexpr int kMostPieces = 5;
 /// Points that take off less than this factor of an interval's error are in vain.
 constexpr double kLeastFall = 4;
+/// Times the tolerance: what bounds violated between the points may make of it. A node more beside
+/// where a bound is touched takes most of that away.
+constexpr double kBoundTolerance = 2;
 /// What an interval's errors are at least for their share of that to mean anything.
 constexpr double kSolversError = 1e-10;
 
@@ -69,22 +72,33 @@ void History::note(const Solution& solution, const ErrorEstimate& errors) {
     last_[{breaks[k], breaks[k + 1]}] = {points_of(solution.scheme.of(k)), errors.interval[k]};
 }
 
-Shares::Shares(const std::vector<ErrorEstimate>& phases, double tolerance) : tolerance_(tolerance) {
+Shares::Shares(const std::vector<ErrorEstimate>& phases, const RefineRules& rules)
+    : tolerance_(rules.tolerance) {
   for (const auto& errors : phases) {
     size_ += errors.objective_size;
     for (const double share : errors.objective_share) sum_ += std::fabs(share);
     intervals_ += static_cast<double>(errors.objective_share.size());
+    for (const double share : errors.bound_share) {
+      if (!rules.resolve_controls) break;
+      bounds_ += share;
+      touched_ += share > 0 ? 1 : 0;
+    }
   }
   if (!(size_ > 0)) size_ = 1;
   for (const auto& errors : phases)
     for (std::size_t k = 0; k < errors.interval.size(); ++k)
-      largest_excess_ = std::max(largest_excess_, excess(errors, k));
+      largest_excess_ = std::max({largest_excess_, excess(errors, k), bound_excess(errors, k)});
 }
 
 double Shares::excess(const ErrorEstimate& errors, std::size_t k) const {
   const double most = kObjectiveTolerance * tolerance_;
-  if (sum() <= most || errors.interval[k] <= kSolversError) return 0;
+  if (sum_ <= most * size_ || errors.interval[k] <= kSolversError) return 0;
   return std::fabs(errors.objective_share[k]) / size_ * intervals_ / most;
+}
+
+double Shares::bound_excess(const ErrorEstimate& errors, std::size_t k) const {
+  const double most = kBoundTolerance * tolerance_;
+  return bounds_ <= most * size_ ? 0 : errors.bound_share[k] / size_ * touched_ / most;
 }
 
 PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimate& errors,
@@ -96,9 +110,10 @@ PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimat
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
     const Scheme& scheme = solution.scheme.of(k);
     const double excess = std::max(errors.interval[k] / rules.tolerance, shares.excess(errors, k));
+    // An interval where a bound is missed is cut as one that does not follow its control.
+    const double bends = std::max(unresolved[k] / rules.tolerance, shares.bound_excess(errors, k));
     const Fate fate =
-        unresolved[k] > rules.tolerance
-            ? cut_for_control(scheme, std::max(excess, unresolved[k] / rules.tolerance))
+        bends > 1                           ? cut_for_control(scheme, std::max(excess, bends))
         : excess <= 1                       ? Fate{1, scheme}
         : rules.refinement == Refinement::h ? cut(scheme, excess)
         : history.bends(breaks[k], breaks[k + 1], points_of(scheme), errors.interval[k])

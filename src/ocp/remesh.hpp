@@ -36,18 +36,21 @@ class History {
 /// What all phases' intervals make of the objective.
 class Shares {
  public:
-  Shares(const std::vector<ErrorEstimate>& phases, double tolerance);
+  Shares(const std::vector<ErrorEstimate>& phases, const RefineRules& rules);
 
   double size() const { return size_; }
   /// Relative to that.
-  double sum() const { return sum_ / size_; }
+  double sum() const { return (sum_ + bounds_) / size_; }
   bool too_large() const { return largest_excess_ > 1; }
   /// An interval's share over what it may be; 0 where the sum is small enough, or the interval's
   /// errors are but the solver's.
   double excess(const ErrorEstimate& errors, std::size_t k) const;
+  /// The same of what bounds that are violated between the points make of it.
+  double bound_excess(const ErrorEstimate& errors, std::size_t k) const;
 
  private:
-  double tolerance_, size_ = 0, sum_ = 0, intervals_ = 0, largest_excess_ = 0;
+  double tolerance_, bounds_ = 0, touched_ = 0, size_ = 0, sum_ = 0, intervals_ = 0,
+                     largest_excess_ = 0;
 };
 
 /// The mesh after a solution's, by its errors and how much of its control is not resolved.

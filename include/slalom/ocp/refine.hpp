@@ -19,7 +19,9 @@ struct RefineRules {
   double tolerance = 1e-6;  ///< of ErrorEstimate::largest
   Refinement refinement = Refinement::h;
   /// Intervals whose control is not resolved to the tolerance (unresolved_controls) are cut too,
-  /// until the objective's relative change from mesh to mesh is below the tolerance.
+  /// until the objective's relative change from mesh to mesh is below the tolerance, and those
+  /// where a bound of states is violated between the points (ErrorEstimate::bound_share), until
+  /// that makes less than twice the tolerance of it.
   bool resolve_controls = true;
   /// A control that goes to and fro from point to point, as on singular arcs, is held near an
   /// average of its own by a small cost, time after time about the last answer, until what that
