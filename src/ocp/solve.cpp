@@ -10,6 +10,7 @@
 #include "lookup.hpp"
 #include "moved.hpp"
 #include "set_up_watch.hpp"
+#include "simulated_guess.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/moments.hpp"
@@ -28,6 +29,9 @@ constexpr std::uint64_t kMoreTries = 5;
 /// to lose one's way in, and an answer is most of the way to one on a finer mesh (Betts 2010,
 /// section 4.6, begins on coarse meshes for that reason).
 constexpr int kCoarseMeshes[] = {4, 10};
+/// Of the way from a control's lower to its upper bound: the held controls of the guesses after
+/// these. Where rates grow with the states, the lower half leads further.
+constexpr double kHeldControls[] = {0.5, 0.25};
 /// A limit below is there to see how a solve begins.
 constexpr int kEnoughIterations = 100;
 
@@ -314,6 +318,18 @@ class Tries {
     }
   }
 
+  /// From where constant controls lead: a guess that meets the dynamics, of one phase.
+  void from_simulations(const Settings& settings, Answer& answer) {
+    if constexpr (requires { settings.guess; })
+      for (const double share : kHeldControls) {
+        Settings again = settings;
+        if (!simulated(problem_, share, left_s_, again)) continue;
+        std::optional<Answer> found = solve(std::move(again));
+        if (found && found->solved()) answer = std::move(*found);
+        if (!found || answer.solved() || interrupted_) return;
+      }
+  }
+
   bool interrupted() const { return interrupted_; }
   int iterations() const { return iterations_; }
   double wall_s() const { return wall_s_; }
@@ -340,6 +356,8 @@ Answer solve_with_tries(const Problem& problem, const Settings& given) {
     }
   }
   if (lost_its_way(answer, settings)) tries.by_coarse_meshes(settings, answer);
+  if (!tries.interrupted() && without_guess(given) && lost_its_way(answer, settings))
+    tries.from_simulations(settings, answer);
   if (!tries.interrupted()) tries.from_elsewhere(settings, answer);
   answer.options = settings.options;
   answer.iterations = tries.iterations();
