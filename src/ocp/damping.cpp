@@ -19,12 +19,15 @@ constexpr double kSwing = 0.05;
 constexpr int kSwings = 8, kDampedSwings = 4, kWithin = 12;
 /// Of a swing: what is most of it.
 constexpr double kMost = 0.5;
-/// Of the scale of a control's values: a smaller range is rounding.
-constexpr double kRounding = 2e-6;
+/// Of a control's largest size: a range below counts as this.
+constexpr double kLeastWidth = 0.1;
 
 struct Range {
   double low = kInfinity, high = -kInfinity;
-  double width() const { return high - low; }
+  /// What the barrier keeps a control off its bound is no swing: see unresolved_controls.
+  double width() const {
+    return std::max(high - low, kLeastWidth * std::max(std::fabs(low), std::fabs(high)));
+  }
 };
 
 Range range_of(const Solution& solution, std::size_t control) {
@@ -72,11 +75,10 @@ bool is_steep(const std::vector<double>& u, std::size_t from, std::size_t to) {
 
 /// Marks the intervals where a control chatters; whether there are any.
 bool mark(const Solution& solution, std::size_t control, int swings, std::vector<char>& intervals) {
-  const auto [low, high] = range_of(solution, control);
-  if (!(high - low > kRounding * std::max(std::fabs(low), std::fabs(high)))) return false;
+  const double width = range_of(solution, control).width();
   std::vector<double> u;
   for (const auto& all : solution.trajectory.controls) u.push_back(all[control]);
-  const auto turn = turns(u, kSwing * (high - low));
+  const auto turn = turns(u, kSwing * width);
   const auto interval = intervals_of(solution);
   bool found = false;
   for (std::size_t first = 0, last = 0; first < turn.size(); first = last + 1) {

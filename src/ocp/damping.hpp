@@ -46,7 +46,7 @@ class Damping {
   static constexpr double kMostly = 0.5;  ///< of a phase's intervals
 
   bool wanted_, chattered_ = false, lowered_ = false;
-  int lowerings_ = 3;  ///< how often more it may turn out to have been too far down
+  int lowerings_ = 4;  ///< how often more it may turn out to have been too far down
   double weight_ = 0, sum_ = 0, left_ = kInfinity;
   Chosen chosen_;
 };

@@ -226,11 +226,17 @@ class Refining {
       const auto unresolved = unresolved_by_phase(solves_, now, rules_, record);
       const Shares shares(judged, rules_);
       record.objective_error = shares.sum();
+      if (record.damping == 0 && converged(record, shares)) {  // whatever it does between points
+        answer = std::move(now);
+        errors = std::move(judged);
+        return RefineStatus::converged;
+      }
       const bool low = damping_.lowered(), raised = damping_.raised(chatter);
       if (!(low && raised)) {  // else the answer with more weight is the better one
         answer = std::move(now);
         errors = std::move(judged);
-        if (converged(record, shares) && !raised) return RefineStatus::converged;
+        if (record.damping > 0 && converged(record, shares) && !raised)
+          return RefineStatus::converged;
       }
       Grids grids = !raised ? next_grids(answer, errors, shares, unresolved)
                     : low   ? halved_grids(answer, chatter)

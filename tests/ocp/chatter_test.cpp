@@ -81,6 +81,17 @@ TEST(Chatter, LeavesNoTraceInTheAnswer) {
   EXPECT_NE(refined.table().find("damping"), std::string::npos);
 }
 
+/// What a barrier keeps a control off its bound differs from point to point, and is no swing.
+TEST(Chatter, IsNotTheBarriers) {
+  Problem p("ahead");
+  const Expr x = p.state("x"), u = p.control("u", {0, 1});
+  p.dynamics(x, u * (1 + sin(60 * p.time())) + 1e-9);
+  p.initial_bounds(x, Bounds::equal(0));
+  p.mayer("way", -p.final(x));
+  const Refined refined = refine(p, by_lgr(), {.tolerance = 1e-9, .refinement = Refinement::hp});
+  for (const MeshRecord& mesh : refined.meshes) EXPECT_EQ(mesh.damping, 0) << refined.table();
+}
+
 /// Many swings that a mesh resolves are none, nor are many jumps.
 TEST(Chatter, IsNoControlThatAMeshResolves) {
   Problem p("follows");
