@@ -27,17 +27,19 @@ struct RefinedAnswer {
 using OnePhase = RefinedAnswer<ocp::Refined, Solved>;
 using PhasedAnswer = RefinedAnswer<ocp::PhasedRefined, PhasedSolved>;
 
-const std::vector<std::string> kRules = {"tolerance",  "refinement", "max_meshes",      "max_size",
-                                         "min_points", "max_points", "resolve_controls"};
+const std::vector<std::string> kRules = {"tolerance",        "refinement",  "max_meshes",
+                                         "max_size",         "min_points",  "max_points",
+                                         "resolve_controls", "damp_chatter"};
 
 RefineRules rules_of(double tolerance, const std::string& refinement, int max_meshes, int max_size,
-                     int min_points, int max_points, bool resolve_controls) {
+                     int min_points, int max_points, bool resolve_controls, bool damp_chatter) {
   check_at_most(max_meshes, 1000, "refine: max_meshes");
   check_at_most(max_size, 1'000'000, "refine: max_size");
   check_at_most(max_points, 100, "refine: max_points");
   RefineRules rules;
   rules.tolerance = tolerance;
   rules.resolve_controls = resolve_controls;
+  rules.damp_chatter = damp_chatter;
   rules.max_meshes = max_meshes;
   rules.max_size = max_size;
   rules.min_points = min_points;
@@ -53,13 +55,13 @@ RefineRules rules_of(double tolerance, const std::string& refinement, int max_me
 
 OnePhase refine(const Problem& problem, double tolerance, const std::string& refinement,
                 int max_meshes, int max_size, int min_points, int max_points, bool resolve_controls,
-                const MeshChoice& mesh, const SchemeChoice& scheme, const PointsChoice& points,
-                const std::string& backend, const nb::object& guess, const Solved* warm_start,
-                const nb::kwargs& options) {
+                bool damp_chatter, const MeshChoice& mesh, const SchemeChoice& scheme,
+                const PointsChoice& points, const std::string& backend, const nb::object& guess,
+                const Solved* warm_start, const nb::kwargs& options) {
   auto start =
       settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options, kRules);
   const auto rules = rules_of(tolerance, refinement, max_meshes, max_size, min_points, max_points,
-                              resolve_controls);
+                              resolve_controls, damp_chatter);
   OnePhase refined;
   refined.solution.problem = std::make_shared<const Problem>(problem);
   std::tie(refined.answer, refined.solution.elapsed_s) = run_released(
@@ -72,7 +74,7 @@ OnePhase refine(const Problem& problem, double tolerance, const std::string& ref
 
 PhasedAnswer refine_phases(const Phases& problem, double tolerance, const std::string& refinement,
                            int max_meshes, int max_size, int min_points, int max_points,
-                           bool resolve_controls, const MeshChoice& mesh,
+                           bool resolve_controls, bool damp_chatter, const MeshChoice& mesh,
                            const SchemeChoice& scheme, const PointsChoice& points,
                            const ByName<nb::any>& phases, const std::string& backend,
                            const PhasedSolved* guess, const PhasedSolved* warm_start,
@@ -81,7 +83,7 @@ PhasedAnswer refine_phases(const Phases& problem, double tolerance, const std::s
   auto start =
       start_of(copy, {mesh, scheme, points}, phases, backend, guess, warm_start, options, kRules);
   const auto rules = rules_of(tolerance, refinement, max_meshes, max_size, min_points, max_points,
-                              resolve_controls);
+                              resolve_controls, damp_chatter);
   auto [answer, elapsed] = run_released(start.settings.options,
                                         [&] { return ocp::refine(copy, start.settings, rules); });
   PhasedSolved solution(copy, std::move(answer.solution), elapsed);
@@ -101,6 +103,7 @@ void bind_record(nb::module_& module) {
       .def_ro("largest_error", &MeshRecord::largest_error, doc::ocp_MeshRecord_largest_error)
       .def_ro("objective_error", &MeshRecord::objective_error, doc::ocp_MeshRecord_objective_error)
       .def_ro("unresolved", &MeshRecord::unresolved, doc::ocp_MeshRecord_unresolved)
+      .def_ro("damping", &MeshRecord::damping, doc::ocp_MeshRecord_damping)
       .def_ro("worst_phase", &MeshRecord::worst_phase, doc::ocp_MeshRecord_worst_phase)
       .def_ro("worst_interval", &MeshRecord::worst_interval);
 }
@@ -138,15 +141,19 @@ void def_refine(nb::class_<Type>& type, const Function& function, const Keywords
            "refinement"_a = "h", "max_meshes"_a = defaults.max_meshes,
            "max_size"_a = defaults.max_size, "min_points"_a = defaults.min_points,
            "max_points"_a = defaults.max_points, "resolve_controls"_a = defaults.resolve_controls,
-           "mesh"_a = 40, "scheme"_a = "hermite_simpson", "points"_a = nb::none(), keywords...,
-           "backend"_a = "", "guess"_a = nb::none(), "warm_start"_a = nb::none(), "options"_a,
+           "damp_chatter"_a = defaults.damp_chatter, "mesh"_a = 40, "scheme"_a = "hermite_simpson",
+           "points"_a = nb::none(), keywords..., "backend"_a = "", "guess"_a = nb::none(),
+           "warm_start"_a = nb::none(), "options"_a,
            "Solves on one mesh after another, each from the last one's polynomials and "
            "multipliers, until\nevery interval's error, found by re-integration, is within "
            "`tolerance`. `refinement` \"h\" cuts\nintervals, \"hp\" raises the degree of lgr, "
            "lgr_differential, lgr_flipped or lgl up to `max_points`, then cuts\ninto intervals of "
            "`min_points`; no more than `max_meshes` meshes, none of more than `max_size`\npoints. "
            "`resolve_controls` goes on until jumps of the controls are resolved, and the "
-           "objective too\nmoves by less than `tolerance`. The other keywords are those of solve, "
+           "objective too\nmoves by less than `tolerance`. `damp_chatter` holds a control that "
+           "goes to and fro "
+           "from point to point, as on\nsingular arcs, near an average of its own. The other "
+           "keywords are those of solve, "
            "for the first mesh.");
 }
 

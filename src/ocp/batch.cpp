@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "set_up_watch.hpp"
+
 namespace slalom::ocp {
 namespace {
 
@@ -15,6 +17,7 @@ std::size_t first_bad(std::span<const double> numbers) {
 }  // namespace
 
 void Batch::finish() {
+  SetUpWatch::ask_now();
   evaluator.emplace(function, lanes);
   for (const nlp::Parts parts : {nlp::Parts{.values = true},
                                  {.values = true, .derivatives = true},
@@ -25,6 +28,7 @@ void Batch::finish() {
   std::vector<Scatter> copies;
   copied_.resize(function.variables() * lanes);
   for (std::size_t i = 0; i < function.variables(); ++i) {
+    SetUpWatch::ask_now();
     const std::uint32_t* from = &gather[i * lanes];
     bool run = true, same = true;
     for (std::size_t lane = 0; lane < lanes; ++lane) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::ocp {
@@ -37,12 +38,14 @@ Draft::Draft(const Problem& p, const Mesh& m, const Schemes& s)
 }
 
 std::size_t Draft::add_row(RowName name, std::size_t stage, Bounds bounds, double scale) {
+  SetUpWatch::poll();
   rows.push_back({std::move(name), stage, bounds, scale, {}});
   return rows.size() - 1;
 }
 
 void Draft::use(std::size_t batch, std::size_t output, std::size_t lane, std::size_t row,
                 std::size_t term, double coefficient) {
+  SetUpWatch::poll();
   uses[batch].push_back({output, lane, row, term, coefficient});
 }
 
@@ -52,6 +55,7 @@ std::size_t Draft::term_index(const std::string& name) const {
 }
 
 std::size_t Draft::add_batch(const std::vector<Output>& outputs, const Lanes& lanes) {
+  SetUpWatch::ask_now();  // a large expression's derivatives take their time
   uses.emplace_back();
   return compiler_.add(outputs, lanes);
 }

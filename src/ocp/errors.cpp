@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "bound_shares.hpp"
 #include "integrator.hpp"
 #include "point_functions.hpp"
 #include "slalom/base/error.hpp"
@@ -201,6 +202,7 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
   };
   ErrorEstimate estimate;
   estimate.objective_size = sizes.objective;
+  estimate.bound_share = bound_shares(problem, solution, polynomials);
   Vector running = begin(0);
   for (std::size_t k = 0; k < solution.mesh.intervals(); ++k) {
     Vector expected = trajectory.states[node[k + 1]];

@@ -1,5 +1,6 @@
 #include "lane_runs.hpp"
 #include "../base/kernel_choice.hpp"
+#include "set_up_watch.hpp"
 
 namespace slalom::ocp {
 
@@ -15,6 +16,7 @@ LaneRuns::LaneRuns(const std::vector<Scatter>& list, std::vector<char>* written)
     return written != nullptr && !(*written)[list[t].target];
   };
   for (std::size_t t = 0; t < list.size();) {
+    SetUpWatch::poll();
     const bool fresh = is_fresh(t);
     Run run{list[t].source, list[t].target, 1, 1, 1, static_cast<std::uint32_t>(t), true, fresh};
     std::size_t next = t + 1;

@@ -4,30 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "conflicts.hpp"
+#include "damping.hpp"
+#include "remesh.hpp"
 #include "slalom/base/error.hpp"
 #include "solved.hpp"
 
 namespace slalom::ocp {
 namespace {
-
-/// Most pieces that one refinement cuts an interval into: errors far from the asymptotic regime
-/// tell little.
-constexpr int kMostPieces = 5;
-/// Points that take off less than this factor of an interval's error are in vain.
-constexpr double kLeastFall = 4;
-/// Times the tolerance: what all errors together may make of the objective, relative to it.
-constexpr double kObjectiveTolerance = 10;
-/// What an interval's errors are at least for their share of that to mean anything.
-constexpr double kSolversError = 1e-10;
-
-/// The n of lgr(n) and the like.
-int points_of(const Scheme& scheme) {
-  return static_cast<int>(scheme.points.size()) - (scheme.name == "lgl" ? 0 : 1);
-}
 
 void check(const std::string& problem, const RefineRules& rules,
            const std::vector<PhasedTranscription::Grid>& grids) {
@@ -52,135 +39,6 @@ void check(const std::string& problem, const RefineRules& rules,
   }
 }
 
-/// What becomes of an interval: equal pieces, each by `scheme`.
-struct Fate {
-  int pieces = 1;
-  Scheme scheme;
-};
-
-/// The error of an interval of length h falls as h^(order + 1).
-Fate cut(const Scheme& scheme, double excess) {
-  const double pieces = std::ceil(std::pow(excess, 1.0 / (scheme.order + 1)));
-  return {std::clamp(pieces < kMostPieces ? static_cast<int>(pieces) : kMostPieces, 2, kMostPieces),
-          scheme};
-}
-
-/// Patterson, Hager & Rao 2015, eq. 36 to 38: the error falls by the number of points for each
-/// point more.
-Fate raise(const Scheme& scheme, double excess, const RefineRules& rules) {
-  const int now = points_of(scheme);
-  const double more = std::max(1.0, std::ceil(std::log(excess) / std::log(std::max(now, 2))));
-  if (now + more <= rules.max_points)
-    return {1, ocp::scheme(scheme.name, now + static_cast<int>(more))};
-  const double pieces = std::ceil(std::min(now + more, 1e3) / rules.min_points);
-  return {std::clamp(static_cast<int>(pieces), 2, kMostPieces),
-          ocp::scheme(scheme.name, rules.min_points)};
-}
-
-/// What one phase's meshes so far tell of its intervals.
-class History {
- public:
-  /// Whether something in an interval steps or bends, which no polynomial follows: more points took
-  /// little off its error, or did so in an interval around it (Liu, Hager & Rao, J. Franklin Inst.
-  /// 352(10), 2015).
-  bool bends(double begin, double end, int points, double error) {
-    for (const auto& [from, to] : bent_)
-      if (from <= begin && end <= to) return true;
-    const auto at = last_.find({begin, end});
-    if (at == last_.end() || at->second.points >= points || error <= at->second.error / kLeastFall)
-      return false;
-    bent_.emplace_back(begin, end);
-    return true;
-  }
-  /// To be called when the next mesh is known.
-  void note(const Solution& solution, const ErrorEstimate& errors) {
-    last_.clear();
-    const auto& breaks = solution.mesh.breakpoints();
-    for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
-      last_[{breaks[k], breaks[k + 1]}] = {points_of(solution.scheme.of(k)), errors.interval[k]};
-  }
-
- private:
-  struct Interval {
-    int points = 0;
-    double error = 0;
-  };
-  std::map<std::pair<double, double>, Interval> last_;
-  std::vector<std::pair<double, double>> bent_;
-};
-
-/// A control's error falls as h^2 (unresolved_controls).
-Fate cut_for_control(const Scheme& scheme, double excess) {
-  const double pieces = std::ceil(std::sqrt(excess));
-  return {std::clamp(pieces < kMostPieces ? static_cast<int>(pieces) : kMostPieces, 2, kMostPieces),
-          scheme};
-}
-
-/// What all phases' intervals make of the objective.
-class Shares {
- public:
-  Shares(const std::vector<ErrorEstimate>& phases, double tolerance) : tolerance_(tolerance) {
-    for (const auto& errors : phases) {
-      size_ += errors.objective_size;
-      for (const double share : errors.objective_share) sum_ += std::fabs(share);
-      intervals_ += static_cast<double>(errors.objective_share.size());
-    }
-    if (!(size_ > 0)) size_ = 1;
-    for (const auto& errors : phases)
-      for (std::size_t k = 0; k < errors.interval.size(); ++k)
-        largest_excess_ = std::max(largest_excess_, excess(errors, k));
-  }
-
-  double size() const { return size_; }
-  /// Relative to that.
-  double sum() const { return sum_ / size_; }
-  bool too_large() const { return largest_excess_ > 1; }
-  /// An interval's share over what it may be; 0 where the sum is small enough, or the interval's
-  /// errors are but the solver's.
-  double excess(const ErrorEstimate& errors, std::size_t k) const {
-    const double most = kObjectiveTolerance * tolerance_;
-    if (sum() <= most || errors.interval[k] <= kSolversError) return 0;
-    return std::fabs(errors.objective_share[k]) / size_ * intervals_ / most;
-  }
-
- private:
-  double tolerance_, size_ = 0, sum_ = 0, intervals_ = 0, largest_excess_ = 0;
-};
-
-PhasedTranscription::Grid next_grid(const Solution& solution, const ErrorEstimate& errors,
-                                    const Shares& shares, const std::vector<double>& unresolved,
-                                    History& history, const RefineRules& rules) {
-  const auto& breaks = solution.mesh.breakpoints();
-  std::vector<double> next{0};
-  std::vector<Scheme> schemes;
-  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
-    const Scheme& scheme = solution.scheme.of(k);
-    const double excess = std::max(errors.interval[k] / rules.tolerance, shares.excess(errors, k));
-    const Fate fate =
-        unresolved[k] > rules.tolerance
-            ? cut_for_control(scheme, std::max(excess, unresolved[k] / rules.tolerance))
-        : excess <= 1                       ? Fate{1, scheme}
-        : rules.refinement == Refinement::h ? cut(scheme, excess)
-        : history.bends(breaks[k], breaks[k + 1], points_of(scheme), errors.interval[k])
-            ? Fate{kMostPieces, ocp::scheme(scheme.name, rules.min_points)}
-            : raise(scheme, excess, rules);
-    for (int piece = 1; piece <= fate.pieces; ++piece) {
-      const double share = static_cast<double>(piece) / fate.pieces;
-      next.push_back(piece == fate.pieces ? breaks[k + 1]
-                                          : breaks[k] + share * (breaks[k + 1] - breaks[k]));
-      schemes.push_back(fate.scheme);
-    }
-  }
-  return {Mesh(std::move(next)), Schemes(std::move(schemes))};
-}
-
-std::size_t points(const PhasedTranscription::Grid& grid) {
-  std::size_t count = 1;
-  for (std::size_t k = 0; k < grid.mesh.intervals(); ++k)
-    count += grid.schemes.of(k).points.size() - 1;
-  return count;
-}
-
 /// One phase's solves.
 class Single {
  public:
@@ -192,8 +50,14 @@ class Single {
   std::vector<PhasedTranscription::Grid> grids() const {
     return {{settings_.mesh, settings_.scheme}};
   }
-  Solution solve() const { return ocp::solve(problem_, settings_); }
+  Solution solve() const { return stated(ocp::solve(now(), settings_)); }
   static std::vector<const Solution*> phases(const Solution& solution) { return {&solution}; }
+  /// Of the solves from now on; a weight of 0 ends it.
+  void damp(const Solution& earlier, const Chosen& chosen, double weight) {
+    damped_.reset();
+    if (weight > 0) add_damping(damped_.emplace(problem_), earlier, chosen[0], weight);
+  }
+  double damping_cost() const { return damping_cost_; }
   const Problem& problem(std::size_t) const { return problem_; }
   std::string phase_name(std::size_t) const { return ""; }
   void next(std::vector<PhasedTranscription::Grid> grids, const Solution& previous) {
@@ -206,12 +70,20 @@ class Single {
     SolveSettings settings = settings_;
     settings.guess = resampled(problem_, *settings.previous, {settings.mesh, settings.scheme});
     settings.previous = nullptr;
-    return ocp::solve(problem_, settings);
+    return stated(ocp::solve(now(), settings));
   }
 
  private:
+  const Problem& now() const { return damped_ ? *damped_ : problem_; }
+  Solution stated(Solution solution) const {
+    damping_cost_ = without_damping(solution);
+    return solution;
+  }
+
   const Problem& problem_;
   SolveSettings settings_;
+  std::optional<Problem> damped_;
+  mutable double damping_cost_ = 0;
 };
 
 /// Those of several phases.
@@ -225,7 +97,7 @@ class Several {
 
   const std::string& name() const { return problem_.name(); }
   const std::vector<PhasedTranscription::Grid>& grids() const { return settings_.grids; }
-  PhasedSolution solve() const { return ocp::solve(problem_, settings_); }
+  PhasedSolution solve() const { return stated(ocp::solve(now(), settings_)); }
   static std::vector<const Solution*> phases(const PhasedSolution& solution) {
     std::vector<const Solution*> list;
     for (const auto& phase : solution.phases) list.push_back(&phase);
@@ -244,12 +116,33 @@ class Several {
       settings.guesses.push_back(
           resampled(problem(p), settings.previous->phases[p], settings.grids[p]));
     settings.previous = nullptr;
-    return ocp::solve(problem_, settings);
+    return stated(ocp::solve(now(), settings));
   }
+  void damp(const PhasedSolution& earlier, const Chosen& chosen, double weight) {
+    damped_.reset();
+    if (!(weight > 0)) return;
+    damped_.emplace(problem_);
+    for (std::size_t p = 0; p < chosen.size(); ++p) {
+      Problem phase = problem(p);
+      add_damping(phase, earlier.phases[p], chosen[p], weight);
+      damped_->replace(p, std::move(phase));
+    }
+  }
+  double damping_cost() const { return damping_cost_; }
 
  private:
+  const PhasedProblem& now() const { return damped_ ? *damped_ : problem_; }
+  PhasedSolution stated(PhasedSolution solution) const {
+    damping_cost_ = 0;
+    for (Solution& phase : solution.phases) damping_cost_ += without_damping(phase);
+    solution.objective -= damping_cost_;
+    return solution;
+  }
+
   const PhasedProblem& problem_;
   PhasedSettings settings_;
+  std::optional<PhasedProblem> damped_;
+  mutable double damping_cost_ = 0;
 };
 
 template <class Solves>
@@ -299,46 +192,135 @@ std::vector<std::vector<double>> unresolved_by_phase(const Solves& solves,
   return list;
 }
 
-/// Change of the objective since the mesh before, relative to its size; infinite on the first.
-double last_change(const std::vector<MeshRecord>& meshes, double size) {
-  if (meshes.size() < 2) return kInfinity;
-  return std::fabs(meshes.back().objective - meshes[meshes.size() - 2].objective) / size;
+template <class Solves>
+std::vector<Chatter> chatter_in(const typename Solves::Answer& answer, bool damped) {
+  std::vector<Chatter> list;
+  for (const Solution* phase : Solves::phases(answer)) list.push_back(chatter_of(*phase, damped));
+  return list;
 }
 
-/// Fills `answer`, `errors` and `meshes`.
+/// One refinement, mesh after mesh.
+template <class Solves>
+class Refining {
+ public:
+  using Answer = typename Solves::Answer;
+  Refining(Solves solves, const RefineRules& rules)
+      : solves_(std::move(solves)),
+        rules_(rules),
+        histories_(solves_.grids().size()),
+        damping_(rules.resolve_controls && rules.damp_chatter) {}
+
+  /// Fills `answer`, `errors` and `meshes`.
+  RefineStatus run(Answer& answer, std::vector<ErrorEstimate>& errors,
+                   std::vector<MeshRecord>& meshes) {
+    for (int mesh = 1, damped = 0;;) {
+      Answer now = solve(meshes.empty());
+      MeshRecord& record = meshes.emplace_back(record_of<Solves>(now));
+      record.damping = damping_.weight();
+      if (!now.solved()) {
+        if (meshes.size() == 1) answer = std::move(now);
+        return RefineStatus::not_solved;
+      }
+      const auto chatter = chatter_in<Solves>(now, record.damping > 0);
+      auto judged = judge(solves_, now, record);
+      const auto unresolved = unresolved_by_phase(solves_, now, rules_, record);
+      const Shares shares(judged, rules_);
+      record.objective_error = shares.sum();
+      if (record.damping == 0 && converged(record, shares)) {  // whatever it does between points
+        answer = std::move(now);
+        errors = std::move(judged);
+        return RefineStatus::converged;
+      }
+      const bool low = damping_.lowered(), raised = damping_.raised(chatter);
+      if (!(low && raised)) {  // else the answer with more weight is the better one
+        answer = std::move(now);
+        errors = std::move(judged);
+        if (record.damping > 0 && converged(record, shares) && !raised)
+          return RefineStatus::converged;
+      }
+      Grids grids = !raised ? next_grids(answer, errors, shares, unresolved)
+                    : low   ? halved_grids(answer, chatter)
+                            : grids_of(answer);
+      const bool same = count(grids) == count(grids_of(answer));
+      if (same && !raised) damping_.lower();
+      const bool last = damping_.weight() > 0 ? ++damped > kDampedSolves * rules_.max_meshes
+                                              : ++mesh > rules_.max_meshes;
+      if (last) return RefineStatus::mesh_limit;
+      if (count(grids) > static_cast<std::size_t>(rules_.max_size)) return RefineStatus::size_limit;
+      solves_.next(std::move(grids), answer);
+      solves_.damp(answer, damping_.chosen(), damping_.weight() * shares.size());
+    }
+  }
+
+ private:
+  using Grids = std::vector<PhasedTranscription::Grid>;
+  /// For each mesh that there may be: most by which damping ends or its weight is found.
+  static constexpr int kDampedSolves = 2;
+  /// Times the tolerance: what damping may be estimated to leave.
+  static constexpr double kDampedTolerance = 5;
+
+  Answer solve(bool first) const {
+    Answer now = solves_.solve();
+    if (!first && !now.solved()) now = solves_.solve_anew();
+    return now;
+  }
+  /// Fills the record's error of the objective too.
+  bool converged(MeshRecord& record, const Shares& shares) {
+    const double change = std::fabs(record.objective - last_objective_) / shares.size();
+    last_objective_ = record.objective;
+    double left = 0;
+    if (record.damping > 0)
+      left = std::max(damping_.calm(change), std::fabs(solves_.damping_cost()) / shares.size());
+    if (record.unresolved > 0) record.objective_error = std::max(record.objective_error, change);
+    record.objective_error = std::max(record.objective_error, left);
+    return fine(record, shares) && (record.unresolved == 0 || change <= rules_.tolerance) &&
+           left <= kDampedTolerance * rules_.tolerance;
+  }
+  bool fine(const MeshRecord& record, const Shares& shares) const {
+    return record.largest_error <= rules_.tolerance && !shares.too_large();
+  }
+  static std::size_t count(const Grids& grids) {
+    std::size_t size = 0;
+    for (const auto& grid : grids) size += points(grid);
+    return size;
+  }
+  static Grids grids_of(const Answer& answer) {
+    Grids grids;
+    for (const Solution* phase : Solves::phases(answer))
+      grids.push_back({phase->mesh, phase->scheme});
+    return grids;
+  }
+  /// Cut where a control chattered by less weight.
+  static Grids halved_grids(const Answer& answer, const std::vector<Chatter>& chatter) {
+    Grids grids = grids_of(answer);
+    for (std::size_t p = 0; p < grids.size(); ++p)
+      grids[p] = halved(grids[p], chatter[p].intervals);
+    return grids;
+  }
+  Grids next_grids(const Answer& answer, const std::vector<ErrorEstimate>& errors,
+                   const Shares& shares, const std::vector<std::vector<double>>& unresolved) {
+    Grids grids;
+    const auto phases = Solves::phases(answer);
+    for (std::size_t p = 0; p < phases.size(); ++p) {
+      grids.push_back(
+          next_grid(*phases[p], errors[p], shares, unresolved[p], histories_[p], rules_));
+      histories_[p].note(*phases[p], errors[p]);
+    }
+    return grids;
+  }
+
+  Solves solves_;
+  const RefineRules& rules_;
+  std::vector<History> histories_;
+  Damping damping_;
+  double last_objective_ = kInfinity;
+};
+
 template <class Solves>
 RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answer& answer,
                  std::vector<ErrorEstimate>& errors, std::vector<MeshRecord>& meshes) {
   check(solves.name(), rules, solves.grids());
-  std::vector<History> histories(solves.grids().size());
-  for (int mesh = 1;; ++mesh) {
-    auto now = solves.solve();
-    if (mesh > 1 && !now.solved()) now = solves.solve_anew();
-    MeshRecord& record = meshes.emplace_back(record_of<Solves>(now));
-    const bool solved = now.solved();
-    if (solved || mesh == 1) answer = std::move(now);
-    if (!solved) return RefineStatus::not_solved;
-    errors = judge(solves, answer, record);
-    const auto unresolved = unresolved_by_phase(solves, answer, rules, record);
-    const Shares shares(errors, rules.tolerance);
-    record.objective_error = shares.sum();
-    const double change = last_change(meshes, shares.size());
-    if (record.unresolved > 0) record.objective_error = std::max(record.objective_error, change);
-    if (record.largest_error <= rules.tolerance && !shares.too_large() &&
-        (record.unresolved == 0 || change <= rules.tolerance))
-      return RefineStatus::converged;
-    if (mesh == rules.max_meshes) return RefineStatus::mesh_limit;
-    std::vector<PhasedTranscription::Grid> grids;
-    std::size_t size = 0;
-    const auto phases = Solves::phases(answer);
-    for (std::size_t p = 0; p < phases.size(); ++p) {
-      grids.push_back(next_grid(*phases[p], errors[p], shares, unresolved[p], histories[p], rules));
-      histories[p].note(*phases[p], errors[p]);
-      size += points(grids.back());
-    }
-    if (size > static_cast<std::size_t>(rules.max_size)) return RefineStatus::size_limit;
-    solves.next(std::move(grids), answer);
-  }
+  return Refining<Solves>(std::move(solves), rules).run(answer, errors, meshes);
 }
 
 }  // namespace
@@ -360,13 +342,13 @@ const char* to_string(RefineStatus status) {
 std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status) {
   std::string text =
       "mesh  intervals  points  status  iterations  solve [s]  objective  its error  unresolved  "
-      "error\n";
+      "damping  error\n";
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const MeshRecord& mesh = meshes[m];
     text += fmt::format(
-        "{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {:.1e}  {}  {:.2e} in interval {}{}\n", m + 1,
+        "{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {:.1e}  {}  {:.2g}  {:.2e} in interval {}{}\n", m + 1,
         mesh.intervals, mesh.points, nlp::to_string(mesh.status), mesh.iterations, mesh.wall_s,
-        mesh.objective, mesh.objective_error, mesh.unresolved, mesh.largest_error,
+        mesh.objective, mesh.objective_error, mesh.unresolved, mesh.damping, mesh.largest_error,
         mesh.worst_interval, mesh.worst_phase.empty() ? "" : " of " + mesh.worst_phase);
   }
   return text + to_string(status) + "\n";

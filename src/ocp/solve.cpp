@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "conflicts.hpp"
 #include "lookup.hpp"
 #include "moved.hpp"
+#include "set_up_watch.hpp"
+#include "simulated_guess.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/moments.hpp"
@@ -26,6 +29,9 @@ constexpr std::uint64_t kMoreTries = 5;
 /// to lose one's way in, and an answer is most of the way to one on a finer mesh (Betts 2010,
 /// section 4.6, begins on coarse meshes for that reason).
 constexpr int kCoarseMeshes[] = {4, 10};
+/// Of the way from a control's lower to its upper bound: the held controls of the guesses after
+/// these. Where rates grow with the states, the lower half leads further.
+constexpr double kHeldControls[] = {0.5, 0.25};
 /// A limit below is there to see how a solve begins.
 constexpr int kEnoughIterations = 100;
 
@@ -78,7 +84,22 @@ void check_count(const PhasedProblem& problem, const char* what, const List& lis
                        std::to_string(problem.phases().size()) + ", one a phase, or none");
 }
 
-Solution solve_once(const Problem& problem, const SolveSettings& settings) {
+void tell_end(const SetUpWatch& watch, nlp::Status status, const nlp::Options& options,
+              auto& solution) {
+  solution.status = status;
+  solution.objective = std::numeric_limits<double>::quiet_NaN();
+  solution.options = options;
+  solution.wall_s = watch.seconds();
+}
+
+/// What the set-up has left of the time limit.
+nlp::Options left(const SetUpWatch& watch, nlp::Options options) {
+  options.time_limit = std::max(0.0, options.time_limit - watch.seconds());
+  return options;
+}
+
+Solution solve_within(const SetUpWatch& watch, const Problem& problem,
+                      const SolveSettings& settings) {
   const auto grid = with_moments(problem, {settings.mesh, settings.scheme});
   const Beginning beginning = begin(problem, grid, settings.guess, settings.previous);
   const Problem scaled = with_scales(problem, beginning.guess);
@@ -88,15 +109,16 @@ Solution solve_once(const Problem& problem, const SolveSettings& settings) {
                                 : start_of(transcription, beginning);
   const auto solver = nlp::make_solver(settings.backend);
   Solution solution;
-  auto point = run(transcription, *solver, settings.options, start,
+  auto point = run(transcription, *solver, left(watch, settings.options), start,
                    transcription.regular_variables(), solution);
-  if (unwind(scaled, transcription, point.x))
+  if (solution.iterations > 0 && unwind(scaled, transcription, point.x))
     solution.point = to_user(point, transcription.structure());
   describe(scaled, grid, Tables(scaled), transcription, point, solution);
   return solution;
 }
 
-PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& settings) {
+PhasedSolution solve_within(const SetUpWatch& watch, const PhasedProblem& problem,
+                            const PhasedSettings& settings) {
   const std::size_t phases = problem.phases().size();
   auto grids = settings.grids;
   if (grids.empty()) grids.resize(phases);
@@ -130,10 +152,11 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
     start = from_user(settings.warm_start, transcription.structure());
   const auto solver = nlp::make_solver(settings.backend);
   PhasedSolution solution;
-  nlp::Start point = run(transcription, *solver, settings.options, start, regular, solution);
+  nlp::Start point =
+      run(transcription, *solver, left(watch, settings.options), start, regular, solution);
   bool unwound = false;
   auto first = point.x.begin();  // of the phase's variables, which follow those of the phase before
-  for (std::size_t p = 0; p < phases; ++p) {
+  for (std::size_t p = 0; p < phases && solution.iterations > 0; ++p) {
     std::vector<double> x = transcription.part_of(p, point).x;
     unwound = unwind(scaled.phases()[p], transcription.phase(p), x) || unwound;
     first = std::copy(x.begin(), x.end(), first);
@@ -142,6 +165,37 @@ PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& se
   describe(scaled, grids, transcription, point, solution);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
   return solution;
+}
+
+Solution solve_once(const Problem& problem, const SolveSettings& settings) {
+  const SetUpWatch watch(settings.options);
+  try {
+    return solve_within(watch, problem, settings);
+  } catch (const SetUpWatch::Stopped& stopped) {
+    Solution solution =
+        not_begun(problem, {settings.mesh, settings.scheme}, settings.guess, settings.previous);
+    tell_end(watch, stopped.status, settings.options, solution);
+    return solution;
+  }
+}
+
+PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& settings) {
+  const SetUpWatch watch(settings.options);
+  try {
+    return solve_within(watch, problem, settings);
+  } catch (const SetUpWatch::Stopped& stopped) {
+    PhasedSolution solution;
+    for (std::size_t p = 0; p < problem.phases().size(); ++p) {
+      solution.phases.push_back(
+          not_begun(problem.phases()[p],
+                    p < settings.grids.size() ? settings.grids[p] : PhasedTranscription::Grid{},
+                    p < settings.guesses.size() ? settings.guesses[p] : Trajectory{},
+                    settings.previous == nullptr ? nullptr : &settings.previous->phases[p]));
+      tell_end(watch, stopped.status, settings.options, solution.phases.back());
+    }
+    tell_end(watch, stopped.status, settings.options, solution);
+    return solution;
+  }
 }
 
 /// Whether nothing but a guess is there to start from.
@@ -264,6 +318,18 @@ class Tries {
     }
   }
 
+  /// From where constant controls lead: a guess that meets the dynamics, of one phase.
+  void from_simulations(const Settings& settings, Answer& answer) {
+    if constexpr (requires { settings.guess; })
+      for (const double share : kHeldControls) {
+        Settings again = settings;
+        if (!simulated(problem_, share, left_s_, again)) continue;
+        std::optional<Answer> found = solve(std::move(again));
+        if (found && found->solved()) answer = std::move(*found);
+        if (!found || answer.solved() || interrupted_) return;
+      }
+  }
+
   bool interrupted() const { return interrupted_; }
   int iterations() const { return iterations_; }
   double wall_s() const { return wall_s_; }
@@ -290,6 +356,8 @@ Answer solve_with_tries(const Problem& problem, const Settings& given) {
     }
   }
   if (lost_its_way(answer, settings)) tries.by_coarse_meshes(settings, answer);
+  if (!tries.interrupted() && without_guess(given) && lost_its_way(answer, settings))
+    tries.from_simulations(settings, answer);
   if (!tries.interrupted()) tries.from_elsewhere(settings, answer);
   answer.options = settings.options;
   answer.iterations = tries.iterations();

@@ -1,8 +1,10 @@
 #include "solved.hpp"
 
+#include "between_points.hpp"
 #include "conflicts.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/interpolant.hpp"
+#include "slalom/ocp/moments.hpp"
 
 namespace slalom::ocp {
 
@@ -66,6 +68,40 @@ void describe(const PhasedProblem& problem, const std::vector<PhasedTranscriptio
   const auto costs = transcription.cost_terms(point.x);
   for (std::size_t c = 0; c < costs.size(); ++c)
     solution.cost_terms.emplace_back(problem.costs()[c].name, costs[c]);
+}
+
+Solution not_begun(const Problem& problem, const PhasedTranscription::Grid& given,
+                   const Trajectory& given_guess, const Solution* previous) {
+  const auto grid = with_moments(problem, given);
+  const Trajectory guess =
+      previous != nullptr ? previous->trajectory : begin(problem, grid, given_guess, nullptr).guess;
+  Solution solution;
+  solution.mesh = grid.mesh;
+  solution.scheme = grid.schemes;
+  solution.scales = all_scales(problem);
+  for (const auto& state : problem.states()) solution.state_units.push_back(state.unit());
+  solution.state_names = names_of(problem.states());
+  solution.control_names = names_of(problem.controls());
+  solution.static_parameter_names = names_of(problem.static_parameters());
+  solution.slack_names = names_of(problem.slacks());
+  Trajectory& at = solution.trajectory = guess;
+  at.tau = {0};
+  for (std::size_t k = 0; k < grid.mesh.intervals(); ++k) {
+    const double from = grid.mesh.breakpoints()[k], to = grid.mesh.breakpoints()[k + 1];
+    const auto& points = grid.schemes.of(k).points;
+    for (std::size_t j = 1; j < points.size(); ++j)
+      at.tau.push_back(from + points[j] * (to - from));
+  }
+  const auto sample = [&](const std::vector<std::vector<double>>& rows) {
+    std::vector<std::vector<double>> list(at.tau.size());
+    for (std::size_t k = 0; k < list.size(); ++k)
+      for (std::size_t i = 0; i < rows.front().size(); ++i)
+        list[k].push_back(between_points(guess.tau, rows, i, at.tau[k]));
+    return list;
+  };
+  at.states = sample(guess.states);
+  at.controls = sample(guess.controls);
+  return solution;
 }
 
 nlp::Answer interrupted_at(const nlp::Start& start, const nlp::Structure& shape) {

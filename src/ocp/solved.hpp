@@ -31,6 +31,10 @@ void describe(const PhasedProblem& problem, const std::vector<PhasedTranscriptio
               PhasedTranscription& transcription, const nlp::Start& point,
               PhasedSolution& solution);
 
+/// The guess on the grid, of a solve whose set-up was ended.
+Solution not_begun(const Problem& problem, const PhasedTranscription::Grid& given,
+                   const Trajectory& given_guess, const Solution* previous);
+
 /// A point of the NLP in the user's units, and back.
 nlp::Start to_user(nlp::Start point, const nlp::Structure& shape);
 nlp::Start from_user(nlp::Start point, const nlp::Structure& shape);

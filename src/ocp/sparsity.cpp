@@ -4,6 +4,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "set_up_watch.hpp"
+
 namespace slalom::ocp {
 namespace {
 
@@ -18,6 +20,7 @@ class Places {
       : rows_(rows), cols_(cols) {}
 
   std::uint32_t number(std::size_t row, std::size_t col) {
+    SetUpWatch::poll();
     const auto [it, fresh] =
         index_.try_emplace((std::uint64_t{row} << 32) | col, narrow(rows_.size()));
     if (fresh) {
@@ -56,6 +59,7 @@ class Filler {
   void values(const std::vector<Use>& uses, Batch& batch) {
     std::vector<Scatter> to_rows, to_terms;
     for (const Use& use : uses) {
+      SetUpWatch::poll();
       const auto source = narrow(use.output * batch.lanes + use.lane);
       if (use.row != kNone)
         to_rows.push_back({source, narrow(use.row), use.coefficient * rows_[use.row].scale});
@@ -139,6 +143,7 @@ void fill_rows(const std::vector<RowInfo>& rows, Transcribed& out) {
   structure.stages = out.layout.intervals() + 1;
   structure.variable_stage = out.layout.variable_stage;
   for (const auto& row : rows) {
+    SetUpWatch::poll();
     structure.row_stage.push_back(narrow(row.stage));
     structure.row_scale.push_back(row.scale);
     out.limits.gl.push_back(row.bounds.lower * row.scale);

@@ -14,6 +14,7 @@
 #include "constant_rows.hpp"
 #include "duals.hpp"
 #include "point_functions.hpp"
+#include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "stored_trajectory.hpp"
@@ -90,6 +91,7 @@ class Transcription::Impl {
   Impl(const ocp::Problem& p, const Mesh& mesh, const Schemes& s)
       : problem(p), schemes(s), symbols(problem), data(transcribe(p, mesh, schemes)) {
     check_times(problem);
+    SetUpWatch::ask_now();
     check_rows(problem, data);
     terms.resize(data.terms.size());
   }
@@ -155,6 +157,7 @@ class Transcription::Impl {
 
 Transcription::Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes)
     : impl_(std::make_unique<Impl>(problem, mesh, schemes)) {
+  SetUpWatch::ask_now();
   relax_constant_rows();
 }
 Transcription::~Transcription() = default;

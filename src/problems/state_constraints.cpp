@@ -172,10 +172,10 @@ Entries state_constraints() {
        .source = "Robbins 1980; Bocop's example",
        .hard = "a state constraint of third order: it touches ever more often",
        .tags = {Tag::high_order_constraint},
-       .converged = 19.43166,
-       .remark = "HS ends at 19.431651 from tolerance 1e-7 on; LGR, whose points let x1 dip below "
-                 "0 between "
-                 "them, at 19.431662 by 1e-9",
+       .converged = 19.431784,
+       .remark =
+           "HS and LGR end at 19.431783 and 19.431790 by 1e-9, where x1 no longer dips below 0 "
+           "between points; 16000 equal intervals of HS give 19.431781",
        .refinement = 1e-9,
        .state = robbins},
       {.name = "rayleigh",

@@ -214,6 +214,39 @@ TEST(HardStarts, WhatAFineMeshLosesACoarseOneFinds) {
   EXPECT_NEAR(phased.phases[0].tf(), solution.tf(), 1e-6);
 }
 
+/// Park & Ramirez, AIChE J. 34(9), 1988: a protein secreted by yeast in a fed batch. From straight
+/// lines, which have no protein anywhere, the method loses its way on any mesh.
+Problem fed_batch() {
+  Problem p("fed batch");
+  std::vector<Expr> x;
+  const double begin[] = {0, 0, 1, 5, 1};
+  for (int i = 0; i < 5; ++i) {
+    x.push_back(p.state("x" + std::to_string(i + 1)));
+    p.initial_bounds(x[i], Bounds::equal(begin[i]));
+  }
+  const Expr u = p.control("u", {0, 2});
+  const Expr growth = 21.87 * x[3] / ((x[3] + 0.4) * (x[3] + 62.5));
+  const Expr secretion = 4.75 * growth / (0.12 + growth);
+  const Expr expression = x[3] / (0.1 + x[3]) * exp(-5 * x[3]);
+  p.dynamics(x[0], secretion * (x[1] - x[0]) - u / x[4] * x[0]);
+  p.dynamics(x[1], expression * x[2] - u / x[4] * x[1]);
+  p.dynamics(x[2], growth * x[2] - u / x[4] * x[2]);
+  p.dynamics(x[3], -7.3 * growth * x[2] + u / x[4] * (20 - x[3]));
+  p.dynamics(x[4], u);
+  p.final_time(Bounds::equal(15), 15);
+  p.mayer("protein", -p.final(x[0]) * p.final(x[4]));
+  return p;
+}
+
+TEST(HardStarts, WhereCoarseMeshesFailHeldControlsLead) {
+  for (const auto& [intervals, scheme] : {std::pair{40, hermite_simpson()}, {20, lgr(4)}}) {
+    const Solution solution =
+        solve(fed_batch(), {.mesh = Mesh::uniform(intervals), .scheme = scheme});
+    EXPECT_TRUE(solution.solved()) << scheme.name << ": " << nlp::to_string(solution.status);
+    EXPECT_LT(solution.objective, -31) << "-32.686 in print; there are others nearby";
+  }
+}
+
 /// A user's limit on iterations that shows how a solve begins is kept to.
 TEST(HardStarts, AShortLimitIsKept) {
   SolveSettings settings{.mesh = Mesh::uniform(20), .scheme = lgr(4)};

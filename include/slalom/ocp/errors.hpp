@@ -29,8 +29,13 @@ struct ErrorEstimate {
   /// much the objective would change if the errors were mended.
   double objective = 0;
   std::vector<double> objective_share;  ///< by interval
-  double objective_size = 0;            ///< of the objective and all that adds up to its integral,
-                                        ///< or what the solver takes for 0
+  /// By interval, about what the objective gains where bounds of states, and path rows of states
+  /// and time alone, are violated between the points: by how much at most, times the multipliers at
+  /// the interval's points. There a state touches a bound, or comes to it or leaves it, elsewhere
+  /// than at a point; re-integration does not see it.
+  std::vector<double> bound_share;
+  double objective_size = 0;  ///< of the objective and all that adds up to its integral,
+                              ///< or what the solver takes for 0
 };
 
 /// `tolerance` is the integrator's, relative and, in units of each state's scale, absolute. A state

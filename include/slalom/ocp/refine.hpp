@@ -19,8 +19,15 @@ struct RefineRules {
   double tolerance = 1e-6;  ///< of ErrorEstimate::largest
   Refinement refinement = Refinement::h;
   /// Intervals whose control is not resolved to the tolerance (unresolved_controls) are cut too,
-  /// until the objective's relative change from mesh to mesh is below the tolerance.
+  /// until the objective's relative change from mesh to mesh is below the tolerance, and those
+  /// where a bound of states is violated between the points (ErrorEstimate::bound_share), until
+  /// that makes less than twice the tolerance of it.
   bool resolve_controls = true;
+  /// A control that goes to and fro from point to point, as on singular arcs, is held near an
+  /// average of its own by a small cost, time after time about the last answer, until what that
+  /// leaves of the objective is within five times the tolerance: up to 2 `max_meshes` solves more.
+  /// Without `resolve_controls` none is.
+  bool damp_chatter = true;
   int max_meshes = 15;
   int max_size = 20000;  ///< points of a mesh, over all phases
   int min_points = 3;    ///< hp: of the scheme in a new interval
@@ -31,7 +38,7 @@ struct RefineRules {
 enum class RefineStatus {
   converged,   ///< every interval's error, by re-integration, is within the tolerance, and the
                ///< objective's, to first order, within ten times it
-  mesh_limit,  ///< `max_meshes` were solved
+  mesh_limit,  ///< `max_meshes` were solved, or twice as many with controls damped
   size_limit,  ///< the next mesh would have more than `max_size` points
   not_solved,  ///< a mesh was not solved: see the last record's status
 };
@@ -46,12 +53,13 @@ struct MeshRecord {
   double objective = 0;
   double largest_error = 0;  ///< ErrorEstimate::largest
   /// How far the objective may be from the value that it converges to, relative to its size: the
-  /// intervals' shares (ErrorEstimate::objective_share), and the change since the mesh before while
-  /// a control is not resolved.
+  /// intervals' shares (ErrorEstimate::objective_share), the change since the mesh before while a
+  /// control is not resolved, and while one is damped what damping may have left.
   double objective_error = 0;
   std::string worst_phase;  ///< the phase with that error; empty if there is only one
   std::size_t worst_interval = 0;
   std::size_t unresolved = 0;  ///< intervals whose control is not resolved
+  double damping = 0;  ///< weight of the cost against chatter, relative to the objective's size
 };
 
 /// The records as a table of plain text, with the status below.
