@@ -37,6 +37,8 @@ constexpr std::array kRoadKept = {RoadKept{0.2, 0.15, 0.8}, RoadKept{0.03, 0.02,
 constexpr std::size_t kRoadSolves = 2;
 /// At last they keep from obstacles what the rest of a plan keeps, and this [m].
 constexpr double kLesserSpare = 0.02;
+/// Beyond its end an answer brakes by this share of what it usually does there.
+constexpr std::array kBrakedOn = {1., 0.3};
 /// Shorter motions are not solved [s].
 constexpr double kShortest = 0.4;
 /// A tracked motion that ends farther from its reference than this [m] has lost it, and its OCP
@@ -292,10 +294,14 @@ bool Proposals::solve(const Motion& guess, const std::string& name) {
     turns_.wait_for(longest_besides_s_);
     if (!answer || turns_.spend(0)) return false;
     const Timer timer;
-    Motion motion = tracked(braked_on(*answer, task_.vehicle, task_.road.get(), question_.beyond));
-    const bool arrives = propose(name, std::move(motion), true);
+    for (const double share : kBrakedOn) {
+      Motion motion =
+          tracked(braked_on(*answer, task_.vehicle, task_.road.get(), question_.beyond, share));
+      if (propose(name, std::move(motion), true)) return true;
+      // Where it is what follows that is refused, it may do to brake less hard.
+      if (!task_.road || verifier_.last().certificate.refused_at <= answer->end()) break;
+    }
     longest_besides_s_ = std::max(longest_besides_s_, timer.cpu());
-    if (arrives) return true;
     if (!regrow(extra, edge_margin)) return false;
     from = std::move(*answer);
   }
