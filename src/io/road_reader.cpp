@@ -21,7 +21,8 @@ bool read_closed(const Value& map) {
   OptionInfo info;
   info.name = "closed";
   info.kind = OptionKind::boolean;
-  return std::get<bool>(to_option_value(info, *closed));
+  const OptionValue value = to_option_value(info, *closed);
+  return std::get<bool>(info.checked(value, closed->place.to_string()));
 }
 
 std::vector<std::vector<Point>> read_lanes(const Value& map) {

@@ -37,8 +37,6 @@ constexpr std::array kRoadKept = {RoadKept{0.2, 0.15, 0.8}, RoadKept{0.03, 0.02,
 constexpr std::size_t kRoadSolves = 2;
 /// At last they keep from obstacles what the rest of a plan keeps, and this [m].
 constexpr double kLesserSpare = 0.02;
-/// Beyond its end an answer brakes by this share of what it usually does there.
-constexpr std::array kBrakedOn = {1., 0.3};
 /// Shorter motions are not solved [s].
 constexpr double kShortest = 0.4;
 /// A tracked motion that ends farther from its reference than this [m] has lost it, and its OCP
@@ -201,6 +199,15 @@ Motion Proposals::tracked(const Motion& reference) {
   return tracker_.follow(reference, question_.from, question_.t_from, reference.end());
 }
 
+/// An answer, tracked, and then on without control; nothing where the plant cannot be driven so.
+Motion Proposals::coasting(const Motion& answer) {
+  try {
+    return tracker_.driven_on(tracker_.released(tracked(answer)), answer.end() + question_.beyond);
+  } catch (const vehicle::PlantError&) {
+    return {};
+  }
+}
+
 /// Judges a motion. Whether it is a verified arrival.
 bool Proposals::propose(const std::string& name, Motion motion, bool solved) {
   turns_.spend(kMotion);
@@ -294,14 +301,14 @@ bool Proposals::solve(const Motion& guess, const std::string& name) {
     turns_.wait_for(longest_besides_s_);
     if (!answer || turns_.spend(0)) return false;
     const Timer timer;
-    for (const double share : kBrakedOn) {
-      Motion motion =
-          tracked(braked_on(*answer, task_.vehicle, task_.road.get(), question_.beyond, share));
-      if (propose(name, std::move(motion), true)) return true;
-      // Where it is what follows that is refused, it may do to brake less hard.
-      if (!task_.road || verifier_.last().certificate.refused_at <= answer->end()) break;
-    }
+    Motion motion = tracked(braked_on(*answer, task_.vehicle, task_.road.get(), question_.beyond));
+    bool arrives = propose(name, std::move(motion), true);
+    // An answer may end in a bend in which the vehicle may not brake at once.
+    if (task_.road && !arrives && verifier_.last().certificate.refused_at > answer->end())
+      if (Motion on = coasting(*answer); on.size() > 1)
+        arrives = propose(name, std::move(on), true);
     longest_besides_s_ = std::max(longest_besides_s_, timer.cpu());
+    if (arrives) return true;
     if (!regrow(extra, edge_margin)) return false;
     from = std::move(*answer);
   }

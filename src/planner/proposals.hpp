@@ -71,6 +71,7 @@ class Proposals {
   std::optional<Motion> answer_from(const Motion& guess, const std::vector<double>& extra,
                                     double edge_margin);
   Motion tracked(const Motion& reference);
+  Motion coasting(const Motion& answer);
   ArrivalProblem::Obstacles near(const Motion& guess, const std::vector<double>& extra) const;
   ArrivalProblem* problem_for(const ArrivalProblem::Obstacles& obstacles);
   Motion to_the_goal(Motion motion) const;

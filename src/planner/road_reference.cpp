@@ -92,11 +92,10 @@ Motion road_reference(const world::Road& road, const world::OnRoad& on, const St
   return reference_of(points, vehicle);
 }
 
-Motion braked_on(Motion motion, const Parameters& vehicle, const world::Road* road, double beyond,
-                 double share) {
+Motion braked_on(Motion motion, const Parameters& vehicle, const world::Road* road, double beyond) {
   if (road == nullptr) return braked_on(std::move(motion), vehicle, beyond);
   const Motion on = road_reference(*road, motion.states.back(), motion.end(), beyond,
-                                   share * kBraking * agility(vehicle).braking, vehicle);
+                                   kBraking * agility(vehicle).braking, vehicle);
   for (std::size_t k = 1; k < on.size(); ++k) motion.add(on.t[k], on.states[k], on.controls[k]);
   return motion;
 }

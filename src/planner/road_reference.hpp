@@ -17,9 +17,9 @@ Motion road_reference(const world::Road& road, const world::OnRoad& on, const ve
                       double t0, double duration, double deceleration,
                       const vehicle::Parameters& vehicle, double aside = 0);
 
-/// `motion`, and then on for `beyond` [s], braking: along the road, by a share of the usual, or
-/// straight where there is none.
+/// `motion`, and then on for `beyond` [s], braking: along the road, or straight where there is
+/// none.
 Motion braked_on(Motion motion, const vehicle::Parameters& vehicle, const world::Road* road,
-                 double beyond, double share = 1);
+                 double beyond);
 
 }  // namespace slalom::planner

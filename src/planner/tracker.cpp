@@ -199,6 +199,23 @@ Control Tracker::steered(std::size_t knot, const State& off, const State& at, do
   return u;
 }
 
+Motion Tracker::released(Motion motion) const {
+  if (motion.size() < 2) return motion;
+  const std::size_t k = motion.size() - 1;
+  motion.controls[k] = {};
+  motion.states[k] = plant_.advance(motion.states[k - 1], motion.controls[k - 1], {},
+                                    motion.t[k - 1], motion.t[k]);
+  return motion;
+}
+
+Motion Tracker::driven_on(Motion motion, double until) const {
+  while (motion.end() < until) {
+    const double next = motion.end() + kStep;
+    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
+  }
+  return motion;
+}
+
 Motion Tracker::follow(const Motion& reference, const State& X0, double t0, double t_end) {
   Motion motion;
   if (t_end - t0 < kSameTime) {

@@ -27,6 +27,12 @@ class Tracker {
   /// control.
   Motion follow(const Motion& reference, const vehicle::State& X0, double t0, double t_end);
 
+  /// A motion of the plant whose controls go to 0 at its end. Throws PlantError.
+  Motion released(Motion motion) const;
+
+  /// A motion of the plant, and on from its end until then without control. Throws PlantError.
+  Motion driven_on(Motion motion, double until) const;
+
   static constexpr double kStep = 0.05;  ///< [s]
 
  private:

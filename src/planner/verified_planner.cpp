@@ -229,7 +229,7 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   }
   if (rest.end() >= t0 + cycle.tex()) return rest;
   cycle.rest_unchanged = false;
-  return driven_on(std::move(rest), t0 + cycle.beyond());
+  return tracker_.driven_on(std::move(rest), t0 + cycle.beyond());
 }
 
 /// Notes how far the vehicle and the obstacles are from where they were believed to be.

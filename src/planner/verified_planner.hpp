@@ -118,7 +118,6 @@ class VerifiedPlanner final : public PlanningMethod {
   void note_error(const Cycle& cycle, double state_error);
   void continue_last(Cycle& cycle);
   Motion rest_of_last(Cycle& cycle);
-  Motion driven_on(Motion motion, double until) const;
   void look_further(Cycle& cycle, double share);
   bool due(const Cycle& cycle) const;
   void ask(Cycle& cycle);

@@ -37,25 +37,14 @@ constexpr int kStopPlaces = 4000, kStopWays = 4;
 
 }  // namespace
 
-/// A motion, and on from its end until then at no acceleration and no steering rate.
-Motion VerifiedPlanner::driven_on(Motion motion, double until) const {
-  while (motion.end() < until) {
-    const double next = motion.end() + Tracker::kStep;
-    motion.add(next, plant_.advance(motion.states.back(), {}, {}, motion.end(), next), {});
-  }
-  return motion;
-}
-
 /// Comes to a creep at no acceleration and no steering rate, and creeps on until then.
 Motion VerifiedPlanner::settled(Motion motion, double until) const {
   if (motion.size() < 3) {  // it creeps already
     while (motion.size() > 1) motion.drop_last();
-    return driven_on(std::move(motion), until);
+    return tracker_.driven_on(std::move(motion), until);
   }
+  motion = tracker_.released(std::move(motion));
   const std::size_t k = motion.size() - 1;
-  motion.controls[k] = {};
-  motion.states[k] = plant_.advance(motion.states[k - 1], motion.controls[k - 1], {},
-                                    motion.t[k - 1], motion.t[k]);
   // A triangle of jerk that takes the acceleration away.
   const double ax = motion.states[k][AX], t = motion.t[k];
   const double length = std::max(0.1, std::fabs(ax) / 2);
@@ -63,7 +52,7 @@ Motion VerifiedPlanner::settled(Motion motion, double until) const {
   const State middle = plant_.advance(motion.states[k], {}, peak, t, t + length / 2);
   motion.add(t + length / 2, middle, peak);
   motion.add(t + length, plant_.advance(middle, peak, {}, t + length / 2, t + length), {});
-  return driven_on(std::move(motion), until);
+  return tracker_.driven_on(std::move(motion), until);
 }
 
 /// Drives a stop's lead and brakes along its path. Whether that is good.

@@ -1,5 +1,6 @@
 """Drives of P_A to P_D along roads: on a straight one, the paper's; around bends and hairpins, never off the road."""
 
+import csv
 import math
 import unittest
 
@@ -115,6 +116,16 @@ class Road(unittest.TestCase):
                     self.assertEqual(drive.outcome, "goal", drive.ended())
                     self.assertGreater(drive.summary["least_clearance_m"], 0)
                     self.assertGreater(drive.summary["least_edge_distance_m"], 0)
+
+    def test_a_verified_plan_may_end_in_a_bend(self):
+        """In the chicane the goal comes while the vehicle turns so hard that it may not brake at once."""
+        with scratch() as folder:
+            drive = simulate_all(folder, {"chicane": ("chicane", *UNTIMED)})["chicane"]
+            self.assertEqual(drive.outcome, "goal", drive.ended())
+            self.assertEqual(drive.summary["cycles_unverified"], 0)
+            with open(drive.folder / "cycles.csv", newline="") as file:
+                first = next(csv.DictReader(file))
+            self.assertEqual(first["goal_in_range"], "1", "the first plan only stops")
 
     def test_a_body_drives_through_a_gap_little_wider_than_its_margins(self):
         """Two lorries side by side: .35 m beside a body that keeps .3 m at the nodes of its plans."""

@@ -81,6 +81,10 @@ TEST(RoadFile, SaysWhatIsWrongAndWhere) {
   contains(message("{time: 5}", ""), "without a road");
   contains(message("{laps: 2}"), "closed road");
   contains(message("{s: 90}", "road: {closed: true}\n"), "without points");
+  for (const char* closed : {"maybe", "2", "0.5", "[1, 2]"})
+    contains(message("{s: 90}", std::string("road: {closed: ") + closed +
+                                    ", points: [[-20, 0, 4, 4], [20, 0, 4, 4], [99, 0, 4, 4]]}\n"),
+             "true or false");
   contains(message("{s: 90}", "road: {points: [[0, 0, 1, 1]]}\n"), "1 points");
   contains(message("{s: 90}", "road: {points: [[0, 0, 1], [9, 0, 1]]}\n"), "3 numbers");
   contains(message("{s: 90}", "road: {points: [[0, 0, 1, 1], [9, 0, 1, 1]], width: 4}\n"),
