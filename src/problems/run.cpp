@@ -15,7 +15,10 @@ ocp::RefineRules rules_of(const Entry& entry, const RunSettings& settings) {
   ocp::RefineRules rules;
   rules.tolerance = settings.tolerance != 0 ? settings.tolerance : entry.refinement;
   rules.resolve_controls = entry.resolve_controls;
-  if (!settings.refined) rules.max_meshes = 1;
+  if (!settings.refined) {
+    rules.max_meshes = 1;
+    rules.damp_chatter = false;
+  }
   if (ocp::has_choice_of_points(settings.scheme)) rules.refinement = ocp::Refinement::hp;
   return rules;
 }
