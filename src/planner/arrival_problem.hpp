@@ -33,7 +33,9 @@ class ArrivalProblem {
   /// How many of each kind there is room for.
   struct Room {
     ObstacleRows::Counts far{}, close{};
-    friend auto operator<=>(const Room&, const Room&) = default;
+    friend bool operator<(const Room& a, const Room& b) {
+      return std::pair(a.far, a.close) < std::pair(b.far, b.close);
+    }
     /// Whether there is as much of each.
     bool holds(const Room& other) const;
   };
