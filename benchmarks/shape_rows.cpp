@@ -92,9 +92,20 @@ struct Family {
 
 constexpr int kNoMost = 10000;
 
+/// Rows without variables of their own.
+class RowsAlone : public ShapeRows {
+ public:
+  std::size_t rows() const override { return rows_; }
+  std::size_t variables() const override { return 0; }
+  void guess(ocp::Guess& /*guess*/, const PoseAt& /*pose*/) const override {}
+
+ protected:
+  std::size_t rows_ = 0;
+};
+
 /// Circles that cover a body (world::covering_discs), and the smooth distance of the vehicle's
 /// rectangle (SmoothBox).
-class Discs final : public ShapeRows {
+class Discs final : public RowsAlone {
  public:
   Discs(const Parts& parts, double excess) {
     const SmoothBox box(parts.vehicle.footprint, excess);
@@ -116,12 +127,6 @@ class Discs final : public ShapeRows {
             1);
     rows_ = family.members.size();
   }
-  std::size_t rows() const override { return rows_; }
-  std::size_t variables() const override { return 0; }
-  void guess(ocp::Guess& /*guess*/, const PoseAt& /*pose*/) const override {}
-
- private:
-  std::size_t rows_;
 };
 
 /// The superellipse |u/a|^p + |v/b|^p = 1 that holds a rectangle grown by kKept and sticks out of
@@ -153,7 +158,7 @@ constexpr double kRound = 1e-6;
 
 /// Two rectangles are nearest to each other at a corner of one of them: so the corners of each stay
 /// out of a superellipse about the other.
-class Superellipses final : public ShapeRows {
+class Superellipses final : public RowsAlone {
  public:
   Superellipses(const Parts& parts, double power) {
     const Expr u = Expr::symbol("u"), v = Expr::symbol("v"), a = Expr::symbol("a"),
@@ -175,17 +180,11 @@ class Superellipses final : public ShapeRows {
     theirs.state(parts, "corner of theirs", outside(at, about.a, about.b));
     rows_ = ours.members.size() + theirs.members.size();
   }
-  std::size_t rows() const override { return rows_; }
-  std::size_t variables() const override { return 0; }
-  void guess(ocp::Guess& /*guess*/, const PoseAt& /*pose*/) const override {}
-
- private:
-  std::size_t rows_;
 };
 
 /// As the planner has them: one smooth number of how far two rectangles are apart
 /// (planner::Separation).
-class Separations final : public ShapeRows {
+class Separations final : public RowsAlone {
  public:
   explicit Separations(const Parts& parts) {
     const Expr l = Expr::symbol("l"), w = Expr::symbol("w"), half = Expr::symbol("half"),
@@ -207,12 +206,6 @@ class Separations final : public ShapeRows {
                      1);
     rows_ = family.members.size();
   }
-  std::size_t rows() const override { return rows_; }
-  std::size_t variables() const override { return 0; }
-  void guess(ocp::Guess& /*guess*/, const PoseAt& /*pose*/) const override {}
-
- private:
-  std::size_t rows_;
 };
 
 /// A line between two rectangles: the direction of its normal, from theirs to ours, in their frame

@@ -167,34 +167,36 @@ PhasedSolution solve_within(const SetUpWatch& watch, const PhasedProblem& proble
   return solution;
 }
 
-Solution solve_once(const Problem& problem, const SolveSettings& settings) {
-  const SetUpWatch watch(settings.options);
-  try {
-    return solve_within(watch, problem, settings);
-  } catch (const SetUpWatch::Stopped& stopped) {
-    Solution solution =
-        not_begun(problem, {settings.mesh, settings.scheme}, settings.guess, settings.previous);
-    tell_end(watch, stopped.status, settings.options, solution);
-    return solution;
-  }
+Solution stopped_at_set_up(const SetUpWatch& watch, nlp::Status status, const Problem& problem,
+                           const SolveSettings& settings) {
+  Solution solution =
+      not_begun(problem, {settings.mesh, settings.scheme}, settings.guess, settings.previous);
+  tell_end(watch, status, settings.options, solution);
+  return solution;
 }
 
-PhasedSolution solve_once(const PhasedProblem& problem, const PhasedSettings& settings) {
+PhasedSolution stopped_at_set_up(const SetUpWatch& watch, nlp::Status status,
+                                 const PhasedProblem& problem, const PhasedSettings& settings) {
+  PhasedSolution solution;
+  for (std::size_t p = 0; p < problem.phases().size(); ++p) {
+    solution.phases.push_back(
+        not_begun(problem.phases()[p],
+                  p < settings.grids.size() ? settings.grids[p] : PhasedTranscription::Grid{},
+                  p < settings.guesses.size() ? settings.guesses[p] : Trajectory{},
+                  settings.previous == nullptr ? nullptr : &settings.previous->phases[p]));
+    tell_end(watch, status, settings.options, solution.phases.back());
+  }
+  tell_end(watch, status, settings.options, solution);
+  return solution;
+}
+
+template <class Problem, class Settings>
+auto solve_once(const Problem& problem, const Settings& settings) {
   const SetUpWatch watch(settings.options);
   try {
     return solve_within(watch, problem, settings);
   } catch (const SetUpWatch::Stopped& stopped) {
-    PhasedSolution solution;
-    for (std::size_t p = 0; p < problem.phases().size(); ++p) {
-      solution.phases.push_back(
-          not_begun(problem.phases()[p],
-                    p < settings.grids.size() ? settings.grids[p] : PhasedTranscription::Grid{},
-                    p < settings.guesses.size() ? settings.guesses[p] : Trajectory{},
-                    settings.previous == nullptr ? nullptr : &settings.previous->phases[p]));
-      tell_end(watch, stopped.status, settings.options, solution.phases.back());
-    }
-    tell_end(watch, stopped.status, settings.options, solution);
-    return solution;
+    return stopped_at_set_up(watch, stopped.status, problem, settings);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "slalom/vehicle/model.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -250,24 +252,29 @@ Dynamics::Dynamics(const Parameters& parameters) {
   forces_ = expr::Function(list(model.state), {}, {model.Fyf, model.Fyr});
 }
 
+namespace {
+
+using Inputs = std::array<double, std::size_t{kStates} + std::size_t{kControls}>;
+
+Inputs inputs_of(const State& state, const Control& control) {
+  Inputs inputs;
+  std::copy(control.begin(), control.end(), std::copy(state.begin(), state.end(), inputs.begin()));
+  return inputs;
+}
+
+}  // namespace
+
 State Dynamics::derivative(const State& state, const Control& control) const {
-  std::array<double, std::size_t{kStates} + std::size_t{kControls}> inputs;
-  for (std::size_t i = 0; i < kStates; ++i) inputs[i] = state[i];
-  for (std::size_t i = 0; i < kControls; ++i) inputs[kStates + i] = control[i];
   State result;
-  derivative_(inputs, {}, result);
+  derivative_(inputs_of(state, control), {}, result);
   return result;
 }
 
 std::array<State, kStates> Dynamics::jacobian(const State& state, const Control& control) const {
-  constexpr std::size_t kInputs = std::size_t{kStates} + std::size_t{kControls};
-  std::array<double, kInputs> inputs;
-  for (std::size_t i = 0; i < kStates; ++i) inputs[i] = state[i];
-  for (std::size_t i = 0; i < kControls; ++i) inputs[kStates + i] = control[i];
   State values;
-  std::array<double, kStates * kInputs> entries;
+  std::array<double, kStates * std::tuple_size_v<Inputs>> entries;
   const auto& pattern = derivative_.jacobian_pattern();
-  derivative_.evaluate(1, inputs, {}, {}, {.jacobian = true}, values,
+  derivative_.evaluate(1, inputs_of(state, control), {}, {}, {.jacobian = true}, values,
                        std::span(entries).first(pattern.size()), {});
   std::array<State, kStates> result{};
   for (std::size_t e = 0; e < pattern.size(); ++e)

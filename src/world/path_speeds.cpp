@@ -287,12 +287,10 @@ double PathSpeeds::settle(double v) const {
 
 /// Drives a place on at an acceleration, to the end of a move or into the goal. Whether it may.
 bool PathSpeeds::move(Place& place, double a, bool& arrived) {
-  const double least = std::min(question_->search.creep, place.v);
-  const double most = std::max(vehicle_.ux_max - 1, place.v);
   const bool stops = question_->aim == Aim::stand;
-  const double before = place.a;
+  const double from = place.v, before = place.a;
   for (int look = 0; look < looks_per_move_ && !arrived; ++look) {
-    advance(place, a, least, most);
+    advance(place, a, from);
     const double v = place.v;
     const std::size_t at = path_->index(place.s);
     if (place.s > usable_ || !drives(at, v, a, place.looks, place.cost) ||
@@ -308,8 +306,11 @@ bool PathSpeeds::move(Place& place, double a, bool& arrived) {
   return !arrived || goes_on(place);
 }
 
-/// Drives a place on for one look, at an acceleration as soon as jerk allows, between two speeds.
-void PathSpeeds::advance(Place& place, double a, double least, double most) const {
+/// Drives a place on for one look of a move that began at a speed: at an acceleration as soon as
+/// jerk allows, no slower than it creeps and no faster than it may, unless it began so.
+void PathSpeeds::advance(Place& place, double a, double from) const {
+  const double least = std::min(question_->search.creep, from);
+  const double most = std::max(vehicle_.ux_max - 1, from);
   const double change = kJerk * vehicle_.jx_max * kLook;
   const double next = std::clamp(a, place.a - change, place.a + change);
   const double v = std::clamp(place.v + (place.a + next) / 2 * kLook, least, most);
@@ -339,7 +340,7 @@ bool PathSpeeds::drives(std::size_t at, double v, double a, std::int32_t look, d
 /// Brakes on for one look.
 void PathSpeeds::brake(Place& place) const {
   place.towards = std::max(kBeyond * hardest(place.v), settle(place.v));
-  advance(place, place.towards, std::min(place.v, question_->search.creep), vehicle_.ux_max);
+  advance(place, place.towards, place.v);
 }
 
 std::int32_t PathSpeeds::looks_beyond() const {
@@ -373,13 +374,11 @@ RoadWay PathSpeeds::way_of(std::int32_t last, bool complete) const {
     found.way.push_back({t, at.x, at.y, at.heading, v, at.kappa, a});
   };
   put(question_->t_start, 0, chain[0].v, chain[0].a);
-  const double most = std::max(vehicle_.ux_max - 1, chain[0].v);
   for (std::size_t k = 1; k < chain.size(); ++k) {
     const Place &from = chain[k - 1], &to = chain[k];
-    const double least = std::min(question_->search.creep, from.v);
     for (Place here = from; here.looks < to.looks;) {
       const Place before = here;
-      advance(here, to.towards, least, most);
+      advance(here, to.towards, from.v);
       const double a = (here.v - before.v) / kLook, half = kLook / 2;
       put(time_at(before.looks) + half, before.s + half * (before.v + a * half / 2),
           before.v + a * half, a);

@@ -66,7 +66,7 @@ class PathSpeeds {
   void add(const Place& place);
   void go_on(std::int32_t from);
   bool move(Place& place, double a, bool& arrived);
-  void advance(Place& place, double a, double least, double most) const;
+  void advance(Place& place, double a, double from) const;
   bool drives(std::size_t at, double v, double a, std::int32_t look, double& cost) const;
   bool is_free(double along, std::int32_t look);
   double spare_at(const PathPlace& place, double t) const;

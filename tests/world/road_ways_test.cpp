@@ -70,6 +70,14 @@ struct Ways : ::testing::Test {
     environment.goal.s = s;
     environment.goal = placed(environment.goal, environment.road.get());
   }
+  /// 2 m wide on the road's line, within a tenth of a second.
+  void to_rectangle(double x, double length, double t_min) {
+    environment.goal = {x, 0, 0};
+    environment.goal.length = length;
+    environment.goal.width = 2;
+    environment.goal.t_min = t_min;
+    environment.goal.t_max = t_min + 0.1;
+  }
   std::vector<RoadWay> to_goal(const std::vector<Obstacle>& obstacles = {}) {
     return RoadWays(environment, vehicle).to_goal(start, 0, obstacles, search);
   }
@@ -140,11 +148,7 @@ TEST_F(Ways, WaitsForWhatCrosses) {
 }
 
 TEST_F(Ways, ComesInItsWindowOfTime) {
-  environment.goal = {60, 0, 0};
-  environment.goal.length = 10;
-  environment.goal.width = 2;
-  environment.goal.t_min = 9;
-  environment.goal.t_max = 9.1;
+  to_rectangle(60, 10, 9);
   const auto ways = to_goal();
   ASSERT_FALSE(ways.empty());
   EXPECT_NEAR(ways[0].end, 9.05, 0.06);
@@ -155,11 +159,7 @@ TEST_F(Ways, ComesInItsWindowOfTime) {
 
 // It begins in a long goal whose time comes late: it has to be slow enough not to leave it before.
 TEST_F(Ways, StaysInALongGoalUntilItsTime) {
-  environment.goal = {30, 0, 0};
-  environment.goal.length = 80;
-  environment.goal.width = 2;
-  environment.goal.t_min = 16;
-  environment.goal.t_max = 16.1;
+  to_rectangle(30, 80, 16);
   Obstacle ahead = test::box(14, 0, 5, 1.8, 0), behind = test::box(-12, 0, 5, 1.8, 0);
   ahead.vx = behind.vx = 3;
   const auto ways = to_goal({ahead, behind});

@@ -15,7 +15,7 @@ from ._files import BadFile
 from ._lanes import Lane, Lanes, at_place, near_place, extended, lanes_of, shortest, without_changes
 from ._line import Array, at, lengths, project, without_doubles
 from ._obstacles import Clock, obstacles_of
-from ._road import Road, holding, joined, road_along
+from ._road import BESIDE, Road, holding, joined, road_along
 from ._scene import Scene, Vehicle
 from ._start import exact, place_of, start_of
 from ._xml import open_file
@@ -117,14 +117,15 @@ def _left_out(scenario: Any, problems: dict[int, Any], chosen: int) -> list[str]
 
 def _holding_the_start(road: Road, lanes: Lanes, bodies: list[Any]) -> tuple[Road, float]:
     """The road so wide that it holds the vehicle's body at the start, and on lanelets those with which it turns in."""
-    road, added = holding(road, bodies[:1])
+    held = holding(road, bodies[:1])
+    added = max(held.wider_than(road) - BESIDE, 0.0)
     near = [lane.polygon.buffer(0.05) for lane in lanes.values() if any(map(lane.polygon.intersects, bodies))]
     area = shapely.union_all(near).buffer(-0.05)
     turning = [body for body in bodies[1:] if area.buffer(0.1).covers(body)]
     if not turning:
-        return road, added
-    road, more = holding(road, turning, area)
-    return road, max(added, more)
+        return held, added
+    wider = holding(held, turning, area)
+    return wider, max(added, wider.wider_than(held) - BESIDE)
 
 
 class _Way:
@@ -177,8 +178,8 @@ class _Way:
         if not bodies:
             return road
         lanes = [lane.polygon.buffer(0.05) for lane in self.lanes.values() if lane.for_cars()]
-        held, _ = holding(road, bodies, shapely.union_all([*lanes, road.area]).buffer(-0.05), BENDS)
-        added = float(np.max([held.left - road.left, held.right - road.right]))
+        held = holding(road, bodies, shapely.union_all([*lanes, road.area]).buffer(-0.05), BENDS)
+        added = held.wider_than(road)
         if added > NARROWER:
             self.notes.append(f"road: up to {added:.2f} m wider in bends, over other lanes, for the vehicle's body")
         return held

@@ -74,6 +74,10 @@ class Road:
         normal = np.column_stack([-np.sin(psi), np.cos(psi)])
         return self.line - self.right[:, None] * normal, self.line + self.left[:, None] * normal
 
+    def wider_than(self, other: Road) -> float:
+        """By how much [m] at the most, to one side, of another along the same line."""
+        return float(np.max([self.right - other.right, self.left - other.left]))
+
     def polygon(self) -> Any:
         right, left = self.edges()
         return shapely.make_valid(shapely.Polygon(np.vstack([right, left[::-1]])))
@@ -128,9 +132,9 @@ def _joints(row: list[Lane], following: list[Lane]) -> list[Any]:
     return [hull for four in ends if (hull := shapely.MultiPoint(four).convex_hull).area > 1e-3]
 
 
-def holding(road: Road, bodies: list[Any], area: Any = None, beside: float = BESIDE) -> tuple[Road, float]:
-    """The road, as much wider as it must be to hold bodies that are partly beside it, and by how much [m]; where an
-    area is given, no wider than that. `beside` is how much of the road is kept beside them [m].
+def holding(road: Road, bodies: list[Any], area: Any = None, beside: float = BESIDE) -> Road:
+    """The road, as much wider as it must be to hold bodies that are partly beside it; where an area is given, no
+    wider than that. `beside` is how much of the road is kept beside them [m].
 
     Widths change by RETURNING from there on, for the vehicle to come back, and stay within a bend's radius. What a
     side has no room for is added to the other.
@@ -153,8 +157,7 @@ def holding(road: Road, bodies: list[Any], area: Any = None, beside: float = BES
         np.maximum(width, np.minimum(n + np.maximum(lack, 0), r))
         for width, n, lack, r in zip(widths, needed, reversed(lacking), room)
     ]
-    most = max(float(np.max(new - width)) for new, width in zip(wider, widths))
-    return replace(road, right=wider[0], left=wider[1]), max(most - beside, 0.0)
+    return replace(road, right=wider[0], left=wider[1])
 
 
 def _room(line: Array, normals: Array, inwards: Array, area: Any) -> Array:
