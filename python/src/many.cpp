@@ -102,7 +102,7 @@ Vector numbers(const ManySolved& many, const Get& get) {
   return to_numpy(result);
 }
 
-/// One that was begun, for names and sizes; null if none was.
+/// One that was begun, for the number of points; null if none was.
 const Solution* some(const ManySolved& many) {
   const auto found = std::find_if(many.answers.begin(), many.answers.end(), begun);
   return found == many.answers.end() ? nullptr : &*found;
@@ -118,25 +118,25 @@ Matrix rows(const ManySolved& many, const Get& get) {
   });
 }
 
-/// By name, what `get` gives of it.
-template <class Value, class Get>
-ByName<Value> each_name(const ManySolved& many, const std::vector<std::string> Solution::*names,
-                        const Get& get) {
+/// By name of what the problem declares, so that all are there where no solve was begun; `get` gives
+/// the value of a name.
+template <class Value, class Declared, class Get>
+ByName<Value> each_name(const std::vector<Declared>& all, const Get& get) {
   nb::dict result;
-  if (const Solution* one = some(many))
-    for (const auto& name : one->*names) result[name.c_str()] = get(name);
+  for (const auto& declared : all) result[declared.name.c_str()] = get(declared.name);
   return result;
 }
 
-ByName<Matrix> variables(const ManySolved& many, const std::vector<std::string> Solution::*names,
+template <class Declared>
+ByName<Matrix> variables(const ManySolved& many, const std::vector<Declared>& all,
                          std::vector<double> (Solution::*get)(const std::string&) const) {
-  return each_name<Matrix>(many, names, [&](const std::string& name) {
+  return each_name<Matrix>(all, [&](const std::string& name) {
     return rows(many, [&](const Solution& answer) { return (answer.*get)(name); });
   });
 }
 
 ByName<Vector> static_parameters(const ManySolved& many) {
-  return each_name<Vector>(many, &Solution::static_parameter_names, [&](const std::string& name) {
+  return each_name<Vector>(many.problem->static_parameters(), [&](const std::string& name) {
     return numbers(many, [&](const Solution& answer) { return answer.static_parameter(name); });
   });
 }
@@ -193,13 +193,13 @@ void bind_solutions(nb::module_& module) {
       .def_prop_ro(
           "states",
           [](const ManySolved& many) {
-            return variables(many, &Solution::state_names, &Solution::state);
+            return variables(many, many.problem->states(), &Solution::state);
           },
           "By name, [solve, point].")
       .def_prop_ro(
           "controls",
           [](const ManySolved& many) {
-            return variables(many, &Solution::control_names, &Solution::control);
+            return variables(many, many.problem->controls(), &Solution::control);
           },
           "By name, [solve, point].")
       .def_prop_ro("static_parameters", &static_parameters, "By name, one number a solve.")
