@@ -118,8 +118,8 @@ Matrix rows(const ManySolved& many, const Get& get) {
   });
 }
 
-/// By name of what the problem declares, so that all are there where no solve was begun; `get` gives
-/// the value of a name.
+/// By name of what the problem declares, so that all are there where no solve was begun; `get`
+/// gives the value of a name.
 template <class Value, class Declared, class Get>
 ByName<Value> each_name(const std::vector<Declared>& all, const Get& get) {
   nb::dict result;

@@ -80,4 +80,13 @@ std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint
   return result;
 }
 
+bool same(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+    return p.x == q.x && p.y == q.y && p.a == q.a && p.b == q.b && p.vx == q.vx && p.vy == q.vy &&
+           p.psi == q.psi && p.rounding == q.rounding && p.outline == q.outline &&
+           p.trajectory == q.trajectory && p.margin_start == q.margin_start &&
+           p.margin_rate == q.margin_rate;
+  });
+}
+
 }  // namespace slalom::planner

@@ -26,4 +26,8 @@ bool belief_varies(const Settings& settings, const std::vector<world::Obstacle>&
 std::vector<world::Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,
                                        const std::vector<world::Obstacle>& obstacles);
 
+/// Whether obstacles are the same but for their names. Margins count from one moment or another:
+/// less is left of them then.
+bool same(const std::vector<world::Obstacle>& a, const std::vector<world::Obstacle>& b);
+
 }  // namespace slalom::planner

@@ -119,6 +119,12 @@ void Proposals::ask(Question question) {
   turns_.begin([this] { look(); });
 }
 
+Proposal Proposals::take() {
+  Proposal first = std::move(found_.front());
+  found_.pop_front();
+  return first;
+}
+
 void Proposals::look() {
   if (question_.rest) solve(*question_.rest, "rest, solved");
   if (task_.planner.guidance) {
@@ -154,10 +160,13 @@ bool Proposals::follow_road() {
       if (left-- == 0 || turns_.spend(0)) break;
       if (way.end > question_.arrival - kSooner) continue;
       turns_.wait_for(longest_besides_s_);
+      const Timer timer;
       const Motion reference = reference_of(way.way, task_.vehicle);
       const std::string name = fmt::format("way {} along the road", guesses.size() + 1);
       Motion guess = tracked(reference);
-      if (propose(name, guess, false)) return true;
+      const bool arrives = propose(name, guess, false);
+      longest_besides_s_ = std::max(longest_besides_s_, timer.cpu());
+      if (arrives) return true;
       while (guess.size() > 2 && guess.end() > way.end + kSameTime) guess.drop_last();
       guesses.emplace_back(name, std::move(guess));
     }
@@ -184,10 +193,12 @@ void Proposals::follow_ways() {
 bool Proposals::follow(const world::Way& way, const std::string& name) {
   if (way.back().t > question_.arrival - kSooner) return false;
   turns_.wait_for(longest_besides_s_);
+  const Timer timer;
   const Motion reference = braked_on(reference_of(way, task_.vehicle), task_.vehicle,
                                      task_.road.get(), question_.beyond);
   Motion guess = tracked(reference);
   const bool arrives = propose(name, guess, false);
+  longest_besides_s_ = std::max(longest_besides_s_, timer.cpu());
   const State &end = guess.states.back(), &wanted = reference.states.back();
   if (apart(end, wanted) > kAstray) guess = reference;
   while (guess.size() > 2 && guess.end() > way.back().t + kSameTime) guess.drop_last();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
@@ -52,12 +53,14 @@ class Proposals {
   /// The task, tracker and verifier outlive it. It uses them in its turns alone.
   Proposals(const Task& task, Tracker& tracker, Verifier& verifier);
 
-  /// Asks anew: what was looked for before is given up.
+  /// Asks anew: what was looked for before is given up, and what was found.
   void ask(Question question);
   const Question& question() const { return question_; }
   Turns& turns() { return turns_; }
-  /// Those found since the last call.
-  std::vector<Proposal> take() { return std::exchange(found_, {}); }
+  /// Whether some were found that are not taken.
+  bool found() const { return !found_.empty(); }
+  /// The first of them.
+  Proposal take();
   int take_iterations() { return std::exchange(iterations_, 0); }
 
  private:
@@ -85,7 +88,7 @@ class Proposals {
   std::unique_ptr<nlp::Solver> solver_;
   std::map<ArrivalProblem::Room, ArrivalProblem> problems_;
   Question question_;
-  std::vector<Proposal> found_;
+  std::deque<Proposal> found_;
   int iterations_ = 0;
   double longest_besides_s_ = 0;  ///< thread time of a solve outside the solver
   double longest_making_s_ = 0;   ///< and of making its problem

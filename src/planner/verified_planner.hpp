@@ -121,6 +121,7 @@ class VerifiedPlanner final : public PlanningMethod {
   void look_further(Cycle& cycle, double share);
   bool due(const Cycle& cycle) const;
   void ask(Cycle& cycle);
+  bool adopt_found(Cycle& cycle, bool one_at_least);
   void adopt(Cycle& cycle, const Proposal& proposal);
   bool stop(Cycle& cycle);
   void stop_elsewhere(Cycle& cycle);
@@ -168,6 +169,7 @@ class VerifiedPlanner final : public PlanningMethod {
   double wait_ = 0;                               ///< until the next time [s]
   double work_before_ = 0;            ///< of the turns before what is under way [places]
   double expected_work_ = 0;          ///< that the last thing looked for took [places]
+  double longest_adoption_s_ = 0;     ///< thread time of adopting what was found
   bool asked_while_leading_ = false;  ///< what is under way is to improve on what leads to the goal
 };
 
