@@ -10,23 +10,24 @@
 
 namespace slalom::planner {
 
-/// How a fastest lap is found.
+/// Settings of the search for a fastest lap.
 struct LapSettings {
-  double interval = 6;  ///< of the first mesh along the line, about [m]
-  double margin = 0;    ///< that the body keeps from the road's edges [m]
-  /// Cost of a control at its limit [s/s]: small beside the time, and enough to make the answer
-  /// unique where time alone leaves the controls open.
+  double interval = 6;  ///< approximate interval of the first mesh along the line [m]
+  double margin = 0;    ///< distance between the body and the road's edges [m]
+  /// Cost of a control at its limit [s/s]: small beside the time, but enough to make the answer
+  /// unique where time alone does not determine the controls.
   double w_control = 0.01;
   double tolerance = 3e-4;  ///< relative change of the lap's cost from mesh to mesh
   int max_meshes = 4;
   std::function<bool()> interrupted = {};  ///< polled at every iteration
 };
 
-/// The fastest flying lap of a closed road, as the vehicle's model has it: it ends as it begins.
+/// The fastest flying lap of a closed road by the vehicle's model: it ends in the state in which it
+/// begins.
 struct Lap {
-  ocp::Refined refined;      ///< as the problem along the line has it
-  double time = 0;           ///< of the lap [s]; the rest is empty where no mesh was solved
-  std::vector<double> s, t;  ///< of each point: along the line [m], since the lap began [s]
+  ocp::Refined refined;                ///< the answer to the problem along the line
+  double time = 0;                     ///< of the lap [s]; the rest is empty if no mesh was solved
+  std::vector<double> s, t;            ///< of each point: length along the line [m], lap time [s]
   std::vector<vehicle::State> states;  ///< in the world's frame
   std::vector<vehicle::Control> controls;
 };

@@ -10,7 +10,7 @@
 
 namespace slalom::planner {
 
-/// How planning ended: as the solver did, unless the last two say otherwise.
+/// How planning ended: the solver's status, or one of the last four.
 enum class PlanStatus {
   solved = static_cast<int>(nlp::Status::solved),
   iteration_limit = static_cast<int>(nlp::Status::iteration_limit),
@@ -21,14 +21,15 @@ enum class PlanStatus {
   too_few_freedoms = static_cast<int>(nlp::Status::too_few_freedoms),
   interrupted = static_cast<int>(nlp::Status::interrupted),
   numerical_failure = static_cast<int>(nlp::Status::numerical_failure),
-  not_confirmed,   ///< the solver says solved, and the residuals deny it
-  no_prediction,   ///< there was no state to plan from, for it could not be predicted
+  not_confirmed,   ///< the solver says solved, but the residuals are too large
+  no_prediction,   ///< the state to plan from could not be predicted
   unverified,      ///< the least bad motion, driven although it could not be verified
-  passes_through,  ///< solved, and between its nodes the plan goes through an obstacle or an edge
+  passes_through,  ///< solved, but the plan goes through an obstacle or an edge between its nodes
 };
-/// The word that files have: the solver's, "not_confirmed" or "no prediction".
+/// The word in files: the solver's word, "not_confirmed", "no prediction", "unverified" or
+/// "passes_through".
 const char* to_string(PlanStatus status);
-/// What the solver says, taken over.
+/// The solver's status as a PlanStatus.
 PlanStatus plan_status(nlp::Status status);
 
 /// Where a plan goes into an obstacle's margin between its nodes.
@@ -44,7 +45,7 @@ struct RoadExit {
   bool left = false;  ///< which edge
   double t = 0;       ///< absolute time [s]
 
-  /// "left" or "right"; "" where there is none.
+  /// "left" or "right"; "" if there is no exit.
   const char* edge() const { return depth > 0 ? left ? "left" : "right" : ""; }
 };
 
@@ -53,8 +54,8 @@ struct SolveReport {
   bool solved = false;  ///< the solver says so, and so do the residuals below
   PlanStatus status = PlanStatus::numerical_failure;
   std::string
-      detail;  ///< what the status leaves open: why there is no prediction, or what it passes
-  bool best_iterate = false;  ///< not solved, and within Request::best_iterate_tol: to be driven
+      detail;  ///< details of the status: why there is no prediction, or what the plan passes
+  bool best_iterate = false;  ///< not solved, but within Request::best_iterate_tol: to be driven
   std::string backend;        ///< which solver answered
   int iterations = 0;
   double cpu_s = 0, wall_s = 0;  ///< thread time and wall clock of the solve
@@ -64,41 +65,39 @@ struct SolveReport {
   double phi = 0;                ///< barrier function f - mu sum log s at the floor
   double worst_violation = 0;    ///< largest constraint violation, in the constraint's unit
   std::string worst_constraint;  ///< its name, e.g. "obstacle[O2] at node 3"
-  /// Of a plan that is not solved, what is in the way, in metres where it is an obstacle; else
-  /// empty.
+  /// For a plan that is not solved, what is in the way, in metres if it is an obstacle; else empty.
   std::string blocks;
   double stationarity = 0;     ///< largest component of the Lagrangian's gradient
   double complementarity = 0;  ///< largest |s z / mu - 1|, or |s z| without floor
   Passage passage;             ///< the deepest, by the smaller of sm_start and sm_end
   RoadExit road_exit;          ///< the farthest
 
-  /// The status in a word, with ": " and the detail behind it where there is one.
+  /// The status as a word, followed by ": " and the detail if there is one.
   std::string status_text() const;
 };
 
-/// What a planner that verifies its plans can say of one: that the plant as it is believed in,
-/// driven by the plan from the state predicted, keeps these distances and loads from all obstacles
-/// as they are predicted.
+/// What a verifying planner knows about a plan: the believed plant, driven by the plan from the
+/// predicted state, keeps these distances from all predicted obstacles, and these wheel loads.
 struct Certificate {
   bool verified = false;
-  double least_clearance = 0;   ///< to the nearest edge of an obstacle, not grown [m]; inf: none
+  double least_clearance = 0;   ///< to the nearest obstacle's own edge [m]; inf: no obstacle
   std::string nearest;          ///< that obstacle's name
   double least_wheel_load = 0;  ///< [N]
-  double until = 0;             ///< absolute time to which the motion is driven [s]
+  double until = 0;             ///< absolute time at which the motion ends [s]
   std::string refused;          ///< why it is not verified; empty if it is
-  double refused_at = 0;        ///< absolute time of that [s]
+  double refused_at = 0;        ///< absolute time of the first violation [s]
 };
 
 /// Where a plan of a verifying planner comes from, best first: a new motion; the rest of the last
-/// one, verified anew; the least bad motion of those refused.
+/// plan, verified again; the least bad refused motion.
 enum class Rung { none, new_plan, rest, least_bad };
 /// "", "new", "rest" or "least_bad".
 const char* to_string(Rung rung);
 
-/// A motion that a verifying planner looked at.
+/// A motion that a verifying planner considered.
 struct Candidate {
   std::string name;  ///< what it comes from, e.g. "way 2, solved"
-  double cost = 0;   ///< by which candidates are compared, in the cost's unit; verified ones only
+  double cost = 0;   ///< to compare candidates, in the cost's unit; only verified ones have it
   Certificate certificate;
 };
 
@@ -113,8 +112,7 @@ struct Plan {
   double obstacle_time_held = -1;  ///< absolute time at which obstacles are held; < 0: they move
   SolveReport report;
 
-  // Of planners that verify: where the plan comes from, what is known of it, and what else there
-  // was.
+  // For verifying planners: where the plan comes from, its certificate, and all candidates.
   Rung rung = Rung::none;
   Certificate certificate;
   std::vector<Candidate> candidates;
@@ -122,8 +120,7 @@ struct Plan {
   bool empty() const { return t.empty(); }
 };
 
-/// A plan can be driven: its times and controls are those of a signal. Whether the solver calls it
-/// solved is another question.
+/// Whether a plan can be driven: its times and controls make a valid signal. It need not be solved.
 bool usable(const Plan& plan);
 /// The controls of a usable plan, from plan.t_start on. Throws Error when it is not usable.
 vehicle::ControlSignal control_signal(const Plan& plan);

@@ -12,25 +12,25 @@
 
 namespace slalom::planner {
 
-/// What one planning cycle knows.
+/// The input of one planning cycle.
 struct Request {
   vehicle::State X0p{};  ///< predicted state at t_start
   double t0 = 0;         ///< absolute time of planning [s]
   double t_start = 0.5;  ///< absolute time at which the plan begins: t0 + tex [s]
   double time_limit = std::numeric_limits<double>::infinity();  ///< thread time of planning [s]
-  /// By the wall clock [s]: the plan is of no use later. For planners that verify.
+  /// Wall-clock limit [s]; a later plan is useless. For verifying planners.
   double clock_limit = std::numeric_limits<double>::infinity();
-  /// The last plan was there too late, and is not driven: the one before it goes on. For planners
-  /// that verify.
+  /// The last plan was late and is not driven: the plan before it continues. For verifying
+  /// planners.
   bool last_was_late = false;
-  /// Nothing is driven while it plans, so that a planner that shares its time out over cycles need
-  /// not.
+  /// Nothing is driven during this cycle, so a planner need not spread its work over cycles.
   bool warm_up = false;
-  /// A plan that is not solved, but violates no row or bound by more than this [its unit], is one
-  /// to be driven, and the next solve starts from it. Negative: none is.
+  /// An unsolved plan is to be driven if it violates no row or bound by more than this [its unit],
+  /// and the next solve starts from it. Negative: never.
   double best_iterate_tol = -1;
-  /// As measured in this cycle, as many as there are, their positions those at t = 0; those of one
-  /// name are one from cycle to cycle. Nothing: as the planner was made with.
+  /// The obstacles measured in this cycle, any number, with their positions at t = 0. Obstacles
+  /// with the same name are the same from cycle to cycle. Empty: the obstacles of the planner's
+  /// task.
   std::optional<std::vector<world::Obstacle>> obstacles;
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
@@ -38,11 +38,11 @@ struct Request {
 class LocalFrame;
 class PlanningMethod;
 
-/// Plans one trajectory in each cycle, by the method of its settings. The paper's solves the OCP of
-/// section 3; the solve starts warm from the last plan that was solved, that was to be driven
-/// although unsolved, or whose solve was cut short (by the deadline or an interrupt). Another
-/// drives no plan that is not verified, and one drives along a road as fast as it allows
-/// (Settings::method). Not thread-safe; use one planner for each thread.
+/// Plans one trajectory in each cycle, by the method of its settings (Settings::method). The
+/// paper's method solves the OCP of section 3. Its solve starts warm from the last plan that was
+/// solved, that was to be driven although unsolved, or whose solve was cut short (by the deadline
+/// or an interrupt). The other methods verify plans before they are driven, or drive along a road
+/// as fast as possible. Not thread-safe; use one planner for each thread.
 class Planner {
  public:
   explicit Planner(const Task& task);
@@ -50,12 +50,13 @@ class Planner {
   Planner(Planner&&) noexcept;
   Planner& operator=(Planner&&) noexcept;
 
-  /// Solves; a plan whose report says it is not solved is returned too, with the best iterate.
+  /// Makes a plan. A plan that is not solved is returned too, with the best iterate; see its
+  /// report.
   Plan plan(const Request& request);
   /// Forgets the last plan, so that the next one starts from the straight-on guess.
   void reset();
-  /// From now on hands solves that are wanted to the recorder; replay() comes to the same bits, for
-  /// a solve depends on nothing that solves before it left behind but its start.
+  /// From now on passes wanted solves to the recorder. replay() gives the same bits, since a solve
+  /// depends on earlier solves only through its start.
   void record(const Recorder& recorder);
 
  private:

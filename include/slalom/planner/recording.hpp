@@ -14,9 +14,9 @@
 
 namespace slalom::planner {
 
-/// All that one solve of a planner depends on beside the planner's own settings, and how it ended:
-/// enough to solve it again to the same bits. Places and headings are in the planner's own frame,
-/// which may be moved from the task's (docs/design.md, "Frames").
+/// All data that one solve of a planner depends on, except the planner's own settings, and how it
+/// ended: enough to solve it again to the same bits. Positions and headings are in the planner's
+/// own frame, which may differ from the task's (docs/design.md, "Frames").
 struct Recording {
   vehicle::State X0p{};  ///< of the Request
   double t0 = 0, t_start = 0.5;
@@ -33,14 +33,14 @@ struct Recording {
   std::optional<std::vector<world::Obstacle>> obstacles;  ///< of the Request
 };
 
-/// A plan of a planner that verifies, with all that its certificate depends on beside vehicle, goal
-/// and region: enough to verify it again to the same bits.
+/// A plan of a verifying planner, with all data that its certificate depends on, except vehicle,
+/// goal and region: enough to verify it again to the same bits.
 struct RecordedPlan {
   Rung rung = Rung::none;
   double t0 = 0;   ///< of the Request
-  double tex = 0;  ///< between the loop's looks for arrival [s]
-  // What was asked of it: distance from obstacles' edges and from the road's [m], wheel loads [N],
-  // and to stay within a disk outside which anything may stand [m].
+  double tex = 0;  ///< time between the loop's checks of arrival [s]
+  // What the plan must keep: distance from obstacles' edges and from the road's (`edge`) [m], wheel
+  // loads [N], and a disk to stay in, outside which anything may stand [m].
   double clearance = 0, wheel_load = 0;
   double seen_x = 0, seen_y = 0, seen_radius = std::numeric_limits<double>::infinity();
   std::vector<world::Obstacle> obstacles;  ///< as believed
@@ -51,29 +51,29 @@ struct RecordedPlan {
   double edge = 0;
 };
 
-/// Which solves or plans a planner records, and where to.
+/// Which solves or plans a planner records, and what receives them.
 struct Recorder {
   std::function<bool(const SolveReport&)> wanted;
   std::function<void(const Recording&)> take;
   std::function<void(const RecordedPlan&)> take_plan;
 };
 
-/// A recorded solve, solved again.
+/// The result of solving a recorded solve again.
 struct Replayed {
   nlp::Status status = nlp::Status::numerical_failure;
   int iterations = 0;
   double phi = 0;
-  bool same = false;  ///< the answer's point, iterations and status, to the last bit
+  bool same = false;  ///< point, iterations and status are the same, to the last bit
 };
 
-/// Solves a recording again with the kernel set it names, which stays selected. A solve that was
-/// cut off by time or by the user ends at the same iteration instead. Throws Error for a kernel set
-/// that the processor lacks, InvalidValue for a start that is none of this problem.
+/// Solves a recording again with its kernel set, which stays selected. A solve that time or the
+/// user cut off ends at the same iteration instead. Throws Error for a kernel set that the
+/// processor lacks, InvalidValue for a start that does not fit this problem.
 Replayed replay(const Recording& recording, const Task& task);
 
-/// What a recorded plan is found to keep when the plant as it is believed in is driven by it again.
+/// Drives the believed plant by a recorded plan again, and returns the new certificate.
 Certificate verify_again(const RecordedPlan& recording, const Task& task);
-/// Whether two certificates are one, to the last bit.
+/// Whether two certificates are the same, to the last bit.
 bool same(const Certificate& one, const Certificate& other);
 
 }  // namespace slalom::planner

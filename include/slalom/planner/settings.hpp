@@ -12,34 +12,34 @@ namespace slalom::planner {
 enum class SchemeChoice { trapezoidal, hermite_simpson, backward_euler };
 /// The method that solves the NLP.
 enum class SolverChoice { interior_point, ipopt };
-/// The name by which nlp::backends() and files know it.
+/// Its name in nlp::backends() and in files.
 const char* to_string(SolverChoice solver);
 /// Form of the wheel-load cost: the paper's tanh pair, or with 2 added (zero when safe).
 enum class WheelLoadCost { paper, shifted };
 
-/// Whether a plan must stay off obstacles, or pays for going into them.
+/// Whether a plan must keep off obstacles, or pays a cost for entering them.
 enum class ObstacleConstraint { hard, soft };
 
 /// The obstacles that a plan avoids.
 enum class ObstacleChoice { all, in_reach, nearest };
 
-/// How a planner takes obstacles to move that move by a trajectory: along it; on from where they
-/// are when it plans, straight at their velocity; or at their speed and turn rate.
+/// The predicted motion of an obstacle with a trajectory: along the trajectory; from its position
+/// at planning straight on at its velocity; or from there on at its speed and turn rate.
 enum class Prediction { known, constant_velocity, constant_turn };
 
-/// What becomes of a plan that goes through an obstacle between its nodes: nothing; it says so; it
-/// is solved again on finer meshes; the last where something has a shape, else it says so.
+/// What happens to a plan that goes through an obstacle between its nodes: nothing; a report; a new
+/// solve on finer meshes; the last if something has a shape (refines()), else a report.
 enum class BetweenNodes { ignore, report, refine, by_shape };
 
-/// How a planner plans: the paper's OCP over a receding horizon; whole ways to the goal of which
-/// none is driven before it is verified; or the fastest motion along a road without obstacles.
+/// How a planner plans: the paper's OCP over a receding horizon; whole ways to the goal, verified
+/// before they are driven; or the fastest motion along a road without obstacles.
 enum class Method { receding_horizon, verified, along_road };
 
-/// The obstacles that a verifying planner is told of: all, or those within L_range.
+/// The obstacles that a verifying planner knows: all, or those within L_range.
 enum class Known { all, range };
 
-/// What a verifying planner assumes beyond L_range, where it knows of obstacles within it alone:
-/// nothing, or that anything may stand there.
+/// What a verifying planner assumes beyond L_range if it knows only the obstacles within it: that
+/// there is nothing, or that anything may stand there.
 enum class Unseen { nothing, standing };
 
 /// Settings of the trajectory-planning OCP; names as in section 3 of docs/formulation.md.
@@ -47,26 +47,26 @@ struct Settings {
   std::string name = "P_D";
   Method method = Method::receding_horizon;
 
-  // What tells the planners P_A to P_D apart.
+  // The differences between the planners P_A to P_D.
   double w_t = 100;              ///< weight of final time [1/s]
   double w_ce = 1;               ///< weight of control effort [1]
   bool moving_avoidance = true;  ///< predict obstacle motion over the horizon
 
-  // Which obstacles a plan knows of.
+  // Obstacles and how a plan keeps off them.
   ObstacleChoice obstacle_choice = ObstacleChoice::all;
-  int obstacle_count = 5;         ///< of `nearest`
-  double obstacle_group_gap = 0;  ///< nearer ones become one ellipse [m]; 0: none
+  int obstacle_count = 5;         ///< for `nearest`
+  double obstacle_group_gap = 0;  ///< nearer obstacles become one ellipse [m]; 0: none
   ObstacleConstraint obstacle_constraint = ObstacleConstraint::hard;
-  double w_obstacle = 1000;  ///< of `soft`: weight of the rows' excess (l1) [1/s]
+  double w_obstacle = 1000;  ///< for `soft`: weight of the rows' excess (l1) [1/s]
   Prediction prediction = Prediction::known;
   double cover_excess = 0.2;  ///< by which discs stick out of the bodies that they cover [m]
   BetweenNodes between_nodes = BetweenNodes::by_shape;
-  double passage_depth = 0.5;  ///< a plan may go into a margin between its nodes [m]
-  /// How deep it may, which is no deeper than the margin [m].
+  double passage_depth = 0.5;  ///< how deep a plan may enter a margin between its nodes [m]
+  /// The same, but no deeper than the margin [m].
   double most_passage() const { return std::min({passage_depth, sm_start, sm_end}); }
-  bool retry_sides = false;  ///< try again from the left and the right before there is no plan
+  bool retry_sides = false;  ///< if there is no plan, try again from the left and the right
 
-  /// The vehicle as the planner has it, whatever drives.
+  /// The planner's model of the vehicle, whatever the plant is.
   vehicle::ModelKind model = vehicle::ModelKind::pacejka;
 
   // The other weights.
@@ -79,7 +79,7 @@ struct Settings {
   double w_ic = 100;
   std::array<double, 8> w_s0 = {1, 1, 10, 10, 10, 2, 0.1, 0.1};
   double w_xf = 100;
-  double Fz_a = 1300, Fz_b = 100;  ///< of the wheel-load cost [N]
+  double Fz_a = 1300, Fz_b = 100;  ///< constants of the wheel-load cost [N]
   WheelLoadCost wheel_load_cost = WheelLoadCost::paper;
   double tyre_force_limit = 0;  ///< optional limit on linear tyre forces [N]; 0 leaves it out
 
@@ -90,8 +90,8 @@ struct Settings {
   double L_range = 50, kappa = 5;     ///< LiDAR range and its relaxation [m]
   double sm_start = 2.5, sm_end = 4;  ///< safety margin at the first and last node [m]
 
-  double road_margin = 0.1;   ///< that a plan along a road keeps from its edges [m]
-  double edge_clearance = 0;  ///< that any other plan keeps from them [m]
+  double road_margin = 0.1;   ///< distance of a plan of `along_road` from the road's edges [m]
+  double edge_clearance = 0;  ///< distance of any other plan from them [m]
 
   // Tolerances of the slacked conditions.
   std::array<double, 8> X0_tol = {0.5, 0.5, 0.5, 0.005, 0.5, 0.025, 0.5, 0.5};
@@ -103,35 +103,35 @@ struct Settings {
   double tol = 1e-6;   ///< optimality tolerance
   int max_iterations = 500;
 
-  // Of `verified` alone.
+  // Only for `verified`.
   Known known = Known::all;
   Unseen unseen = Unseen::standing;
   double verified_clearance = 2.15;  ///< from obstacles' edges, at all times [m]
   double verified_wheel_load = 400;  ///< [N]
-  double kept_clearance = 2.05;      ///< by its rest, where belief was wrong [m]
-  double kept_wheel_load = 200;      ///< [N]
-  double standing_horizon = 60;      ///< for which standing must be clear of obstacles [s]
+  double kept_clearance = 2.05;      ///< the same for the rest of a plan, if belief was wrong [m]
+  double kept_wheel_load = 200;      ///< the same for the rest of a plan [N]
+  double standing_horizon = 60;      ///< how long a standing place must stay clear [s]
   double arrival_margin = 0.3;       ///< of the OCP's obstacles beyond verified_clearance [m]
   double arrival_floor = 0.1;        ///< barrier floor of that OCP [cost units]
   int arrival_N = 40;                ///< mesh intervals of a whole way
   double arrival_tf_max = 70;        ///< longest way [s]
   int arrival_max_iterations = 500;  ///< of one solve
   double improvement_period = 0.5;   ///< between searches for a better way than the last [s]
-  double improvement_time = 0.01;    ///< of a cycle, for a better way than the last [s]
-  double hysteresis = 0.02;          ///< by which a new way must be sooner to be driven [s]
-  int search_places = 150'000;       ///< a search looks at when no way is known
-  int improvement_places = 20'000;   ///< a search looks at for a better way
-  int ways = 6;                      ///< of the search that are followed at the most
-  // Parts that a study may leave out.
+  double improvement_time = 0.01;    ///< time of a cycle for a better way than the last [s]
+  double hysteresis = 0.02;          ///< how much sooner a new way must be to be driven [s]
+  int search_places = 150'000;       ///< places that a search may examine if no way is known
+  int improvement_places = 20'000;   ///< places that a search may examine for a better way
+  int ways = 6;                      ///< greatest number of the search's ways that are followed
+  // Parts that a study may switch off.
   bool guidance = true, rows_between = true, verification = true, fallback = true;
 };
 
 /// The registered options of Settings with unit, range, meaning and source.
 const OptionTable<Settings>& setting_options();
 
-/// Throws InvalidValue, naming `where`, when a value is outside its registered range or not finite,
-/// or when values contradict each other: L_range <= kappa, tf_min >= tf_max; and for a solver that
-/// is not there.
+/// Throws InvalidValue, naming `where`, if a value is outside its registered range or not finite,
+/// if values contradict each other (L_range <= kappa, tf_min >= tf_max), or if the solver is not
+/// available.
 void check(const Settings& settings, const std::string& where);
 
 }  // namespace slalom::planner

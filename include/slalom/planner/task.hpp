@@ -7,7 +7,7 @@
 
 namespace slalom::planner {
 
-/// What a planner is made for: an environment, the vehicle that it believes in, and its settings.
+/// The task of a planner: an environment, the vehicle that it believes in, and its settings.
 struct Task : world::Environment {
   vehicle::Parameters vehicle;
   Settings planner;
@@ -18,11 +18,11 @@ struct Task : world::Environment {
 bool goal_in_range(const Task& task, const vehicle::State& X0p);
 
 /// Whether plans that go through something between their nodes are solved again on finer meshes
-/// (Settings::between_nodes). Plain ellipses and a vehicle that is a point have no shape.
+/// (Settings::between_nodes). Plain ellipses and a point vehicle have no shape.
 bool refines(const Task& task);
 
-/// How far it is from a state to the goal [m]: along the road, to its end where the goal is a time;
-/// straight where there is no road.
+/// The distance from a state to the goal [m]: along the road (to its end if the goal is a time), or
+/// straight if there is no road.
 double way_left(const Task& task, const vehicle::State& state);
 
 }  // namespace slalom::planner
