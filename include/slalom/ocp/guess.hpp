@@ -16,8 +16,9 @@ namespace slalom::ocp {
 /// in the middle of their bounds; t0 and tf as the problem guesses them.
 Trajectory straight_guess(const Problem& problem);
 
-/// The same, but states that only one end's bounds tell stay there: what solve() begins with where
-/// a function is not finite on the straight guess, as where a volume or a mass goes to 0 on it.
+/// The same, but states with bounds at only one end stay constant at that value. solve() begins
+/// with it if a function is not finite on the straight guess, for example because a volume or a
+/// mass goes to 0 there.
 Trajectory held_guess(const Problem& problem);
 
 /// Throws InvalidValue unless `guess` fits `problem`: as many states and controls at each point as
@@ -29,32 +30,32 @@ void check_guess(const Trajectory& guess, const Problem& problem);
 struct Carry {
   /// Pairs of a name here and the name in the earlier problem, where these differ.
   std::map<std::string, std::string> names = {};
-  /// Values are taken at equal times instead of equal taus, beyond the answer's ends those of the
-  /// nearer end; t0 and tf are not taken.
+  /// Take values at equal times instead of equal taus; beyond the answer's ends, those of the
+  /// nearer end. t0 and tf are not taken.
   bool by_time = false;
 };
 
-/// Puts a guess together, variable by variable and by name. It begins as straight_guess, and each
-/// call replaces what it names. Use it where a Trajectory is wanted:
+/// Builds a guess, variable by variable and by name. It begins as straight_guess, and each call
+/// replaces the named variables. Use it as a Trajectory:
 ///
 ///   solve(problem, {.guess = Guess(problem).line("x", 0, 10).constant("u", 1)})
 ///
 /// A name that the problem lacks throws InvalidValue, which names the nearest.
 class Guess {
  public:
-  /// `points`: how many points, equal steps apart, functions are sampled at. Throws InvalidValue
-  /// below 2.
+  /// `points`: the number of equally spaced points at which functions are sampled. Throws
+  /// InvalidValue below 2.
   explicit Guess(const Problem& problem, int points = 101);
 
   Guess& times(double t0, double tf);
-  /// Of a state or control, or of a static parameter, slack or integral.
+  /// One number for a state or control, or for a static parameter, slack or integral.
   Guess& constant(const std::string& name, double value);
-  /// Of a state or control, over time.
+  /// A line over time for a state or control.
   Guess& line(const std::string& name, double first, double last);
-  /// Of a state or control; t runs between the t0 and tf of the finished guess.
+  /// f(t) for a state or control; t runs between the t0 and tf of the finished guess.
   Guess& function(const std::string& name, std::function<double(double t)> value);
   /// All variables that the earlier problem has too, by its polynomials, and t0 and tf. Its points
-  /// become points of the guess; its mesh and scheme may be any.
+  /// become points of the guess. Any mesh and scheme will do.
   Guess& from(const Problem& earlier, const Solution& solution, const Carry& carry = {});
   /// The same from a trajectory, linear between its points.
   Guess& from(const Problem& earlier, const Trajectory& trajectory, const Carry& carry = {});

@@ -10,11 +10,11 @@
 namespace slalom::ocp {
 
 /// A trajectory between its points, by the scheme's own polynomials. On each interval the controls
-/// interpolate those at the collocated points; the states are those at the begin plus the integral
-/// of the polynomial through the rates at the collocated points (Hairer, Norsett & Wanner 1993,
-/// section II.7). So states are quadratic and controls linear for the trapezoidal rule, cubic and
-/// quadratic for Hermite-Simpson, of degree n and n - 1 for LGR and n for LGL with n points;
-/// backward Euler holds its control.
+/// interpolate the controls at the collocated points. The states are the states at the interval's
+/// start plus the integral of the polynomial through the rates at the collocated points (Hairer,
+/// Norsett & Wanner 1993, section II.7). So states are quadratic and controls linear for the
+/// trapezoidal rule, cubic and quadratic for Hermite-Simpson, of degree n and n - 1 for LGR and n
+/// for LGL with n points; backward Euler holds its control.
 class Interpolant {
  public:
   /// `trajectory` must stand at the points of mesh and schemes; throws InvalidValue otherwise.
@@ -31,7 +31,8 @@ class Interpolant {
   std::vector<double> states(std::size_t interval, double c) const;
   std::vector<double> controls(std::size_t interval, double c) const;
 
-  /// The trajectory on another mesh, as a guess for it. What is neither state nor control is kept.
+  /// The trajectory on another mesh, as a guess for it. Everything except states and controls is
+  /// kept.
   Trajectory resampled(const Mesh& mesh, const Schemes& schemes) const;
 
  private:

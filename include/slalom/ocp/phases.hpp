@@ -14,10 +14,10 @@
 
 namespace slalom::ocp {
 
-/// Several phases, each an optimal-control problem with states, controls, times and parameters of
-/// its own, and the links between their ends. The objective is the sum of the phases' objectives
-/// and of cost terms of its own.
-/// All set-up errors are exceptions that name the phase and the offending item.
+/// Several phases and the links between their ends. Each phase is an optimal-control problem with
+/// its own states, controls, times and parameters. The objective is the sum of the phases'
+/// objectives and of further cost terms (mayer()). All set-up errors are exceptions that name the
+/// phase and the wrong item.
 class PhasedProblem {
  public:
   explicit PhasedProblem(std::string name);
@@ -29,21 +29,21 @@ class PhasedProblem {
   /// A constraint between phases: an expression of initial(), final(), initial_time(),
   /// final_time(), static parameters and integrals of any of them.
   void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));
-  /// Makes the static parameter of that name one and the same in all phases that have one. Throws
+  /// Makes the static parameter of that name the same in all phases that have it. Throws
   /// InvalidValue unless at least two phases have it.
   void share(const std::string& static_parameter);
-  /// A cost term of what link() may use, of any of the phases; the objective is the sum of the
-  /// phases' objectives and of these.
+  /// A cost term that may use what link() may use, from any phase; the objective is the sum of the
+  /// phases' objectives and of these terms.
   void mayer(const std::string& name, const Expr& term);
   /// What connect() does not make continuous.
   struct Gaps {
-    std::vector<std::string> without;  ///< states left alone; "time" too may stand here
-    /// By how much a state is higher at the begin of the later phase, such as -mass dropped.
+    std::vector<std::string> without;  ///< states left alone; may contain "time"
+    /// The increase of a state at the start of the later phase, such as -mass dropped.
     std::vector<std::pair<std::string, Expr>> jumps;
   };
   /// Makes time, and the states whose names both phases have, continuous from the end of `from` to
-  /// the begin of `to`, but for `gaps`. Throws InvalidValue when they have none, and for a name in
-  /// `gaps` that is not one of them.
+  /// the start of `to`, except for `gaps`. Throws InvalidValue if the phases share no state, and
+  /// for a name in `gaps` that is not one of these states.
   void connect(std::size_t from, std::size_t to, const Gaps& gaps = {});
 
   struct Link {
@@ -76,7 +76,7 @@ class PhasedTranscription final : public nlp::Problem {
     Schemes schemes = hermite_simpson();
   };
   /// One grid for each phase. Throws InvalidValue for another number of grids, for a phase that no
-  /// link touches (where there are several), and for a link with a foreign symbol.
+  /// link touches (if there are several), and for a link with a foreign symbol.
   PhasedTranscription(const PhasedProblem& problem, const std::vector<Grid>& grids);
   ~PhasedTranscription() override;
 

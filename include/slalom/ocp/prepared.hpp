@@ -10,19 +10,19 @@
 namespace slalom::ocp {
 
 /// A problem to be solved again and again with other numbers. It is transcribed once and solved by
-/// one solver, which keeps its memory and what it found out about the structure. Not thread-safe;
-/// use one for each thread.
+/// one solver, which keeps its memory and its knowledge of the structure. Not thread-safe; use one
+/// for each thread.
 class Prepared {
  public:
   /// `settings` has mesh, scheme, options and back end of all solves. Its guess, or straight lines,
-  /// determines the scales that the problem leaves open. Throws InvalidValue as solve() does.
+  /// determines the scales that the problem does not give. Throws InvalidValue as solve() does.
   Prepared(const Problem& problem, const SolveSettings& settings);
   ~Prepared();
   Prepared(Prepared&&) noexcept;
   Prepared& operator=(Prepared&&) noexcept;
 
-  /// Takes over changed parameters, bounds, guesses and members of families. Where more has changed
-  /// (constraints switched, more members, ...), the problem is transcribed anew.
+  /// Takes over changed parameters, bounds, guesses and members of families. If more has changed
+  /// (constraints switched, more members, ...), the problem is transcribed again.
   void update(const Problem& problem);
   /// From a guess; from straight lines if it is empty.
   [[nodiscard]] Solution solve(const Trajectory& guess = {});

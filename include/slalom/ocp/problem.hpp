@@ -13,7 +13,7 @@ namespace slalom::ocp {
 
 using expr::Expr;
 
-/// Stands for a scale that is not given: solve() finds one.
+/// The value of a scale that is not given: solve() finds one.
 inline constexpr double kAutomaticScale = 0;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -46,20 +46,21 @@ struct Moment {
   bool operator==(const Moment&) const = default;
 };
 
-/// How a control runs within an interval of the mesh.
+/// The form of a control within an interval of the mesh.
 enum class ControlForm {
   scheme,    ///< as the scheme's polynomial through the collocated points
-  linear,    ///< a line from the interval's begin to its end
-  constant,  ///< held over the interval; a node's value is that of the interval after it
+  linear,    ///< a line from the interval's start to its end
+  constant,  ///< held over the interval; a node's value is that of the next interval
 };
 
-/// What the excess e over a soft constraint's bounds costs: `weight` e (l1) or `weight` e^2 (l2),
+/// The cost of the excess e over a soft constraint's bounds: `weight` e (l1) or `weight` e^2 (l2),
 /// integrated over time for a path row.
 enum class Norm { l1, l2 };
 
-/// How a constraint is softened: going beyond its bounds by more than `tolerance` [its unit] costs.
-/// An l1 cost with a weight above the hard constraint's multiplier leaves the optimum where it was
-/// (exact penalty; Nocedal & Wright 2006, section 17.2); an l2 cost always gives way a little.
+/// How a constraint is softened: an excess over its bounds by more than `tolerance` [its unit]
+/// costs. An l1 cost with a weight above the hard constraint's multiplier does not change the
+/// optimum (exact penalty; Nocedal & Wright 2006, section 17.2); an l2 cost always allows a small
+/// excess.
 struct Soft {
   Norm norm = Norm::l1;
   double weight = 1;
@@ -87,7 +88,7 @@ class Problem {
   Expr state(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
   /// A control with bounds at every point.
   Expr control(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
-  /// Sets how a control runs between the nodes; ControlForm::scheme if never called.
+  /// Sets the form of a control between the nodes; ControlForm::scheme if never called.
   void control_form(const Expr& control, ControlForm form);
   /// A constant to optimise.
   Expr static_parameter(const std::string& name, Bounds bounds, double guess,
@@ -103,8 +104,9 @@ class Problem {
   /// Sets the scale of any variable, t0 and tf included.
   void set_scale(const Expr& variable, double scale);
 
-  // --- given quantities --------------------------------------------------------------------
-  /// A run-time parameter: a number that set_parameter changes between solves without a rebuild.
+  // // --- given quantities -------------------------------------------------------------------- A
+  // run-time parameter: a number that set_parameter changes between solves without a new
+  // transcription.
   Expr parameter(const std::string& name, double value);
   /// Changes a run-time parameter; throws InvalidValue for another symbol or a number not finite.
   void set_parameter(const Expr& parameter, double value);
@@ -126,27 +128,27 @@ class Problem {
   void mayer(const std::string& name, const Expr& term);
   /// A cost term that is integrated over time.
   void lagrange(const std::string& name, const Expr& integrand);
-  /// A constraint at the points of the mesh, on an expression of states, controls, time and what
-  /// mayer may use.
+  /// A constraint at the points of the mesh, on an expression of states, controls, time and
+  /// everything that mayer may use.
   ConstraintId path(const std::string& name, const Expr& value, Bounds bounds,
                     Points points = Points::all);
-  /// A cost term at one moment, of what path() may use; every mesh gets a node there.
+  /// A cost term at one moment; it may use what path() may use. Every mesh gets a node there.
   void cost_at(const std::string& name, const Expr& term, Moment moment);
-  /// A constraint at one moment, of what path() may use; every mesh gets a node there.
+  /// A constraint at one moment; it may use what path() may use. Every mesh gets a node there.
   ConstraintId path_at(const std::string& name, const Expr& value, Moment moment, Bounds bounds);
   /// Puts a node of every mesh at a moment, such as one at which the dynamics step.
   void breakpoint(Moment moment) { breakpoints_.push_back(moment); }
-  /// A constraint on an expression of what mayer may use.
+  /// A constraint on an expression that may use what mayer may use.
   ConstraintId boundary(const std::string& name, const Expr& value, Bounds bounds);
 
   /// One path row for each member: `value` is an expression of `symbols` (made by Expr::symbol),
   /// which take each member's numbers. Thirty-eight obstacles, for example, are one family.
   ConstraintId path_family(const std::string& name, const std::vector<Expr>& symbols,
                            const Expr& value, Bounds bounds, Points points = Points::all);
-  /// Sets the members' names and numbers (one list for each member, one number for each symbol; or
-  /// one number for each symbol at each point of the mesh, point by point: then the rows are known
-  /// at these points alone, and the mesh must have as many).
-  /// How many members there are may change between transcriptions, their numbers between solves.
+  /// Sets the members' names and numbers: one list for each member, with one number for each
+  /// symbol, or with one number for each symbol at each point of the mesh, point by point. With
+  /// numbers by point, the mesh must have this number of points. The number of members may change
+  /// between transcriptions, their numbers between solves.
   void set_members(ConstraintId family, std::vector<std::string> names,
                    std::vector<std::vector<double>> values);
 
@@ -159,7 +161,7 @@ class Problem {
 
   /// The constraint of that name. Throws InvalidValue for an unknown name, naming the nearest.
   ConstraintId constraint_named(const std::string& name) const;
-  /// Switches a constraint on or off. Off, it is absent from the next transcription, not zeroed.
+  /// Switches a constraint on or off. If off, it is absent from the next transcription, not zeroed.
   void enable(ConstraintId constraint, bool enabled);
   /// The same for a cost term.
   void enable_cost(const std::string& name, bool enabled);
@@ -249,9 +251,9 @@ class Problem {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::vector<CostTerm>& costs() const { return costs_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
-  /// The shares of the horizon at which rows and cost terms that are switched on, and breakpoints,
-  /// want a node, rising. Throws InvalidValue for a moment outside the horizon, and for a time
-  /// where an end of the horizon is free.
+  /// The increasing shares of the horizon at which enabled rows and cost terms, and breakpoints,
+  /// need a node. Throws InvalidValue for a moment outside the horizon, and for a time if an end of
+  /// the horizon is free.
   std::vector<double> moments() const;
   /// The share of one of them.
   double share_of(const std::string& what, Moment moment) const;
@@ -259,7 +261,7 @@ class Problem {
   const Variable& tf() const { return tf_variable_; }
 
  private:
-  /// Throws InvalidValue where the name is not free; cost terms have names of their own.
+  /// Throws InvalidValue if the name is taken; cost terms have separate names.
   void claim_name(const std::string& name);
   void claim_cost_name(const std::string& name) const;
   std::size_t state_index(const Expr& state, const char* what) const;

@@ -4,7 +4,7 @@
 
 namespace slalom::ocp {
 
-/// Points on [-1, 1], rising, and weights: the integral of f is the sum of weight * f(point).
+/// Increasing points on [-1, 1] and weights: the integral of f is the sum of weight * f(point).
 struct Quadrature {
   std::vector<double> points, weights;
 };
@@ -13,7 +13,7 @@ struct Quadrature {
 Quadrature legendre_gauss(int n);
 /// Legendre-Gauss-Radau rule of n >= 1 points, the first of them -1, exact to degree 2 n - 2.
 Quadrature legendre_gauss_radau(int n);
-/// Legendre-Gauss-Lobatto rule of n >= 2 points, both ends among them, exact to degree 2 n - 3.
+/// Legendre-Gauss-Lobatto rule of n >= 2 points, including both ends, exact to degree 2 n - 3.
 Quadrature legendre_gauss_lobatto(int n);
 
 /// Lagrange interpolation through given points, in barycentric form (Berrut & Trefethen, SIAM Rev.

@@ -9,7 +9,7 @@
 
 namespace slalom::ocp {
 
-/// How a mesh is made finer where its error is too large.
+/// How an interval with too large an error is refined.
 enum class Refinement {
   h,   ///< an interval is cut, by its scheme's order (Betts 2010, section 4.7)
   hp,  ///< its degree rises; past `max_points` it is cut (Patterson, Hager & Rao 2015)
@@ -19,14 +19,14 @@ struct RefineRules {
   double tolerance = 1e-6;  ///< of ErrorEstimate::largest
   Refinement refinement = Refinement::h;
   /// Intervals whose control is not resolved to the tolerance (unresolved_controls) are cut too,
-  /// until the objective's relative change from mesh to mesh is below the tolerance, and those
-  /// where a bound of states is violated between the points (ErrorEstimate::bound_share), until
-  /// that makes less than twice the tolerance of it.
+  /// until the objective's relative change from mesh to mesh is below the tolerance. So are
+  /// intervals where a bound of states is violated between the points (ErrorEstimate::bound_share),
+  /// until the effect on the objective is less than twice the tolerance.
   bool resolve_controls = true;
-  /// A control that goes to and fro from point to point, as on singular arcs, is held near an
-  /// average of its own by a small cost, time after time about the last answer, until what that
-  /// leaves of the objective is within five times the tolerance: up to 2 `max_meshes` solves more.
-  /// Without `resolve_controls` none is.
+  /// A small cost holds a control that oscillates from point to point, as on singular arcs, near
+  /// its own average. The average is taken again from each answer, until the remaining effect on
+  /// the objective is within five times the tolerance: up to 2 `max_meshes` more solves. Not used
+  /// without `resolve_controls`.
   bool damp_chatter = true;
   int max_meshes = 15;
   int max_size = 20000;  ///< points of a mesh, over all phases
@@ -36,15 +36,15 @@ struct RefineRules {
 
 /// How a refinement ended.
 enum class RefineStatus {
-  converged,   ///< every interval's error, by re-integration, is within the tolerance, and the
-               ///< objective's, to first order, within ten times it
+  converged,   ///< every interval's error by re-integration is within the tolerance, and the
+               ///< objective's first-order error within ten times the tolerance
   mesh_limit,  ///< `max_meshes` were solved, or twice as many with controls damped
   size_limit,  ///< the next mesh would have more than `max_size` points
   not_solved,  ///< a mesh was not solved: see the last record's status
 };
 const char* to_string(RefineStatus status);
 
-/// What one mesh did.
+/// The result of one mesh.
 struct MeshRecord {
   std::size_t intervals = 0, points = 0;
   nlp::Status status = nlp::Status::numerical_failure;
@@ -52,9 +52,10 @@ struct MeshRecord {
   double wall_s = 0;  ///< of the solve
   double objective = 0;
   double largest_error = 0;  ///< ErrorEstimate::largest
-  /// How far the objective may be from the value that it converges to, relative to its size: the
-  /// intervals' shares (ErrorEstimate::objective_share), the change since the mesh before while a
-  /// control is not resolved, and while one is damped what damping may have left.
+  /// How far the objective may be from its limit, relative to its magnitude. It is the largest of
+  /// the sum of the intervals' shares (ErrorEstimate::objective_share), the change since the last
+  /// mesh while a control is not resolved, and the possible effect of damping while a control is
+  /// damped.
   double objective_error = 0;
   std::string worst_phase;  ///< the phase with that error; empty if there is only one
   std::size_t worst_interval = 0;

@@ -40,8 +40,8 @@ struct Scheme {
 
   std::size_t interior() const { return points.size() - 2; }
   std::size_t defects() const { return state.size(); }
-  /// Whether the rates at point j enter, so that the states' polynomial satisfies the dynamics
-  /// there.
+  /// Whether the defects use the rates at point j, so that the states' polynomial satisfies the
+  /// dynamics there.
   bool collocates(std::size_t j) const;
 };
 
@@ -50,21 +50,21 @@ const Scheme& trapezoidal();
 /// Hermite-Simpson in separated form, order 4 (Betts 2010, section 4.5; Kelly 2017, eq. 4.3 and
 /// 4.4): the midpoint's state is a variable tied by Hermite's interpolant.
 const Scheme& hermite_simpson();
-/// Hermite-Simpson in compressed form (ibid.; Kelly 2017, eq. 4.5): the midpoint's state is put
-/// into Simpson's rule, which leaves one defect in each interval. Path rows stand at the midpoint
-/// too.
+/// Hermite-Simpson in compressed form (ibid.; Kelly 2017, eq. 4.5): the midpoint's state is
+/// inserted into Simpson's rule, which leaves one defect in each interval. Path rows hold at the
+/// midpoint too.
 Scheme hermite_simpson_compressed();
 /// Implicit Euler, order 1: x_1 - x_0 - h f_1.
 Scheme backward_euler();
-/// Legendre-Gauss-Radau collocation at n >= 1 points, which include the interval's begin and not
+/// Legendre-Gauss-Radau collocation at n >= 1 points, which include the interval's start but not
 /// its end, in integration form: x_i - x_0 - h sum_j A_ij f_j (Garg et al., Automatica 46(11),
 /// 2010, section 4.2). Order 2 n - 1.
 Scheme lgr(int n);
 /// The same points and polynomial in differentiation form: sum_j D_ij x_j - h f_i (ibid., section
 /// 4.1).
 Scheme lgr_differential(int n);
-/// Flipped Radau points, which include the interval's end and not its begin, in integration form
-/// (Radau IIA; Hairer & Wanner 1996, section IV.5). The end of the horizon is collocated, its begin
+/// Flipped Radau points, which include the interval's end but not its start, in integration form
+/// (Radau IIA; Hairer & Wanner 1996, section IV.5). The end of the horizon is collocated, its start
 /// is not; n = 1 is backward Euler. Order 2 n - 1.
 Scheme lgr_flipped(int n);
 /// Legendre-Gauss-Lobatto collocation at n >= 2 points, which include both ends, in integration
@@ -76,8 +76,8 @@ Scheme lgl(int n);
 const std::vector<std::string>& scheme_names();
 /// Whether the scheme of that name has any number of points.
 bool has_choice_of_points(const std::string& name);
-/// By name; `points` is for those that have a choice. Throws InvalidValue for another name,
-/// naming the nearest.
+/// The scheme of that name; `points` is for schemes that have a choice. Throws InvalidValue for
+/// another name, naming the nearest.
 Scheme scheme(const std::string& name, int points = 4);
 
 /// The scheme of each interval of a mesh: one scheme for all intervals, or one for each, such as

@@ -13,34 +13,34 @@
 
 namespace slalom::ocp {
 
-/// The numbers of a problem's statement by which an answer has sensitivities, by name, with what
-/// they are now:
+/// The numbers of a problem for which an answer has sensitivities, by name, with their present
+/// values:
 ///
-///   "mass"                             a run-time parameter
-///   "initial x", "final x", "t0", "tf" a state fixed at an end, an end of the horizon that is
-///   fixed "lower x", "upper x"               bounds of a state, control, static parameter, slack
-///   or
-///                                      integral, of "initial x", "final x", "t0" and "tf", or of a
-///                                      constraint; by the name alone where both are equal
-///   "disc[one].a"                      a number of a family's member (at all points alike)
-///   "weight of wall"                   the weight of a soft constraint
+///   "mass"                  a run-time parameter
+///   "initial x", "final x"  a state fixed at an end
+///   "t0", "tf"              a fixed end of the horizon
+///   "lower x", "upper x"    bounds of a state, control, static parameter, slack, integral or
+///                           constraint, or of "initial x", "final x", "t0" and "tf"; only the
+///                           name if both bounds are equal
+///   "disc[one].a"           a number of a family's member (the same at all points)
+///   "weight of wall"        the weight of a soft constraint
 ///
-/// Those of what is switched off, and infinite bounds, are not among them.
+/// Numbers of disabled items, and infinite bounds, are left out.
 std::vector<std::pair<std::string, double>> sensitivity_numbers(const Problem& problem);
-/// The same of phases, as "phase: name". A parameter's own name is that parameter in every phase
-/// that has one, and a link's its bound ("lower ...", "upper ..." where these differ).
+/// The same for phases, as "phase: name". A parameter's name alone is that parameter in every phase
+/// that has it, and a link's name is its bound ("lower ...", "upper ..." if these differ).
 std::vector<std::pair<std::string, double>> sensitivity_numbers(const PhasedProblem& problem);
 
-/// How an answer moves with one number p: the derivative by p of everything in it, in the user's
-/// units over the number's.
+/// How an answer changes with one number p: the derivative of everything in it with respect to p,
+/// in the user's units over the unit of p.
 struct Sensitivity {
   std::string number;  ///< p
-  /// Of the objective. Without a floor it is that of the Lagrangian with all else held, but for
-  /// what is left of the barrier (envelope theorem; Fiacco 1983, section 3.4).
+  /// Derivative of the objective. Without a floor it is that of the Lagrangian with everything else
+  /// held, except for the remaining barrier (envelope theorem; Fiacco 1983, section 3.4).
   double objective = 0;
-  /// Of t0, tf, states and controls by point, static parameters, slacks and integrals. The points
-  /// stay at their tau: at a fixed time, a state's derivative is that less its rate times the
-  /// derivative of the point's time.
+  /// Derivatives of t0, tf, states and controls by point, static parameters, slacks and integrals.
+  /// The points stay at their tau: for the derivative at a fixed time, subtract the state's rate
+  /// times the derivative of the point's time.
   Trajectory trajectory;
   std::vector<Multipliers> multipliers;  ///< of constraints and bounds, by name
   nlp::Start point;                      ///< of the NLP's variables and multipliers
@@ -59,30 +59,31 @@ struct Sensitivity {
 };
 
 /// Parametric sensitivities of an answer: the KKT matrix is factorised once, at the answer, and
-/// each number takes one more solve with its factors (nlp::Sensitivities has equations and
-/// sources). Any back end's answer will do. They are those of the discretised problem, exact for
-/// it: of the central point at a floor, of the active set without one.
+/// each number takes one more solve with the factors (nlp::Sensitivities has equations and
+/// sources). The answer may come from any back end. The sensitivities are exact for the discretised
+/// problem: those of the central point at a floor, those of the active set without a floor.
 class Sensitivities {
  public:
-  /// `problem` is the one that was solved, with the numbers that it had. Throws InvalidValue for an
-  /// answer that is not solved or is one of other numbers, and where it has no sensitivities since
-  /// the KKT matrix is singular or the answer no strict minimum, with what is not determined.
+  /// `problem` is the solved problem with its numbers. Throws InvalidValue for an answer that is
+  /// not solved or belongs to other numbers. Also throws if there are no sensitivities, since the
+  /// KKT matrix is singular or the answer is not a strict minimum; the message names what is not
+  /// determined.
   Sensitivities(const Problem& problem, const Solution& solution);
   ~Sensitivities();
   Sensitivities(Sensitivities&&) noexcept;
   Sensitivities& operator=(Sensitivities&&) noexcept;
 
-  /// By one of sensitivity_numbers(). Throws InvalidValue for another name, naming the nearest; for
-  /// "t0" and "tf" where a row, a cost term or a breakpoint stands at a time, since the mesh would
-  /// have to move; and where the derivative is not finite.
+  /// The sensitivity to one of sensitivity_numbers(). Throws InvalidValue for another name, naming
+  /// the nearest; for "t0" and "tf" if a row, a cost term or a breakpoint is at a fixed time, since
+  /// the mesh would have to move; and if the derivative is not finite.
   Sensitivity operator()(const std::string& number) const;
 
-  /// The answer to `changed`, the problem with other numbers (parameters, ends, times, members,
-  /// weights, bounds of variables), to first order in all their changes together, as a Solution:
-  /// judged as an answer to `changed`, so that its residuals say how good it is, `solved` where
-  /// they are within the tolerances and else of status iteration_limit after no iterations. A guess
-  /// or warm start for solving `changed` (Zavala & Biegler, Automatica 45, 2009, use it to act
-  /// before that is done). Throws InvalidValue where more than numbers differ, and as above.
+  /// A first-order answer to `changed`, the problem with other numbers (parameters, ends, times,
+  /// members, weights, bounds of variables), for all changes together. It is judged as an answer to
+  /// `changed`, so its residuals show how good it is: its status is `solved` if they are within the
+  /// tolerances, else iteration_limit after no iterations. Use it as a guess or warm start for
+  /// solving `changed` (Zavala & Biegler, Automatica 45, 2009, act on it before that solve ends).
+  /// Throws InvalidValue if more than numbers differ, and as above.
   [[nodiscard]] Solution predict(const Problem& changed) const;
 
  private:
@@ -91,12 +92,12 @@ class Sensitivities {
 };
 
 /// A problem with some of its sensitivity_numbers() changed, by name. Throws InvalidValue for
-/// another name, naming the nearest, and for bounds over the horizon and of constraints, which
-/// stand where they are declared.
+/// another name, naming the nearest, and for bounds over the horizon and of constraints, which only
+/// their declarations set.
 Problem with_numbers(Problem problem, const std::vector<std::pair<std::string, double>>& changes);
 
-/// The same of phases: "first: initial x", "mass" of all that have one. Bounds of links stand where
-/// they are declared.
+/// The same for phases: "first: initial x", or "mass" of all phases that have it. Only their
+/// declarations set the bounds of links.
 PhasedProblem with_numbers(PhasedProblem problem,
                            const std::vector<std::pair<std::string, double>>& changes);
 
@@ -109,7 +110,7 @@ struct PhasedSensitivity {
   nlp::Start point;
 };
 
-/// The same of phases.
+/// The same for phases.
 class PhasedSensitivities {
  public:
   PhasedSensitivities(const PhasedProblem& problem, const PhasedSolution& solution);

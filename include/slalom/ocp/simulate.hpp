@@ -24,14 +24,14 @@ struct System {
   std::vector<double> scales = {};    ///< typical sizes of the states; empty: all 1
 };
 
-/// A problem's dynamics. What they use besides states, controls and time is taken from `fixed`: t0,
-/// tf, static parameters, integrals and, where `fixed` has states, the first of them for initial().
-/// What it lacks is taken from the problem's guesses. Run-time parameters have their values of now.
-/// Throws InvalidValue for a state without dynamics, and for dynamics that use final(), which a
-/// simulation cannot know.
+/// A problem's dynamics. Everything they use besides states, controls and time comes from `fixed`:
+/// t0, tf, static parameters, integrals and, if `fixed` has states, the first of them for
+/// initial(). Anything that `fixed` lacks comes from the problem's guesses. Run-time parameters
+/// have their present values. Throws InvalidValue for a state without dynamics, and for dynamics
+/// that use final(), which a simulation cannot know.
 System system_of(const Problem& problem, const Trajectory& fixed = {});
 
-/// What drives a simulation.
+/// The controls of a simulation.
 struct Controls {
   /// Controls at time t and states x, in the system's order.
   using Law = std::function<std::vector<double>(double t, std::span<const double> x)>;
@@ -52,11 +52,11 @@ struct SimulateSettings {
   std::optional<double> tf = {};  ///< if left out: a problem's guess; 1 for a system
   int steps = 100;                ///< equal steps from point to point; corners are points too
   double tolerance = 1e-9;        ///< relative and, in units of each state's scale, absolute
-  /// Asked all along; once it is true, the simulation ends there, incomplete.
+  /// Polled during the simulation; once it is true, the simulation ends there, incomplete.
   std::function<bool()> stop = {};
 };
 
-/// A simulated trajectory. Where a control jumps, a point has the control that follows.
+/// A simulated trajectory. If a control jumps at a point, the point has the control after the jump.
 struct Simulation {
   Trajectory trajectory;
   bool complete = false;  ///< it reached tf; otherwise tf and the points end where states were lost

@@ -16,17 +16,17 @@ namespace slalom::ocp {
 
 struct Solution;
 
-/// What an infeasible problem's constraint or bound would have to give, all others as they are, for
-/// the violation to vanish to first order.
+/// How far one constraint or bound of an infeasible problem would have to move, with all others
+/// unchanged, for the violation to vanish to first order.
 struct Conflict {
   std::string name;   ///< of a constraint, link or variable; "initial x", "final x" of fixed ends
   double change = 0;  ///< of its bound [its unit]: > 0 upwards, < 0 downwards, 0 not known
 };
 
-/// An equation along the horizon that controls meet in a derivative alone.
+/// An equation along the horizon in which controls appear only after differentiation.
 struct HighIndex {
   std::string name;  ///< of the constraint
-  int index = 3;  ///< 1 more than that derivative's order, as of a differential-algebraic equation
+  int index = 3;     ///< that derivative's order plus 1, as for a differential-algebraic equation
 };
 
 /// How to solve a problem; the defaults suit a smooth one.
@@ -37,12 +37,12 @@ struct SolveSettings {
   std::string backend = {};    ///< of nlp::make_solver; empty: the default one
   Trajectory guess = {};       ///< empty: straight lines between the bounds at both ends
   nlp::Start warm_start = {};  ///< a Solution's `point` on the same mesh and scheme; beats guess
-  /// A solution on any mesh and scheme whose trajectory and multipliers are carried to this one;
+  /// A solution on any mesh and scheme, whose trajectory and multipliers are carried to this mesh;
   /// beats the two above. It must outlive the call.
   const Solution* previous = nullptr;
 };
 
-/// An answer, in the user's units. `solved()` needs the consent of the independent checker.
+/// An answer, in the user's units. `solved()` needs the agreement of the independent check.
 struct Solution {
   nlp::Status status = nlp::Status::numerical_failure;
   nlp::Fault fault;  ///< for Status::invalid_number
@@ -51,25 +51,26 @@ struct Solution {
   Trajectory trajectory;
   Mesh mesh = Mesh::uniform(1);  ///< mesh and scheme are those of `trajectory`
   Schemes scheme = trapezoidal();
-  /// dJ*/dx at the mesh nodes, [node][state]: positive where more of a state costs more. Taken from
-  /// the defects' multipliers; accurate to second order at least where no path row is active.
+  /// dJ*/dx at the mesh nodes, [node][state]: positive if more of a state costs more. Computed from
+  /// the defects' multipliers; at least of second order where no path row is active.
   std::vector<std::vector<double>> costates;
   CollocatedCostates collocated_costates;
   std::vector<Multipliers> multipliers;  ///< of constraints and bounds, by name
   std::vector<Excesses> excesses;        ///< of soft constraints, by name
-  /// Where a table (expr::cubic_spline) goes on as a line beyond its knots: the term, such as
-  /// "dynamics of v", and how far beyond at most [unit of the table's x].
+  /// Tables (expr::cubic_spline) that are used beyond their knots, where they continue as a line:
+  /// the term, such as "dynamics of v", and the greatest distance beyond [unit of the table's x].
   std::vector<std::pair<std::string, double>> beyond_tables;
   nlp::Residuals residuals;  ///< recomputed from the point; names the worst constraint
-  /// Of an infeasible problem or one with too few freedoms, as interior_point finds them: what
-  /// stands against each other, first what would have to give least in its own scale.
+  /// For an infeasible problem or one with too few freedoms, as interior_point finds them: the
+  /// items that contradict each other, beginning with the item that would have to move least in its
+  /// own scale.
   std::vector<Conflict> conflicts;
-  /// Of an answer that is not solved, or that no mesh refines: what Newton's method can seldom
-  /// solve as it stands. Hold the derivative that a control meets instead, and the equation and its
-  /// lower derivatives at t0 (Gear & Petzold, SIAM J. Numer. Anal. 21, 1984).
+  /// For an answer that is not solved, or that no mesh refines: equations that Newton's method can
+  /// seldom solve as stated. Instead, require the derivative in which a control appears, and at t0
+  /// the equation and its lower derivatives (Gear & Petzold, SIAM J. Numer. Anal. 21, 1984).
   std::vector<HighIndex> high_index;
-  nlp::Options options;  ///< those it was solved with
-  std::string backend;   ///< the one that solved it, with its factorisation
+  nlp::Options options;  ///< of the solve
+  std::string backend;   ///< of the solve, with its factorisation
   nlp::Start point;      ///< of the NLP, for warm starts
   int iterations = 0;
   double wall_s = 0;
@@ -90,8 +91,8 @@ struct Solution {
   const Multipliers& multiplier(const std::string& name) const;
   const Excesses& excess(const std::string& name) const;
 
-  std::vector<double> state_units;  ///< the scales the states were solved with
-  /// All scales it was solved with, given or found: of variables, t0 and tf, then constraints.
+  std::vector<double> state_units;  ///< the scales of the states in the solve
+  /// All scales of the solve, given or found: of variables, t0 and tf, then constraints.
   std::vector<std::pair<std::string, double>> scales;
   std::vector<std::string> state_names, control_names, static_parameter_names, slack_names;
 };

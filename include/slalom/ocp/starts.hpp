@@ -8,13 +8,14 @@
 
 namespace slalom::ocp {
 
-/// A guess moved at random: states and controls by smooth functions of the variables' scales within
-/// their bounds, a free duration 3 to 40 times as long, within its bounds. The same seed gives the
-/// same guess.
+/// A randomly moved guess: smooth functions of the size of the variables' scales are added to
+/// states and controls, and a free duration gets 3 to 40 times as long, all within their bounds.
+/// The same seed gives the same guess.
 Trajectory moved_guess(const Problem& problem, const Trajectory& guess, std::uint64_t seed);
 
-/// Solves from several starts: first as the settings say, then from that guess moved at random
-/// (seeds `seed`, `seed` + 1, ...). All answers, in this order. Throws InvalidValue for starts < 1.
+/// Solves from several starts: first with the settings, then from their guess moved at random
+/// (seeds `seed`, `seed` + 1, ...). Returns all answers in this order. Throws InvalidValue for
+/// starts < 1.
 [[nodiscard]] std::vector<Solution> solve_from_several(const Problem& problem,
                                                        const SolveSettings& settings, int starts,
                                                        std::uint64_t seed = 1);
@@ -22,7 +23,7 @@ Trajectory moved_guess(const Problem& problem, const Trajectory& guess, std::uin
                                                              const PhasedSettings& settings,
                                                              int starts, std::uint64_t seed = 1);
 
-/// The place of the best: the solved one with the least objective, or the first if none is solved.
+/// The index of the best answer: the solved one with the least objective, or 0 if none is solved.
 std::size_t best_of(const std::vector<Solution>& answers);
 std::size_t best_of(const std::vector<PhasedSolution>& answers);
 

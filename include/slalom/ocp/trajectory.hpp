@@ -15,7 +15,7 @@ struct Trajectory {
   std::vector<std::vector<double>> controls;  ///< [point][control]
   std::vector<double> static_parameters;
   std::vector<double> slacks;          ///< in the order the problem declared them
-  std::vector<double> integrals = {};  ///< in the same order; 0 where a guess leaves them out
+  std::vector<double> integrals = {};  ///< in the same order; 0 if a guess leaves them out
 
   double time(std::size_t point) const { return time_at(tau[point]); }
   double time_at(double at_tau) const { return t0 + at_tau * (tf - t0); }

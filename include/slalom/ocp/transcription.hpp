@@ -20,14 +20,14 @@ struct Multipliers {
   /// A constraint, "family[member]", or a variable with bounds: a state, control, slack, static
   /// parameter, integral, t0 or tf.
   std::string name;
-  std::vector<std::size_t> points;  ///< of the mesh and scheme; empty for what has one value
-  /// How much the objective falls per unit by which the bound is raised at that point alone: >= 0
-  /// at an upper bound, <= 0 at a lower one, 0 at neither.
+  std::vector<std::size_t> points;  ///< of the mesh and scheme; empty if there is one value
+  /// The decrease of the objective per unit that the bound is raised at that point alone: >= 0 at
+  /// an upper bound, <= 0 at a lower one, 0 at neither.
   std::vector<double> values;
 };
 
-/// How far a soft constraint goes beyond its bounds and tolerance, one number for each point (for a
-/// family, for each member at each point): > 0 above the upper bound, < 0 below the lower one.
+/// The excess of a soft constraint over its bounds and tolerance, one number for each point (for a
+/// family, for each member at each point): > 0 above the upper bound, < 0 below the lower bound.
 struct Excesses {
   std::string name;
   std::vector<std::size_t> points;
@@ -40,9 +40,9 @@ struct CollocatedCostates {
   std::vector<std::vector<double>> values;  ///< [point][state], dJ*/dx
 };
 
-/// What is carried from a solution to another mesh besides its trajectory.
+/// Data of a solution, besides its trajectory, for a start on another mesh.
 struct Duals {
-  std::vector<double> tau;  ///< of all points; Multipliers::points are places in it
+  std::vector<double> tau;  ///< of all points; Multipliers::points are indices into it
   CollocatedCostates costates;
   std::vector<Multipliers> multipliers;
 };
@@ -54,8 +54,8 @@ struct Transcribed;
 /// Stage k holds node k (slacks of that end, states, controls) and the interior points of interval
 /// k. A control that the scheme leaves out, such as the last one of LGR, is held from the point
 /// next to it. The globals are t0, tf, static parameters and one copy of every end value that a
-/// function at another point uses (it is lifted, and an equation at its own stage ties the two).
-/// Everything nonlinear is evaluated in batches: one pass over all points for each function.
+/// function at another point uses (a lifted value; an equation at its own stage ties it to the
+/// copy). Everything nonlinear is evaluated in batches: one pass over all points for each function.
 class Transcription final : public nlp::Problem {
  public:
   /// Throws InvalidValue for mistakes that no single declaration shows: a state without dynamics,
@@ -65,7 +65,7 @@ class Transcription final : public nlp::Problem {
   ~Transcription() override;
 
   /// Takes over changed run-time parameters, family numbers, guesses and bounds. The problem must
-  /// be the one transcribed, with the same constraints switched on and as many members; throws
+  /// be the transcribed one, with the same enabled constraints and numbers of members; throws
   /// InvalidValue otherwise.
   void update(const ocp::Problem& problem);
 
@@ -79,8 +79,8 @@ class Transcription final : public nlp::Problem {
 
   /// Costates at the mesh nodes, [node][state]: dJ*/dx, user's units. The Lagrangian is f + y' g
   /// with defects x_(k+1) - x_k - ..., so within an interval, minus the defects' y estimates the
-  /// costate. At a node it is the mean of two numbers: the derivative of what lies after the node
-  /// (its interval's quadrature and defects), and minus the derivative of what lies before. The two
+  /// costate. At a node it is the mean of two numbers: the derivative of the terms after the node
+  /// (its interval's quadrature and defects), and minus the derivative of the terms before. The two
   /// differ by active rows at the node.
   std::vector<std::vector<double>> costates(std::span<const double> x, std::span<const double> y);
   CollocatedCostates collocated_costates(std::span<const double> y) const;

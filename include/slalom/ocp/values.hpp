@@ -8,15 +8,15 @@
 
 namespace slalom::ocp {
 
-/// What an expression of a problem's symbols comes to along its solution: one number for each point
-/// of the trajectory. Throws InvalidValue, naming it, for a symbol of another problem.
+/// The values of an expression of a problem's symbols along its solution, one for each point of the
+/// trajectory. Throws InvalidValue for a symbol of another problem, naming it.
 std::vector<double> values(const Problem& problem, const Solution& solution,
                            const Expr& expression);
-/// At any times, on the scheme's own polynomials; beyond t0 ... tf, at the nearer end.
+/// The values at any times, by the scheme's own polynomials; beyond t0 ... tf, at the nearer end.
 std::vector<double> values(const Problem& problem, const Solution& solution, const Expr& expression,
                            const std::vector<double>& times);
-/// Whether it is a function of states, controls or time, and not of ends, times and constants
-/// alone.
+/// Whether an expression depends on states, controls or time, and not only on ends, end times and
+/// constants.
 bool changes_over_time(const Problem& problem, const Expr& expression);
 
 }  // namespace slalom::ocp
