@@ -112,9 +112,13 @@ Proposals::Proposals(const Task& task, Tracker& tracker, Verifier& verifier)
   if (task.road) road_ways_.emplace(task, task.vehicle);
 }
 
-void Proposals::ask(Question question) {
+void Proposals::forget() {
   turns_.cancel();
   found_.clear();
+}
+
+void Proposals::ask(Question question) {
+  forget();
   question_ = std::move(question);
   turns_.begin([this] { look(); });
 }
@@ -224,7 +228,7 @@ bool Proposals::propose(const std::string& name, Motion motion, bool solved) {
   turns_.spend(kMotion);
   Proposal proposal{name, std::move(motion), {}, solved};
   proposal.verdict =
-      verifier_.judge(proposal.motion, question_.obstacles, question_.need, question_.tex);
+      verifier_.judge(proposal.motion, question_.obstacles, question_.need, question_.looks);
   const bool arrives = (proposal.verdict.certificate.verified || proposal.verdict.unseen) &&
                        proposal.verdict.end == MotionEnd::arrives;
   found_.push_back(std::move(proposal));

@@ -41,8 +41,8 @@ class Proposals {
   struct Question {
     vehicle::State from{};  ///< where motions begin
     double t_from = 0;      ///< and when [s]
-    double tex = 0;         ///< between the loop's looks for arrival [s]
-    double beyond = 0;      ///< for which motions go on after they arrive [s]
+    Looks looks{};
+    double beyond = 0;  ///< for which motions go on after they arrive [s]
     std::vector<world::Obstacle> obstacles;
     Need need;
     std::optional<Motion> rest;  ///< of the last plan from t_from on, where it is to be solved
@@ -53,6 +53,8 @@ class Proposals {
   /// The task, tracker and verifier outlive it. It uses them in its turns alone.
   Proposals(const Task& task, Tracker& tracker, Verifier& verifier);
 
+  /// Gives up what is looked for, and what was found.
+  void forget();
   /// Asks anew: what was looked for before is given up, and what was found.
   void ask(Question question);
   const Question& question() const { return question_; }

@@ -98,7 +98,8 @@ Certificate verify_again(const RecordedPlan& recording, const Task& task) {
                   recording.wheel_load,
                   {recording.seen_x, recording.seen_y, recording.seen_radius},
                   recording.edge};
-  return verifier.judge(motion, recording.obstacles, need, recording.tex).certificate;
+  return verifier.judge(motion, recording.obstacles, need, {recording.t0, recording.tex})
+      .certificate;
 }
 
 bool same(const Certificate& one, const Certificate& other) {

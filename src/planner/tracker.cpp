@@ -200,11 +200,24 @@ Control Tracker::steered(std::size_t knot, const State& off, const State& at, do
 }
 
 Motion Tracker::released(Motion motion) const {
-  if (motion.size() < 2) return motion;
   const std::size_t k = motion.size() - 1;
   motion.controls[k] = {};
+  if (k == 0) return motion;
   motion.states[k] = plant_.advance(motion.states[k - 1], motion.controls[k - 1], {},
                                     motion.t[k - 1], motion.t[k]);
+  return motion;
+}
+
+Motion Tracker::driven_to(const Control& control, Motion motion, double duration) const {
+  const double begin = motion.end(), steps = std::ceil(duration / kStep);
+  const Control from = motion.controls.back();
+  for (double k = 1; k <= steps; ++k) {
+    Control u;
+    for (std::size_t c = 0; c < kControls; ++c) u[c] = from[c] + k / steps * (control[c] - from[c]);
+    const double t = begin + k / steps * duration;
+    motion.add(t, plant_.advance(motion.states.back(), motion.controls.back(), u, motion.end(), t),
+               u);
+  }
   return motion;
 }
 

@@ -30,6 +30,10 @@ class Tracker {
   /// A motion of the plant whose controls go to 0 at its end. Throws PlantError.
   Motion released(Motion motion) const;
 
+  /// A motion of the plant, and on from its end for so long [s] while its control goes to this one.
+  /// Throws PlantError.
+  Motion driven_to(const vehicle::Control& control, Motion motion, double duration) const;
+
   /// A motion of the plant, and on from its end until then without control. Throws PlantError.
   Motion driven_on(Motion motion, double until) const;
 

@@ -34,7 +34,7 @@ void VerifiedPlanner::ask(Cycle& cycle) {
   Proposals::Question question;
   question.from = cycle.request.X0p;
   question.t_from = cycle.t_start();
-  question.tex = cycle.tex();
+  question.looks = cycle.looks();
   question.beyond = cycle.beyond();
   question.obstacles = cycle.obstacles;
   question.need = need(cycle);
@@ -69,7 +69,7 @@ void VerifiedPlanner::look_further(Cycle& cycle, double share) {
   const bool leads = cycle.leads();
   if (!leads && asked_while_leading_) turns.cancel();
   if (!turns.under_way() && due(cycle)) ask(cycle);
-  const double before = turns.cpu_s();
+  const double before = turns.cpu_s() - cycle.beside_s;
   double work = leads && !cycle.request.warm_up
                     ? Proposals::kPlacesPerSecond * cycle.for_better(task_.planner.improvement_time)
                     : std::numeric_limits<double>::infinity();

@@ -45,7 +45,8 @@ VerifiedPlanner::VerifiedPlanner(const Task& task)
 void VerifiedPlanner::reset() {
   last_ = before_ = {};
   errors_.clear();
-  proposals_.turns().cancel();
+  proposals_.forget();
+  last_improved_ = wait_ = expected_work_ = 0;
 }
 
 void VerifiedPlanner::record(const Recorder& recorder) {
@@ -160,8 +161,19 @@ bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal, const Course& co
 Proposal VerifiedPlanner::judged(const Cycle& cycle, const std::string& name, Motion motion,
                                  bool solved) {
   Proposal proposal{name, std::move(motion), {}, solved};
-  proposal.verdict = verifier_.judge(proposal.motion, cycle.obstacles, need(cycle), cycle.tex());
+  proposal.verdict = verifier_.judge(proposal.motion, cycle.obstacles, need(cycle), cycle.looks());
   return proposal;
+}
+
+/// Whether the last verdict is one of this cycle's: among the same obstacles, of an arrival that is
+/// still to come and at which the loop will look, which it does at other moments when a plan was
+/// late.
+bool VerifiedPlanner::still_holds(const Cycle& cycle) const {
+  const Verdict& verdict = last_.option->proposal.verdict;
+  const Looks now = cycle.looks(), then = last_.looks;
+  return same(cycle.obstacles, last_.obstacles) && now.every == then.every &&
+         std::fabs(std::remainder(now.from - then.from, now.every)) < kSameTime &&
+         (verdict.end != MotionEnd::arrives || verdict.arrival > cycle.t_start());
 }
 
 /// The rest of the last plan from the state predicted. Where state and obstacles are those that it
@@ -175,16 +187,14 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
   } catch (const PlantError&) {  // it cannot be driven from here
     cycle.rest_unchanged = false;
   }
-  // The loop looks for arrival at other moments when a plan was late.
-  cycle.rest_unchanged = cycle.rest_unchanged && same(cycle.obstacles, last_.obstacles) &&
-                         std::fabs(std::remainder(t0 - last_.begin, cycle.tex())) < kSameTime;
+  cycle.rest_unchanged = cycle.rest_unchanged && still_holds(cycle);
   cycle.rest = Option{{"rest", std::move(motion), last_.option->proposal.verdict,
                        last_.option->proposal.solved && cycle.rest_unchanged},
                       last_.option->cost,
                       last_.course};
   Proposal& rest = cycle.rest->proposal;
   if (!cycle.rest_unchanged) {
-    rest.verdict = verifier_.judge(rest.motion, cycle.obstacles, lesser_need(cycle), cycle.tex());
+    rest.verdict = verifier_.judge(rest.motion, cycle.obstacles, lesser_need(cycle), cycle.looks());
     if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
   cycle.looked_at.push_back({"rest", cycle.rest->cost, rest.verdict.certificate});
@@ -192,12 +202,13 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
 }
 
 /// The last plan from where it is to go on; it is tracked where the state is another, and lasts at
-/// least until the next cycle's plan.
+/// least until the next cycle's plan. What stands at its end is brought to stand there anew.
 Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
   const double t0 = cycle.t_start();
   const State& X0p = cycle.request.X0p;
   const Motion& old = last_.option->motion();
   Motion rest;
+  cycle.rest_unchanged = false;
   if (t0 > old.end() - Tracker::kStep) {
     rest.add(t0, X0p, {});
   } else {
@@ -211,20 +222,28 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
       rest = tracker_.follow(rest, X0p, t0, rest.end());
     }
   }
-  if (rest.end() >= t0 + cycle.tex()) return rest;
+  const bool lasts = rest.end() >= t0 + cycle.tex();
+  if (lasts && cycle.rest_unchanged) return rest;
   cycle.rest_unchanged = false;
-  return tracker_.driven_on(std::move(rest), t0 + cycle.beyond());
+  const double until = lasts ? rest.end() : t0 + cycle.beyond();
+  if (last_.option->proposal.verdict.end == MotionEnd::stands)
+    return settled(std::move(rest), until);
+  return lasts ? rest : tracker_.driven_on(tracker_.released(std::move(rest)), until);
 }
 
 /// Notes how far the vehicle and the obstacles are from where they were believed to be.
 void VerifiedPlanner::note_error(const Cycle& cycle, double state_error) {
   const double t0 = cycle.t_start();
   double moved = 0;
-  if (cycle.obstacles.size() == last_.obstacles.size())
-    for (std::size_t k = 0; k < cycle.obstacles.size(); ++k) {
-      const auto &now = cycle.obstacles[k], &then = last_.obstacles[k];
+  std::size_t next = 0;  // most lists are in the same order
+  for (const auto& now : cycle.obstacles)
+    for (std::size_t tried = 0, of = last_.obstacles.size(); tried < of; ++tried) {
+      const auto& then = last_.obstacles[(next + tried) % of];
+      if (then.name != now.name) continue;
       moved =
           std::max(moved, std::hypot(now.x_at(t0) - then.x_at(t0), now.y_at(t0) - then.y_at(t0)));
+      next = (next + tried + 1) % of;
+      break;
     }
   while (!errors_.empty() && errors_.front().first < t0 - kRemembered) errors_.pop_front();
   if (state_error + moved > kSameState) errors_.emplace_back(t0, state_error + moved);
@@ -278,7 +297,7 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   plan.report.cost = option->cost;
   const bool goes_on = plan.rung == Rung::rest;
   Last next{*option, goes_on ? last_.made : std::make_shared<const Motion>(motion),
-            goes_on ? last_.course : option->course, cycle.obstacles, cycle.t_start()};
+            goes_on ? last_.course : option->course, cycle.obstacles, cycle.looks()};
   before_ = std::exchange(last_, std::move(next));
   plan.report.cpu_s = plan.report.planning_cpu_s = cycle.cpu_s();
   plan.report.wall_s = cycle.timer.wall();

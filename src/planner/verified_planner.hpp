@@ -67,7 +67,10 @@ class VerifiedPlanner final : public PlanningMethod {
     double beside_s = 0;  ///< thread time of the turns of Proposals
 
     double t_start() const { return request.t_start; }
-    double tex() const { return std::max(request.t_start - request.t0, 1e-3); }
+    double tex() const {
+      return request.tex > 0 ? request.tex : std::max(request.t_start - request.t0, 1e-3);
+    }
+    Looks looks() const { return {request.t0, tex()}; }
     double beyond() const { return std::max(kBeyond, kBeyondHorizons * tex()); }
     double cpu_s() const { return timer.cpu() + beside_s; }
     /// Thread time left [s], and time by the clock.
@@ -86,7 +89,7 @@ class VerifiedPlanner final : public PlanningMethod {
     double for_better(double wanted) const { return std::min(wanted, kBetterShare * tex()); }
     /// Verified; or, where verification is left out, as good as that.
     bool trusts(const Option& option) const {
-      return option.certificate().verified || !verification;
+      return option.certificate().verified || (!verification && option.motion().size() > 1);
     }
     /// Something at hand leads to the goal: the rest, or a course that is good as far as is seen.
     bool leads() const { return rest_is(MotionEnd::arrives) || course_arrival; }
@@ -118,6 +121,7 @@ class VerifiedPlanner final : public PlanningMethod {
   void note_error(const Cycle& cycle, double state_error);
   void continue_last(Cycle& cycle);
   Motion rest_of_last(Cycle& cycle);
+  bool still_holds(const Cycle& cycle) const;
   void look_further(Cycle& cycle, double share);
   bool due(const Cycle& cycle) const;
   void ask(Cycle& cycle);
@@ -161,7 +165,7 @@ class VerifiedPlanner final : public PlanningMethod {
     std::shared_ptr<const Motion> made;      ///< the same as it was when it was new
     Course course;                           ///< of which it drives the beginning
     std::vector<world::Obstacle> obstacles;  ///< among which it was verified
-    double begin = 0;                        ///< the moment from which it looked for arrival [s]
+    Looks looks{};                           ///< by which it arrives
   };
   Last last_, before_;  ///< the last plan, and the one before, which goes on where that was late
   std::deque<std::pair<double, double>> errors_;  ///< of belief: when [s], and how great [m]

@@ -37,21 +37,16 @@ constexpr int kStopPlaces = 4000, kStopWays = 4;
 
 }  // namespace
 
-/// Comes to a creep at no acceleration and no steering rate, and creeps on until then.
+/// Comes to a creep at no acceleration and no steering rate, and creeps on until then at the least.
 Motion VerifiedPlanner::settled(Motion motion, double until) const {
-  if (motion.size() < 3) {  // it creeps already
+  if (motion.size() < 3)  // it creeps already
     while (motion.size() > 1) motion.drop_last();
-    return tracker_.driven_on(std::move(motion), until);
-  }
   motion = tracker_.released(std::move(motion));
-  const std::size_t k = motion.size() - 1;
   // A triangle of jerk that takes the acceleration away.
-  const double ax = motion.states[k][AX], t = motion.t[k];
+  const double ax = motion.states.back()[AX];
   const double length = std::max(0.1, std::fabs(ax) / 2);
-  const Control peak{0, -2 * ax / length};
-  const State middle = plant_.advance(motion.states[k], {}, peak, t, t + length / 2);
-  motion.add(t + length / 2, middle, peak);
-  motion.add(t + length, plant_.advance(middle, peak, {}, t + length / 2, t + length), {});
+  motion = tracker_.driven_to({0, -2 * ax / length}, std::move(motion), length / 2);
+  motion = tracker_.driven_to({}, std::move(motion), length / 2);
   return tracker_.driven_on(std::move(motion), until);
 }
 
@@ -214,7 +209,8 @@ double VerifiedPlanner::harm_of(const Cycle& cycle, const Motion& motion) {
   if (task_.vehicle.footprint == FootprintKind::point)
     return std::numeric_limits<double>::infinity();
   const Need bare{0, std::numeric_limits<double>::lowest()};
-  const auto certificate = verifier_.judge(motion, cycle.obstacles, bare, cycle.tex()).certificate;
+  const auto certificate =
+      verifier_.judge(motion, cycle.obstacles, bare, cycle.looks()).certificate;
   return certificate.verified ? std::numeric_limits<double>::infinity() : certificate.refused_at;
 }
 
@@ -231,7 +227,7 @@ const VerifiedPlanner::Option* VerifiedPlanner::kept_at_least(Cycle& cycle) {
   const Need lesser = lesser_need(cycle);
   Option* best = nullptr;
   for (Option& option : cycle.refused) {
-    Verdict verdict = verifier_.judge(option.motion(), cycle.obstacles, lesser, cycle.tex());
+    Verdict verdict = verifier_.judge(option.motion(), cycle.obstacles, lesser, cycle.looks());
     if (!verdict.certificate.verified) continue;
     option.cost = cost_of(option.motion(), verdict);
     option.proposal.verdict = std::move(verdict);

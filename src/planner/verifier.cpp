@@ -25,6 +25,8 @@ constexpr double kLoadStep = 0.026;
 constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e-3;
 /// A vehicle stands when it is slower than this [m/s] and accelerates by less than this [m/s^2].
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
+/// A creep is steady after this [s]: slow tyres react within milliseconds.
+constexpr double kSteady = 0.5;
 /// Below this half of a turn a circle's chord is its arc [rad].
 constexpr double kStraight = 1e-6;
 /// Standing, distances are looked at this far apart at the least [m]; and this often at the least,
@@ -97,6 +99,12 @@ Verifier::Excess Verifier::excess_of(const State& x, const WheelLoads& loads) co
   return excess;
 }
 
+/// How far within what is seen the vehicle keeps what it needs to all that may stand beyond [m].
+double Verifier::within_seen(const State& x) const {
+  return need_.seen.radius - need_.clearance - footprint_.reach() -
+         std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y);
+}
+
 /// Where the motion begins beyond a limit, it has a while to come back, and goes no further.
 void Verifier::note_limits(double t, const State& x) {
   auto& certificate = verdict_.certificate;
@@ -109,9 +117,7 @@ void Verifier::note_limits(double t, const State& x) {
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
   if (!(footprint_.outside(task_.region, x) <= 0)) refuse(t, "outside the region");
-  if (std::hypot(x[X] - need_.seen.x, x[Y] - need_.seen.y) >
-          need_.seen.radius - need_.clearance - footprint_.reach() &&
-      certificate.refused.empty()) {
+  if (within_seen(x) < 0 && certificate.refused.empty()) {
     refuse(t, "beyond what is seen");
     verdict_.unseen = true;
   }
@@ -153,7 +159,7 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
 /// by less than second derivatives times the square of the duration over 8.
 void Verifier::keep_on_road(const Interval& i) {
   const double need = i.t0 - begin_ < kToComeBack && first_edge_ < need_.edge
-                          ? first_edge_ - kEdgeSlack
+                          ? std::max(first_edge_ - kEdgeSlack, std::min(first_edge_, 0.))
                           : need_.edge;
   const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
   const double fast = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
@@ -183,78 +189,81 @@ void Verifier::note_distance(std::size_t obstacle, double distance, double spare
   certificate.nearest = (*obstacles_)[obstacle].name;
 }
 
-/// The state in which a vehicle that creeps on at its speed and steering angle is after a time [s]:
-/// slow tyres roll where they point, so that the rear axle's centre goes on along a circle.
-State Verifier::creeping(const State& from, double after) const {
-  const double axles = task_.vehicle.la + task_.vehicle.lb;
-  const double turned = creep_turn(from) * after, half = turned / 2;
-  const double chord = from[UX] * after * (std::fabs(half) < kStraight ? 1 : std::sin(half) / half);
+/// The vehicle goes on without control: at constant speed along the circle on which its tyres roll,
+/// which the plant itself is driven onto.
+Verifier::Creep Verifier::creep_of(const Motion& motion) const {
+  const State& last = motion.states.back();
+  const State steady = plant_.advance(last, {}, {}, motion.end(), motion.end() + kSteady);
+  Creep creep{last, last[UX], steady[V] + task_.vehicle.la * steady[R], steady[R]};
+  creep.slack = std::fabs(last[AX]);
+  creep.fastest = std::hypot(creep.forward, creep.sideways) +
+                  std::fabs(creep.turn) * footprint_.reach() +
+                  creep.slack * task_.planner.standing_horizon;
+  return creep;
+}
+
+State Verifier::Creep::after(double time) const {
+  const double half = turn * time / 2;
+  const double chord = time * (std::fabs(half) < kStraight ? 1 : std::sin(half) / half);
+  const double c = std::cos(from[PSI] + half), s = std::sin(from[PSI] + half);
   State x = from;
-  x[PSI] = from[PSI] + turned;
-  const double along = from[PSI] + half;
-  x[X] = from[X] + chord * std::cos(along) + axles * (std::cos(x[PSI]) - std::cos(from[PSI]));
-  x[Y] = from[Y] + chord * std::sin(along) + axles * (std::sin(x[PSI]) - std::sin(from[PSI]));
+  x[X] += chord * (forward * c - sideways * s);
+  x[Y] += chord * (forward * s + sideways * c);
+  x[PSI] += 2 * half;
   return x;
 }
 
-/// By how much it turns meanwhile [rad/s].
-double Verifier::creep_turn(const State& x) const {
-  return x[UX] * std::tan(x[SA]) / (task_.vehicle.la + task_.vehicle.lb);
-}
-
-/// What no point of the body is faster than meanwhile [m/s].
-double Verifier::creep_speed(const State& x) const {
-  const double farthest = footprint_.reach() + task_.vehicle.la + task_.vehicle.lb;
-  return std::fabs(x[UX]) + std::fabs(creep_turn(x)) * farthest;
-}
-
-/// Creeping on the vehicle has `room` [m] left, which falls no faster than a point of the body
-/// moves.
-void Verifier::creep_within(const Motion& motion, const std::function<double(const State&)>& room,
+/// Creeping on from `end` [s] the vehicle has `room` [m] left, which falls no faster than a point
+/// of the body moves.
+void Verifier::creep_within(const Creep& creep, double end,
+                            const std::function<double(const State&)>& room,
                             const char* otherwise) {
-  const State& last = motion.states.back();
-  const double speed = creep_speed(last), horizon = task_.planner.standing_horizon;
-  for (double after = 0; after <= horizon;) {
-    const double left = room(creeping(last, after));
-    if (!(left >= 0)) return refuse(motion.end() + after, otherwise);
-    if (speed == 0) return;
-    after += std::max(left, kLook) / speed;
+  for (double after = 0; after <= task_.planner.standing_horizon;) {
+    const double left = room(creep.after(after)) - creep.astray(after);
+    if (!(left >= 0)) return refuse(end + after, otherwise);
+    if (creep.fastest == 0) return;
+    after += std::max(left, kLook) / creep.fastest;
   }
 }
 
-/// After its end the motion creeps on at the speed and steering angle that it ends with. Distance
-/// is looked at as often as both speeds allow it to fall to what is needed. Margins grow no more:
-/// plans to come know better.
+/// Creeping on from `end` [s] it keeps off an obstacle. Distance is looked at as often as both
+/// speeds allow it to fall to what is needed. Margins grow no more: plans to come know better.
+void Verifier::creep_off(const Creep& creep, double end, std::size_t obstacle) {
+  const auto& o = (*obstacles_)[obstacle];
+  const double horizon = task_.planner.standing_horizon;
+  double after = 0;
+  while (after <= horizon) {
+    const double t = end + after;
+    if (!o.present(t, end + horizon)) break;
+    const double spare = footprint_.distance(o, creep.after(after), t) - o.margin(end);
+    verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], spare);
+    const double left = spare - need_.clearance - creep.astray(after);
+    if (!(left >= kLook)) return refuse(t, "standing in the way of " + o.name);
+    const double rate =
+        creep.fastest + (o.trajectory ? o.fastest(t, t + kLookAgain) : std::hypot(o.vx, o.vy));
+    if (rate == 0 && !o.trajectory) break;
+    const double step = left / rate;
+    after += o.trajectory ? std::min(step, kLookAgain) : step;
+  }
+}
+
+/// After its end the motion creeps on at the speed and steering angle that it ends with.
 void Verifier::stand_for_good(const Motion& motion) {
+  const Creep creep = creep_of(motion);
+  const double end = motion.end();
   if (task_.road)  // beyond its ends an open road goes on
     creep_within(
-        motion,
+        creep, end,
         [&](const State& x) { return footprint_.edge_distance(*task_.road, x) - need_.edge; },
         "standing, but creeping off the road");
-  if (!footprint_.is_point())
+  creep_within(
+      creep, end, [&](const State& x) { return -footprint_.outside(task_.region, x); },
+      "standing, but creeping out of the region");
+  if (std::isfinite(need_.seen.radius))
     creep_within(
-        motion, [&](const State& x) { return -footprint_.outside(task_.region, x); },
-        "standing, but creeping out of the region");
-  const State& last = motion.states.back();
-  const double forward = creep_speed(last), horizon = task_.planner.standing_horizon;
-  for (std::size_t k = 0; k < obstacles_->size(); ++k) {
-    const auto& o = (*obstacles_)[k];
-    const double need = need_.clearance + o.margin(motion.end());
-    const double end = motion.end() + horizon;
-    double after = 0;
-    while (after <= horizon) {
-      const double t = motion.end() + after;
-      if (!o.present(t, end)) break;
-      const double d = footprint_.distance(o, creeping(last, after), t);
-      verdict_.nearest[k] = std::min(verdict_.nearest[k], d - o.margin(motion.end()));
-      if (!(d >= need + kLook)) return refuse(t, "standing in the way of " + o.name);
-      const double rate =
-          forward + (o.trajectory ? o.fastest(t, t + kLookAgain) : std::hypot(o.vx, o.vy));
-      if (rate == 0 && !o.trajectory) break;
-      const double step = std::max(d - need, kLook) / rate;
-      after += o.trajectory ? std::min(step, kLookAgain) : step;
-    }
-  }
+        creep, end, [&](const State& x) { return within_seen(x); },
+        "standing, but creeping out of what is seen");
+  for (std::size_t k = 0; k < obstacles_->size(); ++k) creep_off(creep, end, k);
 }
 
 /// A body that begins nearer to an obstacle than is needed keeps that, but for kEdgeSlack. Of a
@@ -271,26 +280,28 @@ void Verifier::note_first_clearances(const State& x) {
   }
 }
 
-void Verifier::find_end_by_square(const Motion& motion, double tex) {
+void Verifier::find_end_by_square(const Motion& motion, const Looks& looks) {
   const auto outside = [&](const State& x, double t) { return task_.goal.outside(x, t, nullptr); };
-  for (double t = motion.begin(); t <= motion.end() + 1e-9; t += tex) {
+  const double first = std::ceil((motion.begin() - looks.from) / looks.every - kSameTime);
+  for (double k = first; looks.from + k * looks.every <= motion.end() + kSameTime; ++k) {
+    const double t = looks.from + k * looks.every;
     if (outside(motion.state_at(t), t) > -kInside) continue;
     verdict_.end = MotionEnd::arrives;
     verdict_.arrival = t;
     // The square's edge is passed a little earlier, which tells motions apart that are looked at
     // at the same moment.
-    for (std::size_t k = motion.size(); k-- > 0;)
-      if (motion.t[k] <= t) {
-        if (outside(motion.states[k], motion.t[k]) > 0) break;
-        verdict_.arrival = motion.t[k];
+    for (std::size_t knot = motion.size(); knot-- > 0;)
+      if (motion.t[knot] <= t) {
+        if (outside(motion.states[knot], motion.t[knot]) > 0) break;
+        verdict_.arrival = motion.t[knot];
       }
     return;
   }
 }
 
-void Verifier::find_end(const Motion& motion, double tex) {
+void Verifier::find_end(const Motion& motion, const Looks& looks) {
   if (task_.goal.kind() == world::GoalKind::square) {
-    find_end_by_square(motion, tex);
+    find_end_by_square(motion, looks);
   } else {
     for (std::size_t k = 0; k < motion.size() && verdict_.end == MotionEnd::open; ++k) {
       if (task_.goal.outside(motion.states[k], motion.t[k], task_.road.get()) > -kWell) continue;
@@ -305,7 +316,7 @@ void Verifier::find_end(const Motion& motion, double tex) {
 }
 
 Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
-                        const Need& need, double tex) {
+                        const Need& need, const Looks& looks) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   obstacles_ = &obstacles;
   need_ = need;
@@ -341,10 +352,14 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
       refuse(i.t0, error.what());
     }
   }
-  find_end(motion, tex);
+  find_end(motion, looks);
   if (certificate.refused.empty()) {
     if (verdict_.end == MotionEnd::open) refuse(motion.end(), "it neither arrives nor stands");
-    if (verdict_.end == MotionEnd::stands) stand_for_good(motion);
+    try {
+      if (verdict_.end == MotionEnd::stands) stand_for_good(motion);
+    } catch (const PlantError& error) {
+      refuse(motion.end(), error.what());
+    }
   }
   certificate.verified = certificate.refused.empty();
   return verdict_;

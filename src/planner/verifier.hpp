@@ -33,6 +33,12 @@ struct Need {
   double edge = 0;  ///< and distance of its footprint from the road's edges [m]
 };
 
+/// When the loop looks whether the vehicle is within the goal's square: at `from`, and before and
+/// after it each `every` [s].
+struct Looks {
+  double from, every;
+};
+
 /// What judge() found.
 struct Verdict {
   Certificate certificate;
@@ -59,10 +65,9 @@ class Verifier {
   Verifier(const Task& task, const vehicle::Plant& plant)
       : task_(task), plant_(plant), footprint_(task.vehicle) {}
 
-  /// `motion` among `obstacles`, of a cycle whose plan begins at motion.begin() and whose next
-  /// checks of arrival are `tex` [s] apart from there.
+  /// `motion` among `obstacles`.
   Verdict judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
-                const Need& need, double tex);
+                const Need& need, const Looks& looks);
 
   /// The last verdict.
   const Verdict& last() const { return verdict_; }
@@ -75,18 +80,31 @@ class Verifier {
     double ux = 0, sa = 0, ax = 0;
   };
   Excess excess_of(const vehicle::State& state, const vehicle::WheelLoads& loads) const;
+  double within_seen(const vehicle::State& state) const;
   void note_limits(double t, const vehicle::State& state);
   void keep_off(const Interval& interval, std::size_t obstacle);
   void keep_on_road(const Interval& interval);
-  void find_end(const Motion& motion, double tex);
-  void find_end_by_square(const Motion& motion, double tex);
+  void find_end(const Motion& motion, const Looks& looks);
+  void find_end_by_square(const Motion& motion, const Looks& looks);
   void note_distance(std::size_t obstacle, double distance, double spare);
-  vehicle::State creeping(const vehicle::State& from, double after) const;
-  double creep_turn(const vehicle::State& x) const;
-  double creep_speed(const vehicle::State& x) const;
+  /// How a vehicle that was driven to a creep goes on.
+  struct Creep {
+    vehicle::State from{};
+    double forward = 0, sideways = 0;  ///< velocity of its position, as the body sees it [m/s]
+    double turn = 0;                   ///< [rad/s]
+    double slack = 0;                  ///< acceleration that is left [m/s^2]
+    double fastest = 0;  ///< no point of the body loses more of its distance to anything [m/s]
+
+    vehicle::State after(double time) const;
+    /// How far it may be from there, for the acceleration that is left [m].
+    double astray(double time) const { return slack * time * time / 2; }
+  };
+  Creep creep_of(const Motion& motion) const;
   void note_first_clearances(const vehicle::State& x);
-  void creep_within(const Motion& motion, const std::function<double(const vehicle::State&)>& room,
+  void creep_within(const Creep& creep, double end,
+                    const std::function<double(const vehicle::State&)>& room,
                     const char* otherwise);
+  void creep_off(const Creep& creep, double end, std::size_t obstacle);
   void stand_for_good(const Motion& motion);
   void refuse(double t, std::string why);
 

@@ -70,6 +70,7 @@ planner::Request Planning::request(const Cycle& cycle, bool last_was_late) const
   request.X0p = cycle.X0p;
   request.t0 = cycle.t0;
   request.t_start = timing_.plan_start(cycle.t0) + known_actuator_delay();
+  request.tex = loop.tex;
   request.obstacles = sensors_.believed(scenario_.obstacles, cycle.index, cycle.t0);
   request.time_limit = timing_.time_limit();
   request.clock_limit = timing_.clock_limit();

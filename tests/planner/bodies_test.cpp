@@ -57,7 +57,7 @@ struct Bodies : ::testing::Test {
   }
   Verdict judge(const std::vector<Obstacle>& obstacles) {
     const Plant plant(task.vehicle, 1e-9, 0.02);
-    return Verifier(task, plant).judge(motion, obstacles, need, 0.5);
+    return Verifier(task, plant).judge(motion, obstacles, need, {motion.begin(), 0.5});
   }
 };
 

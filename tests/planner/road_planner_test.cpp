@@ -119,7 +119,7 @@ Verdict judged(double offset, double edge) {
     x = plant.advance(x, {}, {}, 0.05 * k, 0.05 * (k + 1));
   }
   Verifier verifier(task, plant);
-  return verifier.judge(motion, {}, {0.3, 400, {}, edge}, 0.5);
+  return verifier.judge(motion, {}, {0.3, 400, {}, edge}, {motion.begin(), 0.5});
 }
 
 TEST(RoadPlanner, ACentimetreOffTheRoadIsRefusedAndACentimetreOnItIsNot) {
@@ -246,7 +246,7 @@ TEST(RoadPlanner, ACornerCutByACentimetreIsRefused) {
   const Plant plant = Verifier::believed_plant(task.vehicle);
   for (const double beyond : {-0.012, 0.01}) {
     task.road = bend(4 - spare - beyond);
-    const Verdict verdict = Verifier(task, plant).judge(motion, {}, {0.3, 200, {}, 0}, 0.5);
+    const Verdict verdict = Verifier(task, plant).judge(motion, {}, {0.3, 200, {}, 0}, {motion.begin(), 0.5});
     EXPECT_EQ(verdict.certificate.verified, beyond < 0) << verdict.certificate.refused;
   }
 }

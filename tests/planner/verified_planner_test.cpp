@@ -144,6 +144,43 @@ TEST(VerifiedPlanner, WhatComesIntoTheWayIsAvoided) {
   }));
 }
 
+// What is seen at last where another was is no error of belief.
+TEST(VerifiedPlanner, ObstaclesAreTheSameByName) {
+  Task t = task();
+  t.obstacles.push_back({"far", 200, 80, 3, 3, 0, 0});
+  Planner planner(t);
+  const Plan plan = planner.plan(first());
+  Request request = next(t, first(), plan);
+  const State there = plan.states[std::min<std::size_t>(plan.states.size() - 1, 90)];
+  request.obstacles = {{"new", there[X], there[Y], 3, 3, 0, 0}, t.obstacles[0]};
+  const Plan other = planner.plan(request);
+  EXPECT_EQ(other.rung, Rung::new_plan);
+  EXPECT_TRUE(other.certificate.verified) << other.certificate.refused;
+}
+
+// By the latency rule `instant` a plan begins when it is made, and the loop looks a horizon apart.
+TEST(VerifiedPlanner, AnArrivalIsWhereTheLoopLooks) {
+  Task t = task();
+  t.goal.sigma = 2;
+  const Plant plant(t.vehicle, 1e-9, 0.02);
+  for (const double begin : {0., 3., 6.}) {
+    Request request = first();
+    request.X0p[Y] = begin;
+    request.t_start = request.t0 = 0.5;
+    request.tex = 0.5;
+    const Plan plan = Planner(t).plan(request);
+    ASSERT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+    if (!plan.goal_in_range) continue;
+    bool arrives = false;
+    State x = request.X0p;
+    for (double at = 0.5; at < plan.t_start + plan.tf && !arrives; at += 0.5) {
+      arrives = t.goal.outside(x, at, nullptr) <= 0;
+      x = plant.predict(x, control_signal(plan), at, at + 0.5);
+    }
+    EXPECT_TRUE(arrives) << "from " << begin;
+  }
+}
+
 TEST(VerifiedPlanner, ThereIsAPlanWhereNoneIsGoodAndItSaysSo) {
   Task t = task();
   t.obstacles = {{"wall", 0, 14, 60, 2, 0, 0}};  // 12 m ahead at 17 m/s
@@ -220,6 +257,20 @@ TEST(VerifiedPlanner, AVehicleAtRestAlwaysHasAPlanThatLasts) {
     EXPECT_GE(plan.tf, 0.5 - 1e-6);
     request = next(t, request, plan);
     request.X0p[UX] -= 0.01;  // as a sensor may have it
+  }
+}
+
+// The acceleration that it begins with is taken away before it creeps.
+TEST(VerifiedPlanner, AVehicleThatAllButStandsGoesOnStanding) {
+  const Task t = before_a_wall(10.9);  // room to creep for 6.7 m at .1 m/s for a minute
+  Planner planner(t);
+  Request request = first();
+  request.X0p[UX] = 0.1;
+  request.X0p[AX] = 0.015;
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    const Plan plan = planner.plan(request);
+    EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+    request = next(t, request, plan);
   }
 }
 

@@ -33,9 +33,10 @@ struct Scene : ::testing::Test {
       x = plant.advance(x, {0, jerk}, {0, jerk}, t, t + 0.05);
     }
   }
-  Verdict judge(const std::vector<world::Obstacle>& obstacles = {}, double tex = 0.5) {
+  Verdict judge(const std::vector<world::Obstacle>& obstacles = {}, double tex = 0.5,
+                double late = 0) {
     const Plant plant(task.vehicle, 1e-9, 0.02);
-    return Verifier(task, plant).judge(motion, obstacles, need, tex);
+    return Verifier(task, plant).judge(motion, obstacles, need, {motion.begin() + late, tex});
   }
 };
 
@@ -115,6 +116,9 @@ TEST_F(Scene, ArrivesOnlyWhereTheLoopLooks) {
   EXPECT_EQ(judge({}, 0.5).end, MotionEnd::arrives);
   EXPECT_EQ(judge({}, 1.2).end, MotionEnd::open);
   EXPECT_FALSE(judge({}, 1.2).certificate.verified);
+  EXPECT_EQ(judge({}, 1.2, 0.1).end, MotionEnd::arrives) << "it looks at 5.9 s";
+  EXPECT_EQ(judge({}, 1.2, 0.1 - 12).end, MotionEnd::arrives) << "the same looks";
+  EXPECT_EQ(judge({}, 1.2, -0.1).end, MotionEnd::open);
 }
 
 TEST_F(Scene, MayStandOnlyWhereNothingComesForGood) {
@@ -182,6 +186,68 @@ TEST_F(Scene, StandsOnlyWhereItCreepsOnTheRoadAsItSteers) {
       << judge({beside}).certificate.refused;
   motion.states.back()[SA] = 0;
   EXPECT_TRUE(judge({beside}).certificate.verified) << judge({beside}).certificate.refused;
+}
+
+// By the plant, driven on without control for the whole horizon.
+TEST_F(Scene, WhatCreepsIsWhereThePlantIs) {
+  task.goal.y = 500;
+  drive(0.1);
+  motion.states.back()[SA] = -0.35;
+  const Plant plant(task.vehicle, 1e-9, 0.02);
+  const double horizon = task.planner.standing_horizon;
+  const State end =
+      plant.advance(motion.states.back(), {}, {}, motion.end(), motion.end() + horizon);
+  const double ahead = end[PSI] + std::atan2(end[V] + task.vehicle.la * end[R], end[UX]);
+  for (const double spare : {-0.03, 0.03}) {
+    const double distance = 1 + need.clearance + 0.01 + spare;  // looks are .01 m apart
+    const world::Obstacle there{
+        "there", end[X] + distance * std::cos(ahead), end[Y] + distance * std::sin(ahead), 1, 1, 0,
+        0};
+    EXPECT_EQ(judge({there}).certificate.verified, spare > 0) << judge({there}).certificate.refused;
+  }
+}
+
+TEST_F(Scene, AccelerationThatIsLeftIsReckonedWith) {
+  task.goal.y = 500;
+  drive(0.1);
+  const world::Obstacle ahead{"ahead", 0, 30, 1, 1, 0, 0};
+  EXPECT_TRUE(judge({ahead}).certificate.verified) << judge({ahead}).certificate.refused;
+  motion.states.back()[AX] = 0.019;  // 34 m further in the horizon of 60 s
+  EXPECT_NE(judge({ahead}).certificate.refused.find("in the way"), std::string::npos)
+      << judge({ahead}).certificate.refused;
+}
+
+TEST_F(Scene, StandsOnlyWhereItCreepsWithinWhatIsSeen) {
+  task.goal.y = 500;
+  drive(0.1);  // .5 m and then 6 m, and 2.15 m clear
+  need.seen = {0, 0, 8};
+  EXPECT_NE(judge().certificate.refused.find("out of what is seen"), std::string::npos)
+      << judge().certificate.refused;
+  need.seen.radius = 9;
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+}
+
+TEST_F(Scene, APointStandsOnlyWhereItCreepsWithinTheRegion) {
+  task.goal.y = 500;
+  drive(0.1);
+  task.region.y_max = motion.states.back()[Y] + 5;
+  EXPECT_NE(judge().certificate.refused.find("creeping out of the region"), std::string::npos)
+      << judge().certificate.refused;
+  task.region.y_max += 2;
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+}
+
+// What begins nearer to the edge than is needed may have a little less, but not leave the road.
+TEST_F(Scene, ABodyThatBeginsAtTheEdgeStaysOnTheRoad) {
+  task.vehicle.footprint = FootprintKind::rectangle;
+  need.edge = 0.1;
+  const double right = task.vehicle.width / 2 + 0.005;
+  task.road = std::make_shared<world::Road>(
+      std::vector<world::RoadPoint>{{0, -100, right, 4}, {0, 300, right, 4}}, false,
+      std::vector<std::vector<world::Point>>{}, "road");
+  EXPECT_NEAR(judge().certificate.refused_at, 2, 0.1) << "it does not move away in time";
+  for (std::size_t k = 8; k < 12; ++k) motion.states[k][X] = 0.009;  // 4 mm over the edge
+  EXPECT_NEAR(judge().certificate.refused_at, 1.4, 0.1);
 }
 
 TEST_F(Scene, ABodyStandsOnlyWhereItCreepsWithinTheRegion) {

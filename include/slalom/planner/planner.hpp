@@ -16,7 +16,10 @@ namespace slalom::planner {
 struct Request {
   vehicle::State X0p{};  ///< predicted state at t_start
   double t0 = 0;         ///< absolute time of planning [s]
-  double t_start = 0.5;  ///< absolute time at which the plan begins: t0 + tex [s]
+  double t_start = 0.5;  ///< absolute time at which the plan begins [s]
+  /// Execution horizon [s]: cycles, and the loop's looks for arrival, are this far apart from t0
+  /// on. 0: as far apart as t0 and t_start.
+  double tex = 0;
   double time_limit = std::numeric_limits<double>::infinity();  ///< thread time of planning [s]
   /// Wall-clock limit [s]; a later plan is useless. For verifying planners.
   double clock_limit = std::numeric_limits<double>::infinity();
