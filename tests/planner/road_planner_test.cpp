@@ -246,7 +246,8 @@ TEST(RoadPlanner, ACornerCutByACentimetreIsRefused) {
   const Plant plant = Verifier::believed_plant(task.vehicle);
   for (const double beyond : {-0.012, 0.01}) {
     task.road = bend(4 - spare - beyond);
-    const Verdict verdict = Verifier(task, plant).judge(motion, {}, {0.3, 200, {}, 0}, {motion.begin(), 0.5});
+    const Verdict verdict =
+        Verifier(task, plant).judge(motion, {}, {0.3, 200, {}, 0}, {motion.begin(), 0.5});
     EXPECT_EQ(verdict.certificate.verified, beyond < 0) << verdict.certificate.refused;
   }
 }

@@ -104,9 +104,9 @@ class Problem {
   /// Sets the scale of any variable, t0 and tf included.
   void set_scale(const Expr& variable, double scale);
 
-  // // --- given quantities -------------------------------------------------------------------- A
-  // run-time parameter: a number that set_parameter changes between solves without a new
-  // transcription.
+  // --- given quantities --------------------------------------------------------------------
+  /// A run-time parameter: a number that set_parameter changes between solves without a new
+  /// transcription.
   Expr parameter(const std::string& name, double value);
   /// Changes a run-time parameter; throws InvalidValue for another symbol or a number not finite.
   void set_parameter(const Expr& parameter, double value);
