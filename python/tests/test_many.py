@@ -75,10 +75,9 @@ def test_a_time_limit_is_of_the_whole_call():
 
 
 def test_names_are_there_where_no_solve_was_begun():
-    many = pushed().solve_many({"gain": [1.0, 2.0]}, mesh=100, time_limit=1e-9)
-    assert not many.solved.any() and len(many) == 2
-    assert {name: values.shape for name, values in many.states.items()} == {"x": (2, 0), "v": (2, 0)}
-    assert many.controls["u"].shape == (2, 0) and many.time.shape == (2, 0) and np.isnan(many.tf).all()
+    many = pushed().solve_many({"gain": []}, mesh=10)
+    assert {name: values.shape for name, values in many.states.items()} == {"x": (0, 0), "v": (0, 0)}
+    assert many.controls["u"].shape == (0, 0) and many.time.shape == (0, 0) and len(many.tf) == 0
 
 
 @pytest.mark.parametrize("name", ["P_D", "P_E"])
