@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -86,10 +87,12 @@ inline nb::object over_points(std::size_t count, const std::vector<std::size_t>&
     if (values.size() == 1) return nb::float_(values.front());
     return nb::cast(to_numpy(values));
   }
-  const std::size_t members = values.size() / points.size();
-  std::vector<std::vector<double>> rows(count, std::vector<double>(members, 0.0));
-  for (std::size_t k = 0; k < points.size(); ++k)
-    for (std::size_t m = 0; m < members; ++m) rows[points[k]][m] = values[k * members + m];
+  // Of a family, a number for each member stands at a point, in the members' order.
+  std::vector<std::vector<double>> rows(count);
+  for (std::size_t k = 0; k < points.size(); ++k) rows[points[k]].push_back(values[k]);
+  std::size_t members = 0;
+  for (const auto& row : rows) members = std::max(members, row.size());
+  for (auto& row : rows) row.resize(members);
   if (members != 1) return nb::cast(to_numpy(rows, members));
   std::vector<double> column;
   for (const auto& row : rows) column.push_back(row.front());

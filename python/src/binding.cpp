@@ -30,7 +30,10 @@ Vector to_numpy(const std::vector<double>& numbers) {
 Matrix to_numpy(const std::vector<std::vector<double>>& rows, std::size_t columns) {
   auto flat = std::make_unique<std::vector<double>>();
   flat->reserve(rows.size() * columns);
-  for (const auto& row : rows) flat->insert(flat->end(), row.begin(), row.end());
+  for (const auto& row : rows) {
+    if (row.size() != columns) throw Error("rows of unequal length");
+    flat->insert(flat->end(), row.begin(), row.end());
+  }
   auto* data = flat->data();
   nb::capsule owner(flat.release(),
                     [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });

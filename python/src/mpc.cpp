@@ -2,6 +2,7 @@
 
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/map.h>
+#include <algorithm>
 
 #include <functional>
 #include <map>
@@ -27,6 +28,11 @@ using ocp::Problem;
 
 /// The problem of each cycle as it was solved, by the cycle's index.
 using Problems = std::map<int, std::shared_ptr<const Problem>>;
+
+/// The problem of a cycle; a warm-up solves that of the first.
+const std::shared_ptr<const Problem>& problem_of(const Problems& problems, int index) {
+  return problems.at(std::max(index, 1));
+}
 
 /// What Python knows as MpcCycle.
 struct Cycle {
@@ -72,7 +78,7 @@ class Loop {
     if (check)
       settings.check = [this, check](const MpcCycle& cycle) {
         const nb::gil_scoped_acquire lock;
-        return (*check)({cycle, problems_.at(cycle.index)}).value_or("");
+        return (*check)({cycle, problem_of(problems_, cycle.index)}).value_or("");
       };
     settings.solve.options.stop = [](void* self) {
       auto* released = static_cast<Loop*>(self)->released_;
@@ -95,7 +101,7 @@ class Loop {
   std::vector<Cycle> cycles() const {
     std::vector<Cycle> list;
     for (const auto& cycle : mpc_->cycles()) {
-      list.push_back({cycle, problems_.at(cycle.index)});
+      list.push_back({cycle, problem_of(problems_, cycle.index)});
       forget_stop(list.back().cycle.solution.options);
     }
     return list;
@@ -207,7 +213,7 @@ void bind_result(nb::module_& module) {
           [](const Run& r) {
             std::vector<Cycle> list;
             for (const auto& cycle : r.result.cycles)
-              list.push_back({cycle, r.problems.at(cycle.index)});
+              list.push_back({cycle, problem_of(r.problems, cycle.index)});
             return list;
           },
           "One record a cycle.")

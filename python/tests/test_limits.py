@@ -66,3 +66,44 @@ def test_scenarios_are_pickled_to_the_bit():
 def test_what_cannot_be_pickled_says_what_to_do(make, instead):
     with pytest.raises(TypeError, match=f"cannot be pickled.*{instead}"):
         pickle.dumps(make())
+
+
+def test_a_solve_that_did_not_begin_can_be_looked_at_and_gone_on_from():
+    p = slalom.Problem("stopped")
+    x, u = p.state("x", initial=0, final=1), p.control("u")
+    k, q = p.static_parameter("k", guess=1, lower=1, upper=2), p.integral("q", u * u)
+    p.dynamics(x, k * u)
+    p.mayer("effort", q)
+    stopped = p.solve(time_limit=0)
+    assert stopped.status == "time_limit"
+    assert stopped.static_parameter("k") == 1 and stopped.integral("q") == 0
+    with pytest.raises(slalom.InvalidValue, match="did not begin"):
+        stopped.hamiltonian()
+    assert p.solve(mesh=20, warm_start=stopped).solved
+    assert p.solve_many({"final x": [1.0]}, warm_start=stopped).solved.all()
+
+
+def test_a_family_with_numbers_by_point_may_be_infeasible():
+    p = slalom.Problem("wall")
+    x, u = p.state("x", initial=0), p.control("u")
+    p.dynamics(x, u)
+    p.lagrange("effort", u * u)
+    c = slalom.Expr.symbol("c")
+    wall = p.path_family("wall", [c], x - c, upper=0)
+    p.set_members(wall, ["one"], [[-1.0] * 81])
+    assert p.solve().status == "infeasible"
+    p.set_members(wall, ["one"], [[1.0] * 81])
+    solution = p.solve()
+    assert solution.solved and abs(solution(0.5)["x"]) < 1e-6
+
+
+def test_excesses_of_a_family_are_by_point_and_member():
+    p = slalom.Problem("gate")
+    x, u = p.state("x", initial=1), p.control("u")
+    p.dynamics(x, u)
+    p.lagrange("effort", u * u)
+    c = slalom.Expr.symbol("c")
+    gate = p.path_family("gate", [c], x - c, upper=0, soft="l1")
+    p.set_members(gate, ["near", "far"], [[0.0], [9.0]])
+    excess = p.solve(mesh=10).excess("gate")
+    assert excess.shape == (21, 2) and excess[0, 0] > 0.9 and (abs(excess[:, 1]) < 1e-6).all()

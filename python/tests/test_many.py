@@ -92,3 +92,36 @@ def test_plans_from_many_states(name):
         np.testing.assert_array_equal(plan.states, alone.states)
     with pytest.raises(slalom.InvalidValue, match=r"states\[1\]"):
         slalom.Planner(scenario).plan_many([start, start[:3]])
+
+
+def cart(name="cart", **state):
+    """Least effort from rest to rest."""
+    p = slalom.Problem(name)
+    x, v = p.state("x", initial=0, final=1, **state), p.state("v", initial=0, final=0)
+    u = p.control("u")
+    p.dynamics(x, v)
+    p.dynamics(v, u)
+    p.lagrange("effort", u * u)
+    return p, x, v, u
+
+
+def test_a_row_that_was_constant_is_there_for_other_numbers():
+    p = slalom.Problem("fixed")
+    x, u, a = p.state("x", initial=1), p.control("u"), p.parameter("a", 1.0)
+    p.dynamics(x, u)
+    p.lagrange("effort", u * u)
+    p.boundary("start", p.initial(x) - a, equal=0)
+    for name in ("a", "initial x"):
+        assert p.solve_many({name: [1.0, 2.0, 1.0]}, mesh=10).solved.tolist() == [True, False, True]
+
+
+def test_times_that_one_mesh_does_not_serve_are_refused():
+    p, x, v, u = cart()
+    p.final_time(lower=0.1, upper=50, guess=3)
+    with pytest.raises(slalom.InvalidValue, match="solve 1.*at most the least tf"):
+        p.solve_many({"t0": [0.0, 10.0]})
+    p, x, v, u = cart()
+    p.final_time(equal=1)
+    p.path("way", x, at=0.3, equal=0.5)
+    with pytest.raises(slalom.InvalidValue, match="solve 1.*share of the horizon"):
+        p.solve_many({"tf": [1.0, 2.0]}, mesh=10)

@@ -103,3 +103,29 @@ def test_interrupt():
 def test_bad_settings(settings, error, message):
     with pytest.raises(error, match=message or "Mpc|argument"):
         slalom.Mpc(cart()[0], **settings)
+
+
+def test_a_warm_up_is_among_the_cycles():
+    p, _ = cart()
+    result = slalom.Mpc(p, tex=0.25, mesh=20, warm_up=True, max_cycles=2).run([0, 0])
+    assert [cycle.index for cycle in result.cycles] == [0, 1, 2]
+    assert all(cycle.solution.solved for cycle in result.cycles)
+
+
+def test_a_shrinking_horizon_ends_where_its_last_plans_fail():
+    p = slalom.Problem("shrinking")
+    x, v = p.state("x", initial=0), p.state("v", initial=0)
+    u = p.control("u", lower=-2, upper=2)
+    p.dynamics(x, v)
+    p.dynamics(v, u)
+    p.lagrange("effort", u * u)
+    p.final_time(equal=5)
+    off = p.parameter("off", 0.0)
+    p.boundary("end", p.final(x) + off, equal=1)
+
+    def spoil(problem, cycle):
+        problem.set_parameter(off, 1e3 if cycle.t > 3.9 else 0.0)
+
+    result = slalom.Mpc(p, tex=0.5, mesh=20, horizon="shrinking", goal={"x": (1, 1e-6)}, update=spoil).run([0, 0])
+    assert result.status in ("goal", "expanded_goal", "goal_missed")
+    assert abs(result.t[-1] - 5) < 1e-6 and abs(result.states["x"][-1] - 1) < 1e-3

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 
 #include "csv.hpp"
 #include "section.hpp"
@@ -19,6 +20,7 @@ using Row = std::vector<double>;
 
 constexpr std::size_t kMostBytes = 16U << 20U;
 constexpr std::size_t kMostRows = 100'000;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  ///< with which spreadsheets begin
 
 std::string in_words(const std::vector<Column>& columns) {
   std::vector<std::string> names;
@@ -90,6 +92,7 @@ std::vector<Row> rows_of_file(const Value& name, const std::vector<Column>& colu
     const auto where = fmt::format("{}:{}", file.string(), ++at);
     line = without_blanks(line);
     if (at == 1) {
+      if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
       places = places_of(columns, csv_cells(line.starts_with('#') ? line.substr(1) : line), where);
       continue;
     }

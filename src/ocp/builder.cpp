@@ -31,7 +31,7 @@ void add_lifts(Draft& draft) {
 
 /// Where the bounds of t0 and tf leave it open.
 void run_time_forward(Draft& draft) {
-  if (draft.problem.t0().bounds.upper <= draft.problem.tf().bounds.lower) return;
+  if (draft.problem.runs_forward()) return;
   const auto row = draft.add_row({"tf after t0"}, draft.out.layout.intervals() + 1,
                                  Bounds::at_least(0), 1 / draft.problem.tf().unit());
   draft.linear.push_back({row, draft.out.layout.tf, 1});

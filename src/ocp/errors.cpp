@@ -346,6 +346,9 @@ Violation largest_violation(const Problem& problem, const Solution& solution, in
 
 std::vector<double> hamiltonian(const Problem& problem, const Solution& solution) {
   const Trajectory& trajectory = solution.trajectory;
+  if (solution.costates.empty())
+    throw InvalidValue(problem.name() + ": Hamiltonian", "a solve that did not begin",
+                       "an answer with costates");
   const Interpolant polynomials = between(problem, solution);
   const PointFunctions functions(problem, trajectory);
   const auto node = nodes(solution);

@@ -28,7 +28,11 @@ class Numbers {
       check(problem, variation);
     }
     Problem probe = problem;
-    if (count() > 0) put(0, probe);  // throws for what may not be set
+    const bool forward = problem.runs_forward();
+    for (std::size_t solve = 0; solve < count(); ++solve) {
+      put(solve, probe);  // throws for what may not be set
+      check_times(problem, forward, solve, probe);
+    }
   }
   std::size_t count() const { return variations_.empty() ? 0 : variations_.front().values.size(); }
   void put(std::size_t solve, Problem& problem) const {
@@ -37,6 +41,20 @@ class Numbers {
   }
 
  private:
+  /// All have one transcription, whose mesh has nodes at shares of the horizon.
+  static void check_times(const Problem& problem, bool forward, std::size_t solve,
+                          const Problem& probe) {
+    const auto where = fmt::format("{}: many: solve {}", problem.name(), solve);
+    if (forward && !probe.runs_forward())
+      throw InvalidValue(where,
+                         fmt::format("t0 of {:.6g} and a least tf of {:.6g}",
+                                     probe.t0().bounds.upper, probe.tf().bounds.lower),
+                         "t0 at most the least tf, as in the problem; \"lower tf\" may vary too");
+    if (probe.moments() != problem.moments())
+      throw InvalidValue(where,
+                         "a row, a cost term or a breakpoint at another share of the horizon",
+                         "moments as shares of the horizon, for the mesh does not move");
+  }
   void check(const Problem& problem, const Variation& variation) const {
     const auto where = problem.name() + ": many: " + variation.name;
     if (variation.values.size() != count())

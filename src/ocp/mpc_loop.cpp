@@ -135,7 +135,8 @@ bool MpcLoop::over(const MpcCycle& cycle) {
     end(off <= settings_.expand_goal ? MpcStatus::expanded_goal : MpcStatus::goal_missed,
         fmt::format("the plan ended at t = {:.6g}, {:.3g} tolerances from the goal", plan_end_,
                     off));
-  } else if (settings_.horizon == Horizon::shrinking && settings_.goal.empty() &&
+  } else if (settings_.horizon == Horizon::shrinking &&
+             (settings_.goal.empty() || plans_.last() == nullptr) &&
              cycle.t_plan >= tf_bounds_.upper - kSameTime) {
     end(MpcStatus::horizon_over, fmt::format("tf is {:.6g} at most", tf_bounds_.upper));
   } else if (cycle.index > settings_.max_cycles) {
@@ -148,7 +149,9 @@ bool MpcLoop::over(const MpcCycle& cycle) {
 /// last plan is driven to its end, and the goal, expanded, judged there (NLOptControl's way).
 bool MpcLoop::ends_within(const MpcCycle& cycle) const {
   const Plan* last = plans_.last();
-  return !settings_.goal.empty() && last != nullptr && unsolved_ == 0 &&
+  const bool no_time_left =
+      settings_.horizon == Horizon::shrinking && cycle.t_plan >= tf_bounds_.upper - kSameTime;
+  return !settings_.goal.empty() && last != nullptr && (unsolved_ == 0 || no_time_left) &&
          last->solution.trajectory.tf <= cycle.t + settings_.tex + kSameTime;
 }
 

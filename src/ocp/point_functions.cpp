@@ -71,9 +71,10 @@ PointFunctions::PointFunctions(const Problem& problem, const Trajectory& at)
   for (const auto& row : problem.constraints()) {
     if (!row.enabled || !row.over_time()) continue;
     if (row.kind == Problem::Kind::path) add_row(row.name, row.value, row.bounds, row.points);
-    if (row.by_point())
-      throw InvalidValue(problem.name() + ": family " + row.name, "numbers at the points of a mesh",
-                         "numbers that hold between points too");
+    if (row.by_point()) {
+      without_rows_ = problem.name() + ": family " + row.name;
+      continue;
+    }
     for (std::size_t m = 0; m < row.member_values.size(); ++m) {
       const auto own = row.numbers_at(m);
       const std::vector<Expr> numbers(own.begin(), own.end());
@@ -112,6 +113,13 @@ double PointFunctions::integrand(double t, std::span<const double> x,
 void PointFunctions::integrands(double t, std::span<const double> x, std::span<const double> u,
                                 std::span<double> out) const {
   call(integrand_, t, x, u, out);
+}
+
+const std::vector<PointFunctions::Row>& PointFunctions::rows() const {
+  if (!without_rows_.empty())
+    throw InvalidValue(without_rows_, "numbers at the points of a mesh",
+                       "numbers that hold between points too");
+  return rows_;
 }
 
 void PointFunctions::row_values(double t, std::span<const double> x, std::span<const double> u,

@@ -32,7 +32,8 @@ class PointFunctions {
   std::size_t integrands() const { return integrand_.outputs(); }
   void integrands(double t, std::span<const double> x, std::span<const double> u,
                   std::span<double> out) const;
-  const std::vector<Row>& rows() const { return rows_; }
+  /// Throws InvalidValue where a family has numbers at the points of a mesh, and none between.
+  const std::vector<Row>& rows() const;
   void row_values(double t, std::span<const double> x, std::span<const double> u,
                   std::span<double> out) const;
 
@@ -43,6 +44,7 @@ class PointFunctions {
   double t0_, tf_;
   expr::Function rates_, integrand_, row_functions_;
   std::vector<Row> rows_;
+  std::string without_rows_;  ///< the family that has no rows between points
   mutable std::vector<double> inputs_;
 };
 

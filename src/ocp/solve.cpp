@@ -144,7 +144,7 @@ PhasedSolution solve_within(const SetUpWatch& watch, const PhasedProblem& proble
     regular.insert(regular.end(), counts.begin(), counts.end());
   }
   const auto& row_scale = transcription.structure().row_scale;
-  if (previous != nullptr)
+  if (previous != nullptr && !previous->link_multipliers.empty())
     for (std::size_t l = 0; l < problem.links().size(); ++l)
       start.y.push_back(previous->link_multipliers.at(l).second /
                         row_scale[transcription.first_link() + l]);
@@ -267,6 +267,15 @@ void set_grid(const PhasedProblem& problem, const PhasedTranscription::Grid& gri
   settings.grids.assign(problem.phases().size(), grid);
 }
 
+bool has_numbers_by_point(const Problem& problem) {
+  return std::any_of(problem.constraints().begin(), problem.constraints().end(),
+                     [](const auto& row) { return row.by_point(); });
+}
+bool has_numbers_by_point(const PhasedProblem& problem) {
+  return std::any_of(problem.phases().begin(), problem.phases().end(),
+                     [](const Problem& phase) { return has_numbers_by_point(phase); });
+}
+
 /// Solves of one problem within one limit of time, and what they took together.
 template <class Answer, class Problem, class Settings>
 class Tries {
@@ -304,6 +313,7 @@ class Tries {
   /// By coarse meshes, whose answer the whole mesh then begins with. Each solve has the iterations
   /// of the settings anew.
   void by_coarse_meshes(const Settings& settings, Answer& answer) {
+    if (has_numbers_by_point(problem_)) return;  // which are those of the settings' mesh
     for (const int intervals : kCoarseMeshes) {
       if (most_intervals(problem_, settings) <= static_cast<std::size_t>(intervals)) return;
       Settings coarse = settings;

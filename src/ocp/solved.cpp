@@ -101,6 +101,11 @@ Solution not_begun(const Problem& problem, const PhasedTranscription::Grid& give
   };
   at.states = sample(guess.states);
   at.controls = sample(guess.controls);
+  for (std::size_t i = at.static_parameters.size(); i < problem.static_parameters().size(); ++i)
+    at.static_parameters.push_back(problem.static_parameters()[i].guess);
+  for (std::size_t i = at.slacks.size(); i < problem.slacks().size(); ++i)
+    at.slacks.push_back(problem.slacks()[i].guess);
+  at.integrals.resize(problem.integrals().size());
   return solution;
 }
 
@@ -138,6 +143,8 @@ Trajectory resampled(const Problem& problem, const Solution& solution,
 
 Beginning begin(const Problem& problem, const PhasedTranscription::Grid& grid,
                 const Trajectory& guess, const Solution* previous) {
+  if (previous != nullptr && previous->collocated_costates.tau.empty())  // its solve did not begin
+    return {resampled(problem, *previous, grid), {}};
   if (previous != nullptr)
     return {resampled(problem, *previous, grid),
             Duals{previous->trajectory.tau, previous->collocated_costates, previous->multipliers}};

@@ -153,11 +153,13 @@ class Transcription::Impl {
   Symbols symbols;  ///< of `problem`
   Transcribed data;
   std::vector<double> terms;
+  nlp::Limits whole;  ///< before rows were relaxed, which other numbers may not leave constant
 };
 
 Transcription::Transcription(const ocp::Problem& problem, const Mesh& mesh, const Schemes& schemes)
     : impl_(std::make_unique<Impl>(problem, mesh, schemes)) {
   SetUpWatch::ask_now();
+  impl_->whole = impl_->data.limits;
   relax_constant_rows();
 }
 Transcription::~Transcription() = default;
@@ -174,6 +176,10 @@ void Transcription::relax_constant_rows() {
 void Transcription::update(const ocp::Problem& problem) {
   check_same(impl_->problem, problem);
   check_times(problem);
+  if (impl_->problem.runs_forward() && !problem.runs_forward())
+    throw InvalidValue(
+        problem.name(), "t0 that may be later than the least tf",
+        "t0 at most the least tf, as when it was transcribed; else a new transcription");
   for (const auto& data : impl_->data.batch_data) {
     if (data.family == kNone) continue;
     const auto& now = problem.constraints().at(data.family).members;
@@ -184,6 +190,7 @@ void Transcription::update(const ocp::Problem& problem) {
   }
   impl_->problem = problem;
   fill_data(problem, impl_->data);
+  impl_->data.limits = impl_->whole;
   fill_limits(problem, impl_->data);
   relax_constant_rows();
 }

@@ -152,8 +152,12 @@ ocp::Transcription& LinePlanner::posed(const State& X0p) {
 Plan LinePlanner::plan(const Request& request) {
   const Timer timer;
   const world::Point here{request.X0p[X], request.X0p[Y]};
-  const double start = (s_ ? task_.road->project(here, *s_) : task_.road->project(here)).s;
+  // It has driven on since the last plan, whose place is looked for.
+  const double driven = std::max(0., request.t_start - t_) * std::max(0., request.X0p[UX]);
+  const double start = (s_ ? task_.road->project(here, *s_ + driven) : task_.road->project(here)).s;
   s_ = start;
+  t_ = request.t_start;
+  totals_ = {};
   auto x0 = line_.to_line(start, request.X0p);
   update(start, x0);
   // The road's s goes around with each lap.
@@ -165,6 +169,7 @@ Plan LinePlanner::plan(const Request& request) {
   if (warm) plan = attempt(request, timer, {start, shifted(start, x0), !start_.y.empty(), 1});
   for (const double calm : {1., kCalmFloor})
     if (!plan.report.solved) plan = attempt(request, timer, {start, guess(start, x0), false, calm});
+  totals_.put(plan.report);
   plan.report.planning_cpu_s = timer.cpu();
   return plan;
 }
@@ -177,6 +182,7 @@ Plan LinePlanner::attempt(const Request& request, const Timer& timer, const Atte
   options.warm_start = attempt.multipliers;
   options.time_limit = std::max(0., request.time_limit - timer.cpu());
   solver_->solve(*transcription_, start_, options, answer_);
+  totals_.add(answer_);
   std::optional<Recording> recording;  // reading takes the multipliers of both
   if (recorder_) recording = recorded(request, false, options, start_, answer_);
   Plan plan = read(request, attempt.start, options);

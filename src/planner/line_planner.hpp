@@ -8,6 +8,7 @@
 #include "slalom/base/timer.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/transcription.hpp"
+#include "solving.hpp"
 
 namespace slalom::planner {
 
@@ -18,7 +19,10 @@ class LinePlanner final : public PlanningMethod {
   explicit LinePlanner(const Task& task);
 
   Plan plan(const Request& request) override;
-  void reset() override { last_.reset(); }
+  void reset() override {
+    last_.reset();
+    s_.reset();
+  }
   void record(const Recorder& recorder) override;
 
   /// The problem of a cycle that begins in this state, as a solver sees it: for replays.
@@ -57,7 +61,9 @@ class LinePlanner final : public PlanningMethod {
   std::unique_ptr<nlp::Solver> solver_;
   nlp::Start start_;
   nlp::Answer answer_;
+  SolveTotals totals_;       ///< of the cycle
   std::optional<double> s_;  ///< of the last cycle [m]
+  double t_ = 0;             ///< and when its plan began [s]
   std::optional<Last> last_;
   std::optional<Recorder> recorder_;
 };

@@ -109,6 +109,7 @@ RecedingHorizon::RecedingHorizon(const Task& task)
 Plan RecedingHorizon::plan(const Request& request) {
   const Timer timer;
   const Cycle cycle{request, look_ahead(request), timer};
+  totals_ = {};
   choose(request);
   // A goal that was passed on the road leaves a plan that has nothing left.
   if (task_.road && last_ && last_->in_range && !cycle.way.in_range) last_.reset();
@@ -123,6 +124,7 @@ Plan RecedingHorizon::plan(const Request& request) {
   if (task_.road && !best.plan.report.solved && !best.cut_short) try_free_way(cycle, best);
   if (refines(task_)) refine(cycle, best);
   keep(cycle, best);
+  totals_.put(best.plan.report);
   best.plan.report.planning_cpu_s = timer.cpu();
   return std::move(best.plan);
 }
@@ -217,6 +219,7 @@ RecedingHorizon::Attempt RecedingHorizon::attempt(const Cycle& cycle, int interv
   options.time_limit =
       std::max(0.0, cycle.request.time_limit - cycle.timer.cpu() - longest_reading_s_);
   solver_->solve(form.transcription, start_, options, answer_);
+  totals_.add(answer_);
   const double solved_at = cycle.timer.cpu();
   std::optional<Recording> recording;
   if (recorder_ && intervals == settings_.N)

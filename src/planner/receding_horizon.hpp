@@ -12,6 +12,7 @@
 #include "slalom/base/timer.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/transcription.hpp"
+#include "solving.hpp"
 #include "trajectory_problem.hpp"
 
 namespace slalom::planner {
@@ -83,6 +84,7 @@ class RecedingHorizon final : public PlanningMethod {
   std::unique_ptr<nlp::Solver> solver_;
   nlp::Start start_;  ///< its multipliers are the last plan's
   nlp::Answer answer_;
+  SolveTotals totals_;                                ///< of the cycle
   std::optional<LastPlan> last_;                      ///< where the next solve starts
   bool carries_ = false;                              ///< the multipliers of `start_` belong to it
   std::optional<std::pair<double, double>> on_road_;  ///< when the last cycle began where along it

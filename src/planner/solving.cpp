@@ -42,6 +42,18 @@ SolveReport report_of(const nlp::Answer& answer, ocp::Transcription& transcripti
   return report;
 }
 
+void SolveTotals::add(const nlp::Answer& answer) {
+  cpu_s += answer.cpu_s;
+  wall_s += answer.wall_s;
+  iterations += answer.iterations;
+}
+
+void SolveTotals::put(SolveReport& report) const {
+  report.cpu_s = cpu_s;
+  report.wall_s = wall_s;
+  report.iterations = iterations;
+}
+
 Recording recorded(const Request& request, bool in_range, const nlp::Options& options,
                    const nlp::Start& start, const nlp::Answer& answer) {
   Recording r{request.X0p,  request.t0,    request.t_start, in_range,          current_kernels(),

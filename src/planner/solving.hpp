@@ -22,6 +22,15 @@ nlp::Options solver_options(const Settings& settings, const Request& request);
 SolveReport report_of(const nlp::Answer& answer, ocp::Transcription& transcription,
                       const Request& request, const nlp::Options& options);
 
+/// What the solves of a cycle take together.
+struct SolveTotals {
+  double cpu_s = 0, wall_s = 0;
+  int iterations = 0;
+
+  void add(const nlp::Answer& answer);
+  void put(SolveReport& report) const;
+};
+
 /// The last solve of a cycle, but for what judging it brings.
 Recording recorded(const Request& request, bool in_range, const nlp::Options& options,
                    const nlp::Start& start, const nlp::Answer& answer);

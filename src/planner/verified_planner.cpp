@@ -180,7 +180,6 @@ bool VerifiedPlanner::still_holds(const Cycle& cycle) const {
 /// was verified for, so it still is; else the plant drives it anew.
 void VerifiedPlanner::continue_last(Cycle& cycle) {
   if (!last_.option) return;
-  const double t0 = cycle.t_start();
   Motion motion;
   try {
     motion = rest_of_last(cycle);

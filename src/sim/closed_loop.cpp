@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "planning.hpp"
@@ -156,6 +157,11 @@ class ClosedLoop {
   /// At the end of a cycle: whether the goal is reached, or its time is up.
   std::optional<End> check_arrival(double t_end) const {
     if (t_end <= loop_.timeout + kSameTime && arrived()) return arrival();
+    const world::Goal& goal = scenario_.goal;
+    if (goal.kind() == world::GoalKind::time && t_end >= goal.time - kSameTime)
+      return End{Outcome::timeout,
+                 fmt::format("not as the goal asks at {:.6g} s: {:.4g} m/s, {:.4g} deg", goal.time,
+                             state_[vehicle::UX], state_[vehicle::PSI] * 180 / std::numbers::pi)};
     if (t_end < loop_.timeout - kSameTime) return std::nullopt;
     return End{Outcome::timeout, fmt::format("not at the goal after {:.6g} s", loop_.timeout)};
   }

@@ -138,6 +138,21 @@ void check_start_clear(const Scenario& s, const std::string& where) {
   }
 }
 
+/// A line across the road lies ahead of the start.
+void check_line(const Scenario& s, const std::string& where) {
+  if (s.goal.kind() != world::GoalKind::line) return;
+  world::Goal line;
+  line.s = s.goal.s;
+  if (!line.reached(s.start, 0, s.road.get())) return;
+  const double start = s.road->project({s.start[vehicle::X], s.start[vehicle::Y]}).s;
+  throw InvalidValue(
+      where + ": goal",
+      fmt::format("a line at s = {:.6g} m, and a start at {:.6g} m", s.goal.s, start),
+      s.road->closed() ? "a line less than half a lap ahead of the start, or laps"
+                       : "a line ahead of the start",
+      {"goal.s", "start"});
+}
+
 /// A place on an open road that a plan along it comes to lies ahead of the start.
 void check_ahead(const Scenario& s, const std::string& where) {
   if (s.road->closed() || !s.goal.is_place() || s.arrived(s.start, 0) ||
@@ -188,6 +203,7 @@ void check_road(const Scenario& s, const std::string& where) {
                        fmt::format("laps = {:.6g} by planner {}", s.goal.laps, s.planner.name),
                        "planner P_L, or another of the methods along_road and receding_horizon",
                        {"goal.laps", "planner"});
+  check_line(s, where);
   check_ahead(s, where);
 }
 

@@ -22,41 +22,6 @@ void disturb(double& value, double sigma, NormalDraws& draws) {
     draws.skip();
 }
 
-/// A motion as it is believed at t0 [s]: displaced by an error of place, and `factor` times as fast
-/// about t0.
-class BelievedTrajectory final : public world::Trajectory {
- public:
-  BelievedTrajectory(std::shared_ptr<const Trajectory> base, double t0, double factor,
-                     world::Point displacement)
-      : base_(std::move(base)), t0_(t0), factor_(factor), displacement_(displacement) {}
-
-  world::Pose at(double t) const override {
-    world::Pose pose = base_->at(true_time(t));
-    pose.x += displacement_.x;
-    pose.y += displacement_.y;
-    pose.vx *= factor_;
-    pose.vy *= factor_;
-    pose.omega *= factor_;
-    return pose;
-  }
-  world::Rates fastest(double t0, double t1) const override {
-    const auto [begin, end] = std::minmax({true_time(t0), true_time(t1)});
-    const world::Rates rates = base_->fastest(begin, end);
-    return {std::fabs(factor_) * rates.speed, std::fabs(factor_) * rates.omega};
-  }
-  bool present(double t0, double t1) const override {
-    const auto [begin, end] = std::minmax({true_time(t0), true_time(t1)});
-    return base_->present(begin, end);
-  }
-
- private:
-  double true_time(double t) const { return factor_ == 1 ? t : t0_ + factor_ * (t - t0_); }
-
-  std::shared_ptr<const Trajectory> base_;
-  double t0_, factor_;
-  world::Point displacement_;
-};
-
 }  // namespace
 
 const OptionTable<SensingSettings>& sensing_options() {
@@ -120,7 +85,7 @@ std::optional<std::vector<world::Obstacle>> Sensors::believed(
       world::Point displacement;
       disturb(displacement.x, settings_.obstacle_position_noise, draws);
       disturb(displacement.y, settings_.obstacle_position_noise, draws);
-      o.trajectory = std::make_shared<BelievedTrajectory>(
+      o.trajectory = std::make_shared<world::RetimedTrajectory>(
           o.trajectory, t0, settings_.obstacle_velocity_factor, displacement);
       continue;
     }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "slalom/base/error.hpp"
 
@@ -85,6 +88,29 @@ void check(const Goal& goal, const Road* road, const std::string& where) {
   if (goal.kind() == GoalKind::laps && !(road->closed() && std::floor(goal.laps) == goal.laps))
     refuse(fmt::format("laps = {:.6g}", goal.laps), "a whole number of laps of a closed road",
            {"laps"});
+  std::vector<std::string> kinds;
+  for (const auto& [key, value] :
+       {std::pair{"s", goal.s}, {"time", goal.time}, {"laps", goal.laps}, {"length", goal.length}})
+    if (value < Goal::kAbsent) kinds.emplace_back(key);
+  if (kinds.size() > 1)
+    refuse(fmt::format("both {} and {}", kinds[0], kinds[1]),
+           "one of s, time, laps, and length and width", kinds);
+  if (goal.kind() == GoalKind::laps) {
+    const Goal asked;
+    for (const auto& [key, value, absent] :
+         {std::tuple{"psi_tolerance", goal.psi_tolerance, asked.psi_tolerance},
+          {"ux_min", goal.ux_min, asked.ux_min},
+          {"ux_max", goal.ux_max, asked.ux_max},
+          {"t_min", goal.t_min, asked.t_min},
+          {"t_max", goal.t_max, asked.t_max}})
+      if (value != absent)
+        refuse(fmt::format("{} beside laps", key), "laps alone, or a line s with conditions",
+               {key});
+  }
+  if (goal.kind() == GoalKind::time && !(goal.t_min <= goal.time && goal.time <= goal.t_max))
+    refuse(fmt::format("time = {:.6g}, t_min = {:.6g}, t_max = {:.6g}", goal.time, goal.t_min,
+                       goal.t_max),
+           "a time from t_min to t_max", {"time", "t_min", "t_max"});
   if (std::isinf(goal.length) != std::isinf(goal.width))
     refuse("one of length and width", "both of a rectangle", {"length", "width"});
   if (goal.ux_min > goal.ux_max)

@@ -139,18 +139,15 @@ Road::Foot Road::foot(Point p, std::size_t piece) const {
   double v = pieces_[piece].v + share * length_of(side);
   Point first, off;
   for (int k = 0; k < 12; ++k) {
-    const Segment& one = segments_[i];
-    const bool before = v<0, after = v> one.h;
-    if (before && (closed_ || i > 0)) {
+    while (v < 0 && (closed_ || i > 0)) {
       i = (i + segments_.size() - 1) % segments_.size();
       v += segments_[i].h;
-      continue;
     }
-    if (after && (closed_ || i + 1 < segments_.size())) {
-      v -= one.h;
+    while (v > segments_[i].h && (closed_ || i + 1 < segments_.size())) {
+      v -= segments_[i].h;
       i = (i + 1) % segments_.size();
-      continue;
     }
+    const Segment& one = segments_[i];
     const double on = std::clamp(v, 0., one.h);  // beyond an end the line is straight
     first = one.b + (one.c * 2 + one.d * (3 * on)) * on;
     const Point second = v == on ? one.c * 2 + one.d * (6 * on) : Point{};
@@ -175,26 +172,31 @@ OnRoad Road::project(Point p) const {
   return foot(p, nearest_piece(p)).on;
 }
 
-OnRoad Road::project(Point p, double hint) const {
-  const double s = closed_ ? hint - length_ * std::floor(hint / length_) : hint;
-  std::size_t from = piece_at(closed_ ? s : std::clamp(s, 0., length_));
-  const std::size_t at = from;
+/// The pieces that begin within so much [m] of s, which lies on the piece `at`.
+Road::Range Road::around(double s, std::size_t at, double within) const {
   const auto far = [&](std::size_t i) {
     double apart = std::fabs(pieces_[i].s - s);
     if (closed_) apart = std::min(apart, length_ - apart);
-    return apart > kWindow;
+    return apart > within;
   };
-  std::size_t count = 1;
-  while (count < pieces_.size() && (closed_ || from > 0)) {
-    const std::size_t before = (from + pieces_.size() - 1) % pieces_.size();
+  Range range{at, 1};
+  while (range.count < pieces_.size() && (closed_ || range.from > 0)) {
+    const std::size_t before = (range.from + pieces_.size() - 1) % pieces_.size();
     if (far(before)) break;
-    from = before;
-    ++count;
+    range.from = before;
+    ++range.count;
   }
-  for (std::size_t i = at + 1; count < pieces_.size() && (closed_ || i < pieces_.size()); ++i) {
+  for (std::size_t i = at + 1; range.count < pieces_.size() && (closed_ || i < pieces_.size());
+       ++i) {
     if (far(i % pieces_.size())) break;
-    ++count;
+    ++range.count;
   }
+  return range;
+}
+
+OnRoad Road::project(Point p, double hint) const {
+  const double s = closed_ ? hint - length_ * std::floor(hint / length_) : hint;
+  const auto [from, count] = around(s, piece_at(closed_ ? s : std::clamp(s, 0., length_)), kWindow);
   return foot(p, nearest_piece(p, from, count)).on;
 }
 
@@ -215,14 +217,8 @@ double Road::edge_distance(const std::vector<Point>& corners) const {
   for (const Point& p : corners) reach = std::max(reach, (p - corners[0]).norm());
   const Foot first = foot(corners[0], nearest_piece(corners[0]));
   // What is near to the first corner along the line.
-  const auto around = static_cast<std::size_t>(std::ceil(2 * reach / kPiece)) + 2;
   const std::size_t all = pieces_.size();
-  std::size_t from = (first.piece + all - std::min(around, all)) % all, count = 2 * around + 1;
-  if (!closed_) {
-    from = first.piece - std::min(first.piece, around);
-    count = std::min(count, all - from);
-  }
-  count = std::min(count, all);
+  const auto [from, count] = around(pieces_[first.piece].s, first.piece, 2 * reach + 2 * kPiece);
   double bend = 0;
   for (std::size_t k = 0; k < count; ++k) bend = std::max(bend, pieces_[(from + k) % all].bend);
   const double step = bend > 0 ? std::sqrt(8 * kSag / bend) : reach;

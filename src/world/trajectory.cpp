@@ -257,6 +257,27 @@ Pose MovedTrajectory::at(double t) const {
   return pose;
 }
 
+Pose RetimedTrajectory::at(double t) const {
+  Pose pose = base_->at(base_time(t));
+  pose.x += by_.x;
+  pose.y += by_.y;
+  pose.vx *= factor_;
+  pose.vy *= factor_;
+  pose.omega *= factor_;
+  return pose;
+}
+
+Rates RetimedTrajectory::fastest(double t0, double t1) const {
+  const auto [begin, end] = std::minmax({base_time(t0), base_time(t1)});
+  const Rates rates = base_->fastest(begin, end);
+  return {std::fabs(factor_) * rates.speed, std::fabs(factor_) * rates.omega};
+}
+
+bool RetimedTrajectory::present(double t0, double t1) const {
+  const auto [begin, end] = std::minmax({base_time(t0), base_time(t1)});
+  return base_->present(begin, end);
+}
+
 Pose TurningTrajectory::at(double t) const {
   const double after = t - t0_, angle = pose_.omega * after;
   // The velocity turns evenly; its integral is the chord, a sinc of half the angle long.

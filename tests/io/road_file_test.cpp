@@ -47,6 +47,12 @@ TEST(RoadFile, IsReadFromATableOfARaceTrack) {
               "start: {x: 0, y: 0, psi: 0}\ngoal: {s: 90}\nroad: {file: track.csv}\n");
   const auto scenario = load_scenario({folder / "my.yaml", {}, {}, {}});
   EXPECT_EQ(scenario.road->length(), parsed("{s: 90}").road->length());
+  // As spreadsheets write it.
+  test::write(
+      folder / "track.csv",
+      "\xEF\xBB\xBFx_m,y_m,w_tr_right_m,w_tr_left_m\n-20,0,4,4\n20,0,4,4\n60,5,4,4\n95,22,3.5,4\n");
+  EXPECT_EQ(load_scenario({folder / "my.yaml", {}, {}, {}}).road->length(),
+            scenario.road->length());
 }
 
 TEST(RoadFile, AResolvedFileHasItAll) {

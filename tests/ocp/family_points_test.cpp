@@ -71,9 +71,12 @@ TEST(FamilyPoints, AreNotKnownBetweenPoints) {
   Walls w;
   w.problem.set_members(w.walls, {"wall"}, {{1, 1, 2, 2, 3, 3}});
   const Trajectory at{0, 1, {0, 1}, {{5}, {5}}, {{0}, {0}}, {}, {}};
-  EXPECT_EQ(refusal([&] { PointFunctions(w.problem, at); }),
+  EXPECT_EQ(refusal([&] { (void)PointFunctions(w.problem, at).rows(); }),
             "walls: family wall: found numbers at the points of a mesh, expected numbers that hold "
             "between points too");
+  std::vector<double> rates(1);
+  const std::vector<double> x{5}, u{0};
+  PointFunctions(w.problem, at).rates(0.5, x, u, rates);  // which need none
 }
 
 }  // namespace

@@ -108,6 +108,20 @@ TEST(OffRoad, AGoalByTimeEndsTheDriveWhenItIsUp) {
   EXPECT_NEAR(drive.progress, 17 * 2.3, 1e-3);
 }
 
+TEST(OffRoad, ADriveWhoseTimeIsUpEndsAlsoWhereMoreIsAsked) {
+  Scenario scenario = testing::open_field();
+  scenario.road = bend();
+  scenario.goal = {};
+  scenario.goal.time = 2.3;
+  scenario.goal.ux_max = 5;
+  scenario.goal = world::placed(scenario.goal, scenario.road.get());
+  scenario.start = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};
+  const Drive drive = sim::drive(scenario, testing::straight_on);
+  EXPECT_EQ(drive.outcome, Outcome::timeout);
+  EXPECT_NEAR(drive.time, 2.3, 1e-9);
+  EXPECT_NE(drive.message.find("not as the goal asks"), std::string::npos) << drive.message;
+}
+
 std::string refusal(const Scenario& scenario) {
   try {
     check(scenario, "file");
@@ -115,6 +129,27 @@ std::string refusal(const Scenario& scenario) {
     return error.what();
   }
   return "";
+}
+
+TEST(OffRoad, ALineMustLieAhead) {
+  Scenario scenario = testing::open_field();
+  scenario.road = bend();
+  scenario.start = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};  // 20 m along the road
+  scenario.goal.s = 15;
+  EXPECT_NE(refusal(scenario).find("a line ahead of the start"), std::string::npos)
+      << refusal(scenario);
+  scenario.goal.s = 25;
+  EXPECT_EQ(refusal(scenario), "");
+  std::vector<world::RoadPoint> ring;
+  for (double angle = 0; angle < 6.2; angle += 0.2)
+    ring.push_back({-80 + 80 * std::cos(angle), 80 * std::sin(angle), 4, 4});
+  scenario.road =
+      std::make_shared<world::Road>(ring, true, std::vector<std::vector<world::Point>>{}, "ring");
+  scenario.goal.s = 0.7 * scenario.road->length();
+  EXPECT_NE(refusal(scenario).find("less than half a lap ahead"), std::string::npos)
+      << refusal(scenario);
+  scenario.goal.s = 0.3 * scenario.road->length();
+  EXPECT_EQ(refusal(scenario), "");
 }
 
 TEST(OffRoad, StartGoalAndVehicleMustBeOnTheRoad) {

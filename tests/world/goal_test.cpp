@@ -115,6 +115,13 @@ TEST(Goal, RefusesWhatNoVehicleCanReach) {
   laps.laps = 1;
   EXPECT_NE(refusal(laps, &road).find("closed"), std::string::npos);
   EXPECT_EQ(refusal(laps, &ring), "");
+  laps.ux_max = 5;
+  EXPECT_NE(refusal(laps, &ring).find("ux_max beside laps"), std::string::npos);
+  line.s = 50;
+  line.time = 5;
+  EXPECT_NE(refusal(line, &road).find("both s and time"), std::string::npos);
+  time.t_min = 6;
+  EXPECT_NE(refusal(time, &road).find("from t_min to t_max"), std::string::npos);
   EXPECT_NE(refusal(box, nullptr).find("both"), std::string::npos);
   EXPECT_NE(refusal(speed, nullptr).find("ux_min <= ux_max"), std::string::npos);
   EXPECT_NE(refusal({.x = INFINITY}, nullptr).find("finite"), std::string::npos);

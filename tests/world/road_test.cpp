@@ -162,6 +162,17 @@ TEST(Road, ABodyIsWithinByAllOfItsSides) {
   }
 }
 
+// However close its points are: the sides are looked for by length, not by points.
+TEST(Road, ABodyIsWithinARoadOfManyPoints) {
+  for (const double apart : {0.02, 0.1, 1., 7.}) {
+    std::vector<RoadPoint> line;
+    for (double x = 0; x < 100; x += apart) line.push_back({x, 0, 3.5, 3.5});
+    const Road road(line, false, {}, "dense");
+    EXPECT_NEAR(road.edge_distance(body({50, 0}, 0, 12, 2)), 2.5, 1e-6) << apart;
+    EXPECT_NEAR(road.project({50, 0.3}, 40).s, 50, 1e-6) << apart;
+  }
+}
+
 TEST(Road, MovesWithoutAnyOtherChange) {
   const Road road = winding();
   const auto moved = road.moved({4096, -8192});

@@ -259,6 +259,8 @@ class Problem {
   double share_of(const std::string& what, Moment moment) const;
   const Variable& t0() const { return t0_variable_; }
   const Variable& tf() const { return tf_variable_; }
+  /// Whether the bounds of t0 and tf alone keep tf from being before t0.
+  bool runs_forward() const { return t0_variable_.bounds.upper <= tf_variable_.bounds.lower; }
 
  private:
   /// Throws InvalidValue if the name is taken; cost terms have separate names.

@@ -119,6 +119,10 @@ class Road {
   std::size_t nearest_piece(Point p) const;
   std::size_t nearest_piece(Point p, std::size_t from, std::size_t count) const;
   std::size_t piece_at(double s) const;
+  struct Range {
+    std::size_t from, count;
+  };
+  Range around(double s, std::size_t at, double within) const;
   Foot foot(Point p, std::size_t piece) const;
   double to_edges(const OnRoad& on) const;
   RoadPlace at_inside(double s) const;
