@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "slalom/base/error.hpp"
 #include "slalom/base/timer.hpp"
 
 namespace slalom::python {
