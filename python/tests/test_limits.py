@@ -83,13 +83,18 @@ def test_a_solve_that_did_not_begin_can_be_looked_at_and_gone_on_from():
     assert p.solve_many({"final x": [1.0]}, warm_start=stopped).solved.all()
 
 
-def test_a_family_with_numbers_by_point_may_be_infeasible():
-    p = slalom.Problem("wall")
-    x, u = p.state("x", initial=0), p.control("u")
+def below(start, **softness):
+    """Least effort from `start` on, where a family keeps x below its members' numbers."""
+    p = slalom.Problem("below")
+    x, u = p.state("x", initial=start), p.control("u")
     p.dynamics(x, u)
     p.lagrange("effort", u * u)
     c = slalom.Expr.symbol("c")
-    wall = p.path_family("wall", [c], x - c, upper=0)
+    return p, p.path_family("wall", [c], x - c, upper=0, **softness)
+
+
+def test_a_family_with_numbers_by_point_may_be_infeasible():
+    p, wall = below(0)
     p.set_members(wall, ["one"], [[-1.0] * 81])
     assert p.solve().status == "infeasible"
     p.set_members(wall, ["one"], [[1.0] * 81])
@@ -98,12 +103,7 @@ def test_a_family_with_numbers_by_point_may_be_infeasible():
 
 
 def test_excesses_of_a_family_are_by_point_and_member():
-    p = slalom.Problem("gate")
-    x, u = p.state("x", initial=1), p.control("u")
-    p.dynamics(x, u)
-    p.lagrange("effort", u * u)
-    c = slalom.Expr.symbol("c")
-    gate = p.path_family("gate", [c], x - c, upper=0, soft="l1")
-    p.set_members(gate, ["near", "far"], [[0.0], [9.0]])
-    excess = p.solve(mesh=10).excess("gate")
+    p, wall = below(1, soft="l1")
+    p.set_members(wall, ["near", "far"], [[0.0], [9.0]])
+    excess = p.solve(mesh=10).excess("wall")
     assert excess.shape == (21, 2) and excess[0, 0] > 0.9 and (abs(excess[:, 1]) < 1e-6).all()

@@ -5,8 +5,8 @@ import pytest
 import slalom
 
 
-def pushed():
-    """Least energy from rest to rest: the objective is 6 (end / gain)^2."""
+def stated():
+    """Least energy from rest to rest: the objective is 6 (end / gain)^2. With its state x."""
     p = slalom.Problem("pushed")
     gain = p.parameter("gain", 1.0)
     x, v = p.state("x", initial=0, final=1), p.state("v", initial=0, final=0)
@@ -14,7 +14,11 @@ def pushed():
     p.dynamics(x, v)
     p.dynamics(v, gain * u)
     p.lagrange("effort", slalom.square(u) / 2)
-    return p
+    return p, x
+
+
+def pushed():
+    return stated()[0]
 
 
 def test_each_is_what_it_would_be_alone():
@@ -94,17 +98,6 @@ def test_plans_from_many_states(name):
         slalom.Planner(scenario).plan_many([start, start[:3]])
 
 
-def cart(name="cart", **state):
-    """Least effort from rest to rest."""
-    p = slalom.Problem(name)
-    x, v = p.state("x", initial=0, final=1, **state), p.state("v", initial=0, final=0)
-    u = p.control("u")
-    p.dynamics(x, v)
-    p.dynamics(v, u)
-    p.lagrange("effort", u * u)
-    return p, x, v, u
-
-
 def test_a_row_that_was_constant_is_there_for_other_numbers():
     p = slalom.Problem("fixed")
     x, u, a = p.state("x", initial=1), p.control("u"), p.parameter("a", 1.0)
@@ -116,11 +109,11 @@ def test_a_row_that_was_constant_is_there_for_other_numbers():
 
 
 def test_times_that_one_mesh_does_not_serve_are_refused():
-    p, x, v, u = cart()
+    p = pushed()
     p.final_time(lower=0.1, upper=50, guess=3)
     with pytest.raises(slalom.InvalidValue, match="solve 1.*at most the least tf"):
         p.solve_many({"t0": [0.0, 10.0]})
-    p, x, v, u = cart()
+    p, x = stated()
     p.final_time(equal=1)
     p.path("way", x, at=0.3, equal=0.5)
     with pytest.raises(slalom.InvalidValue, match="solve 1.*share of the horizon"):

@@ -44,8 +44,7 @@ Json json_trajectory(const Trajectory& trajectory) {
     json["moved"] = json_numbers({moved->by().x, moved->by().y});
     json["base"] = json_trajectory(*moved->base());
   } else if (const auto* retimed = dynamic_cast<const world::RetimedTrajectory*>(&trajectory)) {
-    json["retimed"] =
-        json_numbers({retimed->t0(), retimed->factor(), retimed->by().x, retimed->by().y});
+    json["retimed"] = json_numbers({retimed->t0(), retimed->factor()});
     json["base"] = json_trajectory(*retimed->base());
   } else {
     throw Error("a trajectory of a kind that no recording has");
@@ -93,9 +92,9 @@ std::shared_ptr<const Trajectory> trajectory(const JsonReader& reader, int bases
         n[0], world::Pose{n[1], n[2], n[3], n[4], n[5], n[6]});
   }
   if (reader.has("retimed")) {
-    const auto n = numbers(reader.at("retimed"), 4, "t0, factor, x, y");
+    const auto n = numbers(reader.at("retimed"), 2, "t0, factor");
     return std::make_shared<world::RetimedTrajectory>(trajectory(reader.at("base"), bases + 1),
-                                                      n[0], n[1], Point{n[2], n[3]});
+                                                      n[0], n[1]);
   }
   const bool offset = reader.has("offset");
   const auto by = numbers(reader.at(offset ? "offset" : "moved"), 2, "x, y");

@@ -28,11 +28,7 @@ class Numbers {
       check(problem, variation);
     }
     Problem probe = problem;
-    const bool forward = problem.runs_forward();
-    for (std::size_t solve = 0; solve < count(); ++solve) {
-      put(solve, probe);  // throws for what may not be set
-      check_times(problem, forward, solve, probe);
-    }
+    if (count() > 0) put(0, probe);  // throws for what may not be set
   }
   std::size_t count() const { return variations_.empty() ? 0 : variations_.front().values.size(); }
   void put(std::size_t solve, Problem& problem) const {
@@ -41,20 +37,6 @@ class Numbers {
   }
 
  private:
-  /// All have one transcription, whose mesh has nodes at shares of the horizon.
-  static void check_times(const Problem& problem, bool forward, std::size_t solve,
-                          const Problem& probe) {
-    const auto where = fmt::format("{}: many: solve {}", problem.name(), solve);
-    if (forward && !probe.runs_forward())
-      throw InvalidValue(where,
-                         fmt::format("t0 of {:.6g} and a least tf of {:.6g}",
-                                     probe.t0().bounds.upper, probe.tf().bounds.lower),
-                         "t0 at most the least tf, as in the problem; \"lower tf\" may vary too");
-    if (probe.moments() != problem.moments())
-      throw InvalidValue(where,
-                         "a row, a cost term or a breakpoint at another share of the horizon",
-                         "moments as shares of the horizon, for the mesh does not move");
-  }
   void check(const Problem& problem, const Variation& variation) const {
     const auto where = problem.name() + ": many: " + variation.name;
     if (variation.values.size() != count())
@@ -69,6 +51,19 @@ class Numbers {
   const std::vector<Variation>& variations_;
   std::vector<Number> numbers_;
 };
+
+/// All have one transcription, whose mesh has nodes at shares of the horizon.
+void check_times(const Problem& problem, const Problem& changed) {
+  if (problem.runs_forward() && !changed.runs_forward())
+    throw InvalidValue(problem.name(),
+                       fmt::format("t0 of {:.6g} and a least tf of {:.6g}",
+                                   changed.t0().bounds.upper, changed.tf().bounds.lower),
+                       "t0 at most the least tf, as in the problem; \"lower tf\" may vary too");
+  if (changed.moments() != problem.moments())
+    throw InvalidValue(problem.name(),
+                       "a row, a cost term or a breakpoint at another share of the horizon",
+                       "moments as shares of the horizon, for the mesh does not move");
+}
 
 }  // namespace
 
@@ -98,6 +93,7 @@ std::vector<Solution> solve_many(const Problem& problem, const SolveSettings& se
       }
       varied.put(solve, changed);
       try {
+        check_times(problem, changed);
         prepared->update(changed);
       } catch (const InvalidValue& error) {
         throw InvalidValue(fmt::format("solve {} of many: {}", solve, error.where()), error.found(),

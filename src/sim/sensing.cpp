@@ -85,8 +85,10 @@ std::optional<std::vector<world::Obstacle>> Sensors::believed(
       world::Point displacement;
       disturb(displacement.x, settings_.obstacle_position_noise, draws);
       disturb(displacement.y, settings_.obstacle_position_noise, draws);
-      o.trajectory = std::make_shared<world::RetimedTrajectory>(
-          o.trajectory, t0, settings_.obstacle_velocity_factor, displacement);
+      if (settings_.obstacle_velocity_factor != 1)
+        o.trajectory = std::make_shared<world::RetimedTrajectory>(
+            o.trajectory, t0, settings_.obstacle_velocity_factor);
+      o.trajectory = std::make_shared<world::MovedTrajectory>(o.trajectory, displacement);
       continue;
     }
     const double x = o.x_at(t0), y = o.y_at(t0);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
-#include <utility>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "slalom/base/error.hpp"
@@ -71,9 +71,12 @@ Goal placed(Goal goal, const Road* road) {
 
 void check(const Goal& goal, const Road* road, const std::string& where) {
   const Goal absent;
+  std::set<std::string> given;
   for (const auto& entry : goal_options().entries()) {
     const OptionValue value = entry.get(goal);
-    if (value != entry.get(absent)) (void)entry.info.checked(value, where);
+    if (value == entry.get(absent)) continue;
+    (void)entry.info.checked(value, where);
+    given.insert(entry.info.name);
   }
   const auto refuse = [&](const std::string& found, const std::string& expected,
                           std::vector<std::string> keys) {
@@ -89,24 +92,14 @@ void check(const Goal& goal, const Road* road, const std::string& where) {
     refuse(fmt::format("laps = {:.6g}", goal.laps), "a whole number of laps of a closed road",
            {"laps"});
   std::vector<std::string> kinds;
-  for (const auto& [key, value] :
-       {std::pair{"s", goal.s}, {"time", goal.time}, {"laps", goal.laps}, {"length", goal.length}})
-    if (value < Goal::kAbsent) kinds.emplace_back(key);
+  for (const char* key : {"s", "time", "laps", "length"})
+    if (given.contains(key)) kinds.emplace_back(key);
   if (kinds.size() > 1)
     refuse(fmt::format("both {} and {}", kinds[0], kinds[1]),
            "one of s, time, laps, and length and width", kinds);
-  if (goal.kind() == GoalKind::laps) {
-    const Goal asked;
-    for (const auto& [key, value, absent] :
-         {std::tuple{"psi_tolerance", goal.psi_tolerance, asked.psi_tolerance},
-          {"ux_min", goal.ux_min, asked.ux_min},
-          {"ux_max", goal.ux_max, asked.ux_max},
-          {"t_min", goal.t_min, asked.t_min},
-          {"t_max", goal.t_max, asked.t_max}})
-      if (value != absent)
-        refuse(fmt::format("{} beside laps", key), "laps alone, or a line s with conditions",
-               {key});
-  }
+  for (const char* key : {"psi_tolerance", "ux_min", "ux_max", "t_min", "t_max"})
+    if (goal.kind() == GoalKind::laps && given.contains(key))
+      refuse(fmt::format("{} beside laps", key), "laps alone, or a line s with conditions", {key});
   if (goal.kind() == GoalKind::time && !(goal.t_min <= goal.time && goal.time <= goal.t_max))
     refuse(fmt::format("time = {:.6g}, t_min = {:.6g}, t_max = {:.6g}", goal.time, goal.t_min,
                        goal.t_max),

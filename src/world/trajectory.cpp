@@ -259,8 +259,6 @@ Pose MovedTrajectory::at(double t) const {
 
 Pose RetimedTrajectory::at(double t) const {
   Pose pose = base_->at(base_time(t));
-  pose.x += by_.x;
-  pose.y += by_.y;
   pose.vx *= factor_;
   pose.vy *= factor_;
   pose.omega *= factor_;

@@ -76,18 +76,19 @@ TEST(OffRoad, TheBodyLeavesWithItsFirstCorner) {
   EXPECT_NEAR(event->t, outer / 17, 5e-3);
 }
 
-TEST(OffRoad, ADriveEndsThere) {
+/// Straight on from the origin, along the bend's beginning, to a goal of the road.
+Drive driven_to(const world::Goal& goal) {
   Scenario scenario = testing::open_field();
   scenario.road = bend();
-  scenario.goal = world::placed(
-      [] {
-        world::Goal goal;
-        goal.s = 110;
-        return goal;
-      }(),
-      scenario.road.get());
+  scenario.goal = world::placed(goal, scenario.road.get());
   scenario.start = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};
-  const Drive drive = sim::drive(scenario, testing::straight_on);
+  return sim::drive(scenario, testing::straight_on);
+}
+
+TEST(OffRoad, ADriveEndsThere) {
+  world::Goal goal;
+  goal.s = 110;
+  const Drive drive = driven_to(goal);
   EXPECT_EQ(drive.outcome, Outcome::off_road);
   EXPECT_NEAR(drive.time, (50 + std::sqrt(44 * 44 - 40 * 40)) / 17, 2e-3);
   EXPECT_NE(drive.message.find("left the road"), std::string::npos);
@@ -96,27 +97,19 @@ TEST(OffRoad, ADriveEndsThere) {
 }
 
 TEST(OffRoad, AGoalByTimeEndsTheDriveWhenItIsUp) {
-  Scenario scenario = testing::open_field();
-  scenario.road = bend();
-  scenario.goal = {};
-  scenario.goal.time = 2.3;
-  scenario.goal = world::placed(scenario.goal, scenario.road.get());
-  scenario.start = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};
-  const Drive drive = sim::drive(scenario, testing::straight_on);
+  world::Goal goal;
+  goal.time = 2.3;
+  const Drive drive = driven_to(goal);
   EXPECT_EQ(drive.outcome, Outcome::goal);
   EXPECT_NEAR(drive.time, 2.3, 1e-9);
   EXPECT_NEAR(drive.progress, 17 * 2.3, 1e-3);
 }
 
 TEST(OffRoad, ADriveWhoseTimeIsUpEndsAlsoWhereMoreIsAsked) {
-  Scenario scenario = testing::open_field();
-  scenario.road = bend();
-  scenario.goal = {};
-  scenario.goal.time = 2.3;
-  scenario.goal.ux_max = 5;
-  scenario.goal = world::placed(scenario.goal, scenario.road.get());
-  scenario.start = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};
-  const Drive drive = sim::drive(scenario, testing::straight_on);
+  world::Goal goal;
+  goal.time = 2.3;
+  goal.ux_max = 5;
+  const Drive drive = driven_to(goal);
   EXPECT_EQ(drive.outcome, Outcome::timeout);
   EXPECT_NEAR(drive.time, 2.3, 1e-9);
   EXPECT_NE(drive.message.find("not as the goal asks"), std::string::npos) << drive.message;

@@ -134,12 +134,12 @@ class MovedTrajectory final : public Trajectory {
   Point by_;
 };
 
-/// The motion `base`, all of it moved by a vector of the world, and `factor` times as fast about t0
-/// [s]: as an observer believes it who measures place and speed wrongly.
+/// The motion `base`, `factor` times as fast about t0 [s]: as an observer believes it who measures
+/// speed wrongly.
 class RetimedTrajectory final : public Trajectory {
  public:
-  RetimedTrajectory(std::shared_ptr<const Trajectory> base, double t0, double factor, Point by)
-      : base_(std::move(base)), t0_(t0), factor_(factor), by_(by) {}
+  RetimedTrajectory(std::shared_ptr<const Trajectory> base, double t0, double factor)
+      : base_(std::move(base)), t0_(t0), factor_(factor) {}
 
   Pose at(double t) const override;
   Rates fastest(double t0, double t1) const override;
@@ -148,14 +148,12 @@ class RetimedTrajectory final : public Trajectory {
   const std::shared_ptr<const Trajectory>& base() const { return base_; }
   double t0() const { return t0_; }
   double factor() const { return factor_; }
-  Point by() const { return by_; }
 
  private:
-  double base_time(double t) const { return factor_ == 1 ? t : t0_ + factor_ * (t - t0_); }
+  double base_time(double t) const { return t0_ + factor_ * (t - t0_); }
 
   std::shared_ptr<const Trajectory> base_;
   double t0_, factor_;
-  Point by_;
 };
 
 /// From a pose at t0 [s] on at its velocity and turn rate: straight on, or along a circle.
