@@ -302,7 +302,7 @@
       const [{ clocked, end }] = drives;
       this.bars = new Map(clocked.map((c) => {
         const x0 = this.x(c.t0);
-        const x1 = this.x(Math.min(c.t0 + c.tex, end));
+        const x1 = this.x(Math.min(slalom.plannedUntil(c), end));
         const y = Math.min(this.y(c.wall), bottom - 1);
         return [c, element('rect', { x: x0 + 0.5, width: Math.max(x1 - x0 - 1, 1), y, height: bottom - y,
           class: c.solved ? 'bar' : 'bar bad' }, this.plot)];

@@ -132,7 +132,7 @@
       this.start = t.length ? t[0] : 0;
       this.end = t.length ? Math.max(t[t.length - 1], this.start) : 0;
       this.driven = data.cycles.filter((c) => c.used && c.plan.t.length);
-      this.takeover = this.driven.map((c) => c.plan.t_start);
+      this.takeover = this.driven.map((c) => c.t_swap);
       /** The cycles on the clock: not the warm-up. */
       this.clocked = data.cycles.filter((c) => c.index > 0);
       this.clockedFrom = this.clocked.map((c) => c.t0);
@@ -167,7 +167,7 @@
     /** When the next plan takes over from that of a planner that verifies; others' are drawn whole. */
     cutAt(cycle) {
       const next = cycle.rung ? this.driven[this.driven.indexOf(cycle) + 1] : undefined;
-      return next ? next.plan.t_start : Infinity;
+      return next ? next.t_swap : Infinity;
     }
 
     /** The cycle that is being solved while the vehicle drives through t, or null. */
@@ -202,6 +202,11 @@
       if (n >= 0) points.push([plan.x[n], plan.y[n], plan.t_start + plan.t[n]]);
       return points;
     }
+  }
+
+  /** When planning of a cycle ended [s]: a late plan takes over after its horizon. */
+  function plannedUntil(cycle) {
+    return Math.max(cycle.t0 + cycle.tex, cycle.t_swap);
   }
 
   /** The box around everything there is to see on the course [m]. */
@@ -284,6 +289,6 @@
   [JSON.parse(element.textContent)].flat().forEach(add);
 
   Object.assign(slalom, {
-    drives, span, add, lastAtOrBefore, sampleAt, obstacleAt, expectedAt, moves, corners, halfBreadth, covers, courseBox, number, escape, ticks, offset, offsetText,
+    drives, span, add, lastAtOrBefore, sampleAt, obstacleAt, expectedAt, moves, corners, halfBreadth, covers, courseBox, plannedUntil, number, escape, ticks, offset, offsetText,
   });
 })(window.slalom = window.slalom || {});

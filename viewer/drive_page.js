@@ -114,7 +114,7 @@
   /** The next or last instant at which a plan takes over. */
   function neighbour(direction) {
     const { start, end } = span;
-    const plans = drives.flatMap(({ data }) => data.cycles.filter((c) => c.used).map((c) => c.plan.t_start));
+    const plans = drives.flatMap(({ data }) => data.cycles.filter((c) => c.used).map((c) => c.t_swap));
     const times = [start, ...plans.sort((a, b) => a - b), end];
     return direction > 0
       ? times.find((t) => t > slalom.now + 1e-6) ?? end

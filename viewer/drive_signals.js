@@ -26,7 +26,7 @@
   /** A value of each cycle on the clock, over the time in which the cycle was planned. */
   function ofCycles(key, spec, value) {
     const of = ({ clocked }) => [{
-      times: clocked.flatMap((c) => [c.t0, c.t0 + c.tex]),
+      times: clocked.flatMap((c) => [c.t0, slalom.plannedUntil(c)]),
       values: clocked.flatMap((c) => [value(c), value(c)]),
     }];
     return { key, group: 'Planning, each cycle', digits: 2, of, ...spec };

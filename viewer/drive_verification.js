@@ -14,7 +14,7 @@
     const share = (t) => (100 * (t - span.start)) / Math.max(span.end - span.start, 1e-9);
     let last = null;
     for (const cycle of drive.driven) {
-      const from = share(cycle.plan.t_start);
+      const from = share(cycle.t_swap);
       if (last) last.style.right = `${100 - from}%`;
       if (last && last.className === cycle.rung) continue;
       last = document.createElement('i');

@@ -43,9 +43,9 @@ struct Member {
   Value value;
 };
 
-/// Limits that end hostile input in well under a second; real files stay far below them.
-inline constexpr std::size_t kMaxDocumentBytes = 1 << 20;
-inline constexpr std::size_t kMaxNodes = 100000;
+/// Limits that end hostile input within a second or two; real files stay far below them.
+inline constexpr std::size_t kMaxDocumentBytes = 12 << 20;
+inline constexpr std::size_t kMaxNodes = 400000;
 inline constexpr std::size_t kMaxDepth = 32;
 
 /// Reads the single YAML document of a file. Throws InvalidValue naming the place for a missing or

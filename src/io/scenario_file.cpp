@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "config_dir.hpp"
 #include "document.hpp"
@@ -21,6 +23,26 @@ namespace {
 
 constexpr std::size_t kMaxObstacles = 1000;
 constexpr int kMaxBases = 8;
+/// Numbers of tables at most, so that a written scenario can be read again: so many values and
+/// bytes that enough is left of what a document may have for all else.
+constexpr std::size_t kMaxNumbers = kMaxNodes - 50000;
+
+/// Of what a scenario has from tables, as values of a written scenario: each row a value too.
+std::size_t numbers_in_tables(const sim::Scenario& scenario) {
+  std::size_t numbers = scenario.loop.solve_times.size();
+  if (scenario.road) {
+    numbers += 5 * scenario.road->points().size();
+    for (const auto& lane : scenario.road->lanes()) numbers += 3 * lane.size();
+  }
+  for (const auto& obstacle : scenario.obstacles) {
+    const auto* motion = obstacle.trajectory.get();
+    if (const auto* table = dynamic_cast<const world::TableTrajectory*>(motion))
+      numbers += 5 * table->rows().size();
+    if (const auto* path = dynamic_cast<const world::PathTrajectory*>(motion))
+      numbers += 3 * path->points().size();
+  }
+  return numbers;
+}
 
 /// Reads one scenario file and what it refers to.
 class Loader {
@@ -43,6 +65,9 @@ class Loader {
         places_.count("loop.sm_crash") == 0)
       scenario_.loop.sm_crash = 0;
     scenario_.goal = world::placed(scenario_.goal, scenario_.road.get());
+    if (const auto numbers = numbers_in_tables(scenario_); numbers > kMaxNumbers)
+      throw InvalidValue(file_.string(), fmt::format("tables of {} numbers together", numbers),
+                         fmt::format("at most {}, which resolved.yaml can hold", kMaxNumbers));
     check_scenario(scenario_, {file_.string(), 1, 1}, places_);
     return std::move(scenario_);
   }
@@ -122,6 +147,11 @@ class Loader {
                          fmt::format("a {} with {}", section.name, fmt::join(said, " and ")),
                          fmt::format("{}, or one of {}", fmt::join(section.required, " and "),
                                      fmt::join(section.instead, ", ")));
+    for (const auto& key : section.beside)
+      if (instead > 0 && map.find(key) != nullptr)
+        throw InvalidValue(
+            map.place.to_string(), fmt::format("{} beside {}", key, said[0]),
+            fmt::format("{} only with {}", key, fmt::join(section.required, " and ")));
   }
 
   /// Reads a section's file over the defaults, or over the file that it names as its base.
@@ -189,7 +219,27 @@ class Loader {
         settings.find("name")->store(to_text(*name, "a name"));
     }
     // A map without a base states every setting; what the chosen file states then wins over it.
-    if (base == nullptr && chosen) read_chosen();
+    if (base != nullptr || !chosen) return;
+    if (is_map && what == "planner") forget_named_planner(section);
+    read_chosen();
+  }
+
+  /// A map that states every setting, as resolved files have it, repeats what the file of the
+  /// planner that it names states. This goes with that planner when another is chosen.
+  void forget_named_planner(const ScenarioSection& section) {
+    const auto planners = built_in_planners();
+    const auto named = std::find_if(planners.begin(), planners.end(), [&](const BuiltIn& planner) {
+      return planner.name == scenario_.planner.name;
+    });
+    if (named == planners.end()) return;
+    const auto places = places_;
+    const auto stated = std::exchange(scenario_.planner, {});
+    read_file_of(section, named->path);
+    const auto file = std::exchange(scenario_.planner, stated);
+    places_ = places;
+    for (const auto& setting : planner::setting_options().entries())
+      if (setting.get(stated) == setting.get(file))
+        setting.set(scenario_.planner, setting.get(planner::Settings{}));
   }
 
   void read_obstacles(const Value& list) {

@@ -138,7 +138,8 @@ command line: `--set planner.w_t=50`, `--set obstacles.truck.vy=-10`, `--set sta
 The order is: the defaults below, the planner's or vehicle's file, the scenario's own map, then the
 command line. `--planner P_C` puts another file under the scenario's own map (N, L_range, kappa stay
 as the scenario has them), and `--vehicle bmw_320i` likewise; where the map has no base, what that
-file states wins. `check` prints what all this comes to, and a drive leaves it as `resolved.yaml`.
+file states wins, and what the built-in planner that the map names states is forgotten. `check`
+prints what all this comes to, and a drive leaves it as `resolved.yaml`.
 
 A planner or vehicle file is a map of the keys of its section below, with `name` and `title`. A
 file named by a scenario counts from the scenario's folder.

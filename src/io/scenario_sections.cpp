@@ -59,6 +59,7 @@ const std::vector<ScenarioSection>& scenario_sections() {
        .form = Form::flow,
        .required = {"x", "y"},
        .instead = {"s", "time", "laps"},
+       .beside = {"psi", "psi_deg", "sigma"},
        .about =
            "Where the drive is to end: a square, a rectangle, or what the road has: a line across "
            "it, as far as possible in a time. What else is asked on arrival may be left out.",

@@ -18,6 +18,7 @@ struct ScenarioSection {
   bool in_files = false;  ///< it may name a file of its own, over which its keys are read
   std::vector<std::string> required = {};  ///< keys that must be there, and the section with them
   std::vector<std::string> instead = {};   ///< of which one may stand for those required
+  std::vector<std::string> beside = {};    ///< that say nothing without those required
   std::string about;                       ///< in the reference
   /// Its keys, bound to their part of a scenario. A list and a road have none of their own.
   Section (*bind)(sim::Scenario&) = nullptr;

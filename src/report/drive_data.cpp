@@ -295,6 +295,7 @@ Json cycle_data(const sim::Cycle& cycle, std::size_t cycles) {
   json["index"] = cycle.index;
   json["t0"] = rounded(cycle.t0, kTimeDigits);
   json["tex"] = rounded(cycle.tex, kTimeDigits);
+  json["t_swap"] = rounded(cycle.t_swap, kTimeDigits);
   json["used"] = cycle.used;
   json["solved"] = report.solved;
   json["status"] = report.status_text();

@@ -100,6 +100,9 @@ void check(const Goal& goal, const Road* road, const std::string& where) {
   for (const char* key : {"psi_tolerance", "ux_min", "ux_max", "t_min", "t_max"})
     if (goal.kind() == GoalKind::laps && given.contains(key))
       refuse(fmt::format("{} beside laps", key), "laps alone, or a line s with conditions", {key});
+  if (goal.kind() == GoalKind::time && given.contains("psi_tolerance"))
+    refuse("psi_tolerance beside time", "no direction where it is not known where the drive ends",
+           {"psi_tolerance"});
   if (goal.kind() == GoalKind::time && !(goal.t_min <= goal.time && goal.time <= goal.t_max))
     refuse(fmt::format("time = {:.6g}, t_min = {:.6g}, t_max = {:.6g}", goal.time, goal.t_min,
                        goal.t_max),

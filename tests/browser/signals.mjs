@@ -113,3 +113,21 @@ describe('the page of a drive at UTM coordinates', () => {
     await page.screenshot({ path: join(out, 'utm.png') });
   }));
 });
+
+describe('the page of a late plan', () => {
+  test('shows the last plan until the late one takes over', async () => {
+    const late = (data) => { data.cycles[3].t_swap += 0.3; };
+    await on(changedPage('late', late), '', async (page) => {
+      const [before, after, until, plain] = await page.evaluate(() => {
+        const [drive] = window.slalom.drives;
+        const { cycles } = drive.data;
+        const drivenAt = (t) => cycles.indexOf(drive.cycleAt(t));
+        const planned = (cycle) => window.slalom.plannedUntil(cycle) - cycle.t0 - cycle.tex;
+        const { t_start: from } = cycles[3].plan;
+        return [drivenAt(from + 0.2), drivenAt(from + 0.4), planned(cycles[3]), planned(cycles[4])];
+      });
+      assert.deepEqual([before, after], [2, 3]);
+      assert.ok(Math.abs(until - 0.3) < 1e-6 && Math.abs(plain) < 1e-6, `${until}, ${plain}`);
+    });
+  });
+});

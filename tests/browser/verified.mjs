@@ -47,7 +47,7 @@ describe('the page of a drive of verified plans', () => {
     const browser = await openBrowser();
     try {
       const { page, complaints } = await browser.open(changedPage('unverified', unverified, verifiedReport));
-      const at = await page.evaluate(() => window.slalom.drives[0].data.cycles[10].plan.t_start + 0.1);
+      const at = await page.evaluate(() => window.slalom.drives[0].data.cycles[10].t_swap + 0.1);
       await page.evaluate((t) => { window.location.hash = `t=${t}`; }, at);
       await until(async () => (await page.$$('.candidates tr.taken')).length === 1);
       assert.match(await textOf(page, '.candidates tr.taken'), /way 1.*refused: clearance to <O2> at 3.5 s.*driven/s);

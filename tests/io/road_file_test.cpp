@@ -55,6 +55,39 @@ TEST(RoadFile, IsReadFromATableOfARaceTrack) {
             scenario.road->length());
 }
 
+TEST(RoadFile, RefusesWhatSaysNothingOfAGoalOfTheRoad) {
+  for (const char* key : {"psi: 0.1", "psi_deg: 9", "sigma: 3"})
+    EXPECT_NE(message("{s: 90, " + std::string(key) + "}").find(" beside s"), std::string::npos);
+}
+
+TEST(RoadFile, RefusesMoreThanAResolvedFileCanHold) {
+  test::TemporaryFolder folder;
+  std::string rows = "# x_m,y_m,w_tr_right_m,w_tr_left_m\n";
+  for (int k = -20; k < 75000; ++k) rows += std::to_string(k) + ",0,4,4\n";
+  test::write(folder / "track.csv", rows);
+  test::write(folder / "my.yaml",
+              "start: {x: 0, y: 0, psi: 0}\ngoal: {s: 90}\nroad: {file: track.csv}\n");
+  try {
+    load_scenario({folder / "my.yaml", {}, {}, {}});
+    ADD_FAILURE() << "not refused";
+  } catch (const InvalidValue& error) {
+    EXPECT_NE(std::string(error.what()).find("tables of 375100 numbers"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(RoadFile, AResolvedFileOfALongRoadIsReadAgain) {
+  test::TemporaryFolder folder;
+  std::string rows = "# x_m,y_m,w_tr_right_m,w_tr_left_m\n";
+  for (int k = -20; k < 30000; ++k) rows += std::to_string(k) + ",0,4,4\n";
+  test::write(folder / "track.csv", rows);
+  test::write(folder / "my.yaml",
+              "start: {x: 0, y: 0, psi: 0}\ngoal: {s: 90}\nroad: {file: track.csv}\n");
+  const auto scenario = load_scenario({folder / "my.yaml", {}, {}, {}});
+  EXPECT_EQ(parse_scenario(to_yaml(scenario), "resolved.yaml").road->length(),
+            scenario.road->length());
+}
+
 TEST(RoadFile, AResolvedFileHasItAll) {
   for (const char* goal : {"{s: 90}", "{time: 8}",
                            "{x: 60, y: 5, psi: 0.3, length: 8, width: 4, "

@@ -117,6 +117,18 @@ TEST(ScenarioFile, AChosenPlannerActsOnAResolvedFileToo) {
   EXPECT_EQ(scenario.planner.N, 15);
 }
 
+TEST(ScenarioFile, APlannerChosenForAResolvedFileKeepsNothingOfTheOneBefore) {
+  TemporaryFolder folder;
+  for (const auto& before : built_in_planners())
+    for (const auto& chosen : built_in_planners()) {
+      test::write(folder / "resolved.yaml", to_yaml(load("E_B", {"planner.kappa=7"}, before.name)));
+      const auto wanted = load("E_B", {"planner.kappa=7"}, chosen.name).planner;
+      const auto found = load(folder / "resolved.yaml", {}, chosen.name).planner;
+      SCOPED_TRACE(before.name + " to " + chosen.name);
+      expect_same(planner::setting_options(), found, wanted);
+    }
+}
+
 TEST(ScenarioFile, TheCommandLineComesLast) {
   const auto scenario = load_scenario(
       {"E_C",

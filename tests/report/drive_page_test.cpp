@@ -193,6 +193,7 @@ TEST(DrivePage, SaysWhatTheOutcomeDoesNot) {
   const auto data = page_data(page);
   EXPECT_EQ(data["marks"][0]["times"][0], drive.cycles[2].t_swap);
   EXPECT_EQ(data["cycles"][2]["passage"][1], "O<2>");
+  EXPECT_EQ(data["cycles"][2]["t_swap"], drive.cycles[2].t_swap);
   EXPECT_EQ(data["cycles"][2]["road_exit"], nlohmann::json::array({0.25, "left"}));
   EXPECT_EQ(data["cycles"][1]["blocks"], "O1 in the way");
 }
