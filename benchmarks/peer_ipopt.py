@@ -85,7 +85,7 @@ def check(_):
             ocp = Ocp(environment, planner, form=form)
             X0p = ocp.env["start"].copy()
             X0p[Y] = 8.5
-            got, stats = Solver(ocp, level).solve(ocp.straight_on(X0p, 0.8), ocp.parameters(X0p, 0))
+            got, stats = Solver(ocp, level).solve(ocp.straight_on(X0p, 0.8), ocp.parameters(X0p, 0, 0.5))
             z, tf = ocp.plan(got["x"])
             # f is not stationary at the floor's point: it moves with the solver's tolerance.
             errors = [abs(a - b) / max(1, abs(b)) for a, b in
@@ -139,7 +139,7 @@ def solve_cycle(cycle, level, start, solver, variables, rows, answers):
     x = variables.to_peer(cycle.warm_x if warm else cycle.cold_x)
     if warm and cycle.has_duals:
         duals = variables.to_peer(cycle.zu - cycle.zl), rows.to_peer(cycle.y)
-    p = ocp.parameters(cycle.X0p, cycle.meta["t0"], cycle.meta["tex"])
+    p = ocp.parameters(cycle.X0p, cycle.meta["t0"], cycle.meta["t_start"])
     got, stats = solver.solve(x, p, duals)
     zl, zu = split_multipliers(got["x"], ocp.lbx, ocp.ubx, got["lam_x"], level.floor)
     y = got["lam_g"]

@@ -229,11 +229,11 @@ class Ocp:
         self.ubg = np.where(self.is_equation, 0, INF)
 
     # --- numbers in and out ---
-    def parameters(self, X0p, t0, tex=0.5):
+    def parameters(self, X0p, t0, t_start):
         o = self.env["obstacles"].copy()
         if not self.moving:
             o[:, :2] += o[:, 4:] * t0
-        return np.concatenate([X0p, [t0 + tex], o[:, : self.numbers].ravel()])
+        return np.concatenate([X0p, [t_start], o[:, : self.numbers].ravel()])
 
     def straight_on(self, X0p, floor):
         xg, yg = self.env["goal"]

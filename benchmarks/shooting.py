@@ -84,8 +84,7 @@ class Model:
         return self.distance(x, p) - (self.env["L_range"] - self.env["kappa"]) ** 2
 
     def parameters(self, cycle):
-        t_start = cycle.meta["t0"] + cycle.meta["tex"]
-        return np.concatenate([cycle.X0p, [t_start], self.obstacles.ravel()])
+        return np.concatenate([cycle.X0p, [cycle.meta["t_start"]], self.obstacles.ravel()])
 
     def start(self, cycle, names, warm):
         """States (N+1, 9) and controls (N, 2) from our start: its nodes, intervals' mean controls."""

@@ -91,7 +91,7 @@ def main():
     together = compiled(functions, args.dir)
     result = {}
     for place, x in (("guess", cycle.cold_x), ("plan", cycle.warm_x)):
-        p = ocp.parameters(cycle.X0p, cycle.meta["t0"], cycle.meta["tex"])
+        p = ocp.parameters(cycle.X0p, cycle.meta["t0"], cycle.meta["t_start"])
         inputs = [names.to_peer(x), p, np.ones(1), np.ones(len(ocp.lbg))]
         point = os.path.join(args.dir, f"point_{place}.txt")
         with open(point, "w") as out:
