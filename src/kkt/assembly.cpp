@@ -59,17 +59,18 @@ std::vector<FrontPlan> plan_chain(const Pattern& p) {
   std::vector<FrontPlan> plans(p.stages + 1);
   for (std::size_t i = 0; i < p.variables; ++i)
     if (!p.fixed[i]) plans[front[i]].ids.push_back(narrow(i));
-  std::vector<std::size_t> variables;
-  for (auto& plan : plans) variables.push_back(plan.ids.size());
   for (std::size_t e = 0; e < p.equations; ++e)
     plans[front[p.variables + e]].ids.push_back(narrow(p.variables + e));
+  const auto first = first_touch(p, front);
+  std::vector<std::size_t> reached(plans.size(), 0);
+  for (std::size_t e = 0; e < p.equations; ++e) ++reached[first[p.variables + e]];
   std::size_t equations = 0;
   for (std::size_t k = 0; k < plans.size(); ++k) {
     plans[k].own = plans[k].ids.size();
-    plans[k].equations_so_far = equations += plans[k].own - variables[k];
+    plans[k].equations_so_far = equations += reached[k];
     if (k < p.stages) plans[k].parent = k + 1;
   }
-  carry(first_touch(p, front), plans);
+  carry(first, plans);
   distribute(p, front, plans);
   return plans;
 }

@@ -16,7 +16,7 @@ struct FrontPlan {
   std::vector<std::uint32_t> ids;  ///< of its rows: to eliminate, then those it touches later on
   std::size_t own = 0;             ///< how many of them it may eliminate
   std::size_t parent = kNoFront;   ///< takes over what is left; behind it in the list
-  /// In a chain: equations in this front and those before it, for Values::minimum_only.
+  /// In a chain: equations with an entry in this front or one before it, for Values::minimum_only.
   std::size_t equations_so_far = kNoFront;
 
   struct Term {

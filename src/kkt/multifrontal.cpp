@@ -222,8 +222,8 @@ class Multifrontal final : public Backend {
       same = same && factor.ids[i] == id;
       factor.ids[i] = id;
     }
-    if (same) return true;
     std::copy_n(like.natural.begin(), size, factor.natural.begin());
+    if (same) return true;
     std::copy_n(like.order.begin(), like.eliminated, factor.order.begin());
     set_shape(k, received);
     factor.eliminated = like.eliminated;

@@ -34,7 +34,11 @@ double two_sided_centrality(const Item& item, double mu, double tol) {
     const double lower = mu / (value - item.lower), upper = mu / (item.upper - value);
     return (y - (upper - lower)) / std::fabs(upper + lower);
   };
-  const double low = distance(item.value - tol), high = distance(item.value + tol);
+  // Within tol of a limit, and so of the value that is next to it: any side's multiplier is there.
+  const double lowest = item.value - tol, highest = item.value + tol;
+  if (lowest >= item.upper || highest <= item.lower) return std::numeric_limits<double>::infinity();
+  const double low = lowest > item.lower ? distance(lowest) : 1;
+  const double high = highest < item.upper ? distance(highest) : -1;
   return low > 0 && high < 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
 }
 

@@ -243,8 +243,9 @@ class IpoptSolver final : public Solver {
     Adapter adapter(problem, options);
     const auto stated = state(problem);
     configure(ipopt_, stated.get(), options);
+    Start point = start;  // which may be the answer's own
     answer = {};
-    answer.point = start;
+    answer.point = std::move(point);
     answer.point.y.resize(shape.rows, 0.0);
     answer.point.zl.resize(shape.variables, 0.0);
     answer.point.zu.resize(shape.variables, 0.0);

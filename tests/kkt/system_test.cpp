@@ -221,6 +221,28 @@ TEST(StageLdlt, CountsNegativeCurvature) {
   EXPECT_EQ(inertia, (Inertia{5, 1, 0}));
 }
 
+TEST(StageLdlt, SeesAMinimumThatALaterEquationMakes) {
+  // -x0^2 / 2 + 3 x1^2 / 2 + 3 x2^2 / 2 along x0 + x1 + x2 = 0, the row known at the end alone.
+  System s;
+  s.pattern.variables = 3;
+  s.pattern.equations = 1;
+  s.pattern.stages = 3;
+  s.pattern.variable_stage = {0, 1, 2};
+  s.pattern.equation_stage = {3};
+  s.pattern.fixed.assign(3, 0);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    s.pattern.hessian.push_back({i, i});
+    s.pattern.jacobian.push_back({i, 0, i});
+  }
+  s.hessian = {-1, 3, 3};
+  s.diagonal = {0, 0, 0};
+  s.jacobian = {1, 1, 1};
+  s.flexibility = {0};
+  Values values = s.values();
+  values.minimum_only = true;
+  EXPECT_EQ(make_stage_ldlt(s.pattern)->factorize(values), (Inertia{3, 1, 0}));
+}
+
 TEST(StageLdlt, AsksDuringALongFactorisationWhetherToStop) {
   Shape shape;
   shape.variables.assign(400, 14);

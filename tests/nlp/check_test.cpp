@@ -128,6 +128,18 @@ TEST(Check, TwoSidedRowsAreJudgedByTheDifferenceOfTheirMultipliers) {
   EXPECT_NEAR(centrality(-1.2), 1, 1e-5);
 }
 
+TEST(Check, ATwoSidedRowMayBeWithinItsToleranceOfALimit) {
+  // mu / su - mu / sl = 1e-3 (1 - 1e7) = y at 1e-7.
+  auto problem = one_variable(1e4, 0, -kInf, kInf, 0, 1, 0, 1);
+  const Options options = at_floor(1e-3);
+  const auto centrality = [&](double x) {
+    return check(problem, {{x}, {1e-3 - 1e4}, {0}, {0}}, options).complementarity;
+  };
+  EXPECT_NEAR(centrality(1e-7), 0, 1e-9);
+  EXPECT_NEAR(centrality(-1e-7), 0, 1e-9);
+  EXPECT_EQ(centrality(-2e-6), kInf);
+}
+
 TEST(Check, WrongSignsAreNoOptimum) {
   const Options options;
   // max x^2/2 with x <= 2 written as a row: x = 2, y = 2. With x >= 2 instead that y is wrong.

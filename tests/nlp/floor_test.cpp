@@ -102,6 +102,18 @@ TEST(Floor, ScaledRowHasTheSameCentralPoint) {
   }
 }
 
+TEST(Floor, IsReachedInTheUsersUnits) {
+  for (const double unit : {1e-4, 1e4}) {
+    auto problem = hs071({unit, 1, 1 / unit, 1}, {1e-4, 1});
+    Options options;
+    options.floor = 0.01;
+    const auto answer =
+        make_solver("interior_point")->solve(problem, problem.cold_start(), options);
+    ASSERT_EQ(answer.status, Status::solved) << unit;
+    EXPECT_TRUE(check(problem, answer.point, options).solved(options)) << unit;
+  }
+}
+
 TEST(Floor, EquationsHaveNoBarrierAndTheLagrangiansSign) {
   // min x^2/2 + w, x w = 3, x and w >= 0: x + y w = mu/x and 1 + y x = mu/w.
   SmallProblem p;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -29,6 +30,7 @@ class SmallProblem : public Problem {
   std::function<Fault(const Vector&)> fault = [](const Vector&) { return Fault{}; };
   Vector start;
   Limits bounds;
+  std::uint64_t id = 0;  ///< of the structure: solvers keep their workspace for the same one
   int evaluations = 0;
 
   /// Fills the structure; variables and rows may be scaled as a transcription scales them: the
@@ -38,6 +40,7 @@ class SmallProblem : public Problem {
     variable_scale.resize(n, 1.0);
     row_scale.resize(m, 1.0);
     shape_ = {};
+    shape_.id = id;
     shape_.variables = n;
     shape_.rows = m;
     shape_.stages = 1;

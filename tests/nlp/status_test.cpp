@@ -52,6 +52,49 @@ TEST_P(BackEnd, SolvedToALooseTolerance) {
   EXPECT_NEAR(answer.objective, 17.0140173, 1e-1);
 }
 
+TEST_P(BackEnd, SolvedWhereTheObjectiveIsSteep) {
+  auto problem = hs071();
+  constexpr double kSteep = 1e8;
+  problem.objective = [f = problem.objective](const Vector& x) { return kSteep * f(x); };
+  problem.gradient = [g = problem.gradient](const Vector& x) {
+    Vector slope = g(x);
+    for (double& s : slope) s *= kSteep;
+    return slope;
+  };
+  problem.hessian = [h = problem.hessian](const Vector& x, double sigma, const Vector& y) {
+    return h(x, kSteep * sigma, y);
+  };
+  const Answer answer = solve(problem, problem.cold_start());
+  EXPECT_EQ(answer.status, Status::solved) << answer.message;
+  EXPECT_NEAR(answer.objective / kSteep, 17.0140173, 1e-6);
+}
+
+TEST_P(BackEnd, TakesOverBoundsThatWereNotThere) {
+  auto problem = one_variable(-1, 1, -kInf, kInf, 0);  // least at 1
+  problem.id = 77;
+  const auto solver = make_solver(GetParam());
+  for (const double upper : {kInf, 0.5, kInf, 0.25}) {
+    problem.bounds.xu = {upper};
+    problem.finish();
+    const Answer answer = solver->solve(problem, problem.cold_start(), {});
+    EXPECT_EQ(answer.status, Status::solved) << answer.message;
+    EXPECT_NEAR(answer.point.x[0], std::min(1.0, upper), 1e-6);
+  }
+}
+
+TEST_P(BackEnd, StartsAtTheAnswersOwnPoint) {
+  auto problem = hs071();
+  const auto solver = make_solver(GetParam());
+  Answer answer = solver->solve(problem, problem.cold_start(), {});
+  for (const bool warm : {false, true}) {
+    Options options;
+    options.warm_start = warm;
+    solver->solve(problem, answer.point, options, answer);
+    EXPECT_EQ(answer.status, Status::solved) << answer.message;
+    EXPECT_NEAR(answer.objective, 17.0140173, 1e-6);
+  }
+}
+
 TEST_P(BackEnd, SolvedWhenEquationsFixEverything) {
   auto problem = one_variable(1, 0, -kInf, kInf, 5, 2, 6, 6);  // 2 x = 6: as many rows as unknowns
   const Answer answer = solve(problem, problem.cold_start());
@@ -245,6 +288,35 @@ TEST(Solver, AWarmStartAtACentralPointTakesTwoIterationsAtMost) {
   const Answer warm = make_solver()->solve(problem, cold.point, options);
   EXPECT_EQ(warm.status, Status::solved);
   EXPECT_LE(warm.iterations, 2);
+}
+
+TEST(Solver, AnswersWithTheLeastOfFeasibleIteratesWhenItIsCutShort) {
+  constexpr std::size_t kMany = 100;
+  SmallProblem problem;
+  problem.objective = [](const Vector& x) {
+    double sum = 0;
+    for (const double each : x) sum += 0.5 * (each - 0.9) * (each - 0.9);
+    return sum;
+  };
+  problem.gradient = [](Vector x) {
+    for (double& each : x) each -= 0.9;
+    return x;
+  };
+  problem.hessian = [](const Vector&, double sigma, const Vector&) {
+    Vector lower;
+    for (std::size_t i = 0; i < kMany; ++i)
+      for (std::size_t j = 0; j <= i; ++j) lower.push_back(i == j ? sigma : 0);
+    return lower;
+  };
+  problem.start = Vector(kMany, 0.0);
+  problem.bounds = {Vector(kMany, -1e3), Vector(kMany, 1e3), {}, {}};
+  problem.finish();
+  Options options;
+  options.max_iterations = 5;
+  const Answer answer =
+      make_solver("interior_point")->solve(problem, problem.cold_start(), options);
+  // The start has 40.5, and of all iterates the most room to far bounds.
+  EXPECT_LT(answer.objective, 1) << to_string(answer.status);
 }
 
 TEST(Solver, AStartThatCannotBeEvaluatedComesBackAsItWas) {

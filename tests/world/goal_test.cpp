@@ -117,8 +117,9 @@ TEST(Goal, RefusesWhatNoVehicleCanReach) {
   EXPECT_EQ(refusal(laps, &ring), "");
   laps.ux_max = 5;
   EXPECT_NE(refusal(laps, &ring).find("ux_max beside laps"), std::string::npos);
-  time.psi_tolerance = 0.1;
-  EXPECT_NE(refusal(time, &ring).find("psi_tolerance beside time"), std::string::npos);
+  Goal turned = time;
+  turned.psi_tolerance = 0.1;
+  EXPECT_NE(refusal(turned, &ring).find("psi_tolerance beside time"), std::string::npos);
   line.s = 50;
   line.time = 5;
   EXPECT_NE(refusal(line, &road).find("both s and time"), std::string::npos);

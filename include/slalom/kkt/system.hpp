@@ -44,8 +44,8 @@ struct Values {
   std::span<const double> jacobian;     ///< E, read by JacobianEntry::source
   std::span<const double> flexibility;  ///< c >= 0, one for each equation
   /// The caller wants the factors only if the inertia is that of a minimum. Then factorize may
-  /// stop, with part of the inertia, once negative pivots outnumber the equations eliminated so
-  /// far: the rest has at least one negative pivot for each of its equations.
+  /// stop, with part of the inertia, once negative pivots outnumber the equations met so far:
+  /// the rest has at least one negative pivot for each of those that meet nothing eliminated.
   bool minimum_only = false;
   /// Asked between fronts, about every ten thousand multiplications; true ends the factorisation,
   /// with part of the inertia, and solve may not be called.

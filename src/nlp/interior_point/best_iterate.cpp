@@ -11,17 +11,19 @@ void BestIterate::begin(const SlackForm& form, double tolerance) {
   tolerance_ = tolerance;
 }
 
-void BestIterate::offer(const Iterate& at, double violation, double barrier) {
+void BestIterate::offer(const Iterate& at, double violation, double objective, double logs,
+                        double mu) {
   const bool meets = violation <= tolerance_;
   if (known_) {
-    if (feasible() && (!meets || barrier >= barrier_)) return;
+    if (feasible() && (!meets || objective - mu * logs >= objective_ - mu * logs_)) return;
     if (!feasible() && !meets && violation >= violation_) return;
   }
   w_ = at.w;
   y_ = at.y;
   known_ = true;
   violation_ = violation;
-  barrier_ = barrier;
+  objective_ = objective;
+  logs_ = logs;
 }
 
 void BestIterate::restore(const SlackForm& form, double mu, Point& point) const {

@@ -10,8 +10,9 @@ namespace slalom::nlp::ipm {
 class BestIterate {
  public:
   void begin(const SlackForm& form, double tolerance);
-  /// `violation`: largest, in the user's units; `barrier`: at the last mu.
-  void offer(const Iterate& at, double violation, double barrier);
+  /// `violation`: largest, in the user's units; `logs`: of the slacks. Barrier functions are
+  /// compared at `mu`, for they fall with it.
+  void offer(const Iterate& at, double violation, double objective, double logs, double mu);
   bool empty() const { return !known_; }
   bool feasible() const { return known_ && violation_ <= tolerance_; }
   /// Sets `point` to it, with mu / slack for the multipliers of bounds.
@@ -20,7 +21,7 @@ class BestIterate {
  private:
   std::vector<double> w_, y_;
   bool known_ = false;
-  double tolerance_ = 0, violation_ = 0, barrier_ = 0;
+  double tolerance_ = 0, violation_ = 0, objective_ = 0, logs_ = 0;
 };
 
 }  // namespace slalom::nlp::ipm

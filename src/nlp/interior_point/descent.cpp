@@ -111,9 +111,10 @@ bool Descent::leap() {
   return true;
 }
 
-void Descent::go_back(const Point& point, const LineSearch::Result& last) {
-  point_ = point;
+bool Descent::go_back(const Iterate& from, const LineSearch::Result& last) {
+  point_.set(from);
   last_ = last;
+  return complete();
 }
 
 void Descent::move_bound_multipliers() {

@@ -38,8 +38,9 @@ class Descent {
   [[nodiscard]] bool take_step();
   /// Goes all along it, unsearched. False when that is not finite, and the point is as it was.
   [[nodiscard]] bool leap();
-  /// Undoes them.
-  void go_back(const Point& point, const LineSearch::Result& last);
+  /// Undoes them, and evaluates all again where they began: whoever leaps seldom goes back, and
+  /// need not keep what was known there. False when a function is not finite.
+  [[nodiscard]] bool go_back(const Iterate& from, const LineSearch::Result& last);
 
   /// mu / slack for every multiplier of a bound that is far from it.
   void centre_multipliers();
@@ -71,6 +72,7 @@ class Descent {
   Point& point() { return point_; }
   const Step& step() const { return step_; }
   const Survey& survey() const { return survey_; }
+  double dual_in_users_units() const { return surveyor_.dual_in_users_units(); }
   const Barrier& barrier() const { return barrier_; }
   const Newton& newton() const { return newton_; }
   const LineSearch::Result& last() const { return last_; }  ///< of the line searches

@@ -51,15 +51,9 @@ class Run final : public Restoration::Watch {
   }
   Run(const Run&) = delete;
 
-  /// Whether this workspace fits: the same structure, with the same equations and fixed variables.
   bool fits(const Problem& problem) const {
-    if (structure_id_ == 0 || problem.structure().id != structure_id_) return false;
-    const Limits& limits = problem.limits();
-    for (std::size_t i = 0; i < form_.variables(); ++i)
-      if (form_.fixed(i) != (limits.xl[i] == limits.xu[i])) return false;
-    for (std::size_t r = 0; r < form_.rows(); ++r)
-      if (form_.equation(r) != (limits.gl[r] == limits.gu[r])) return false;
-    return true;
+    return structure_id_ != 0 && problem.structure().id == structure_id_ &&
+           form_.fits(problem.limits());
   }
 
   void solve(Problem& problem, const Start& start, const Options& options, Answer& answer) {
@@ -73,10 +67,10 @@ class Run final : public Restoration::Watch {
     if (no_interior_ ||
         (status == Status::numerical_failure && options.floor == 0 && best_.feasible())) {
       // Bounds and rows that leave no interior have no central path: once more, with a little room.
-      form_.set_room(kRoom);
+      form_.set_room({std::min(kRoom, options.constraint_tol / 2), options.constraint_tol / 2});
       form_.refresh(problem);
       status = iterate(start);
-      form_.set_room(0);
+      form_.set_room({});
     }
     // Equations that depend on each other may all hold; those that do not leave nothing to choose.
     const bool least = status == Status::infeasible;
@@ -89,6 +83,9 @@ class Run final : public Restoration::Watch {
  private:
   // --- the method --------------------------------------------------------------------------
   Status iterate(const Start& start) {
+    tiny_steps_ = low_iterations_ = 0;
+    handed_back_ = std::numeric_limits<double>::infinity();
+    watchdog_.restart(options_->warm_start);
     if (!starter_.prepare(start, *options_)) return Status::invalid_number;
     for (;; ++iterations_) {
       descent_.take_survey();
@@ -109,13 +106,22 @@ class Run final : public Restoration::Watch {
     const double floor = options_->floor;
     if (floor > 0)
       return descent_.barrier().at_least() && s.dual <= options_->dual_tol &&
-             s.primal <= options_->constraint_tol && s.off_centre(floor) <= options_->floor_tol;
+             s.primal <= options_->constraint_tol && s.off_centre(floor) <= options_->floor_tol &&
+             meets_users_units();
     const double unit = form_.objective_scale();  // the checker's terms
     return s.error(0) <= options_->tol && s.dual <= options_->dual_tol * unit &&
            s.complementarity(0) <= options_->dual_tol * unit &&
            s.mean_product * s.bounds <=
-               kMostGap * std::max(1.0, std::fabs(descent_.point().functions().objective)) &&
+               std::max(
+                   kMostGap * std::max(unit, std::fabs(descent_.point().functions().objective)),
+                   2 * kLeastGap * s.bounds) &&
            meets_rows();
+  }
+
+  /// At a floor, what the checker asks of a problem whose units the NLP has scaled.
+  bool meets_users_units() {
+    return !form_.in_other_units() ||
+           (meets_rows() && descent_.dual_in_users_units() <= options_->dual_tol);
   }
 
   /// To the tolerance, or as well as the rounding of the rows' own terms lets them be met.
@@ -128,7 +134,7 @@ class Run final : public Restoration::Watch {
   /// Where an equation holds a variable at its bound, no slack stays: it falls by the fraction to
   /// the boundary with each step, whatever mu is, and its multiplier rises without end.
   bool leaves_no_interior() {
-    if (options_->floor > 0 || form_.room() > 0) return false;
+    if (options_->floor > 0 || form_.room().least > 0) return false;
     const auto& kernels = vector_kernels();
     const Iterate& at = descent_.point().at();
     no_interior_ = kernels.largest_magnitude(at.zl.size(), at.zl.data()) > kMostBoundMultiplier ||
@@ -166,7 +172,7 @@ class Run final : public Restoration::Watch {
     if (descent_.gave_up()) return Status::time_limit;
     const double violation = descent_.point().violation();
     if (violation <= kNoViolation * options_->constraint_tol)
-      return descent_.last().faulted ? Status::invalid_number : Status::numerical_failure;
+      return descent_.last().fault ? Status::invalid_number : Status::numerical_failure;
     descent_.bar();
     const double most = std::max(std::min(kSufficient * violation, kStricter * handed_back_),
                                  options_->constraint_tol);
@@ -179,7 +185,8 @@ class Run final : public Restoration::Watch {
         if (!descent_.complete()) return Status::invalid_number;
         if (options_->floor == 0) restoration_.hand_back_multipliers();
         offer_best();
-        return Status::infeasible;
+        // Least, and none that counts: where nothing is left to lessen, the search was stuck.
+        return best_.feasible() ? Status::numerical_failure : Status::infeasible;
       case Restoration::Outcome::failed:
         return Status::numerical_failure;
       case Restoration::Outcome::stopped:
@@ -220,20 +227,17 @@ class Run final : public Restoration::Watch {
   void begin(Problem& problem, const Options& options) {
     options_ = &options;
     budget_.begin(options);
-    iterations_ = tiny_steps_ = 0;
-    handed_back_ = std::numeric_limits<double>::infinity();
+    iterations_ = 0;
     end_.reset();
     no_interior_ = barrier_too_low_ = false;
-    low_iterations_ = 0;
     form_.refresh(problem);
-    watchdog_.restart(options.warm_start);
     best_.begin(form_, options.constraint_tol);
   }
 
   void offer_best() {
     const Point& point = descent_.point();
-    best_.offer(point.at(), form_.violation(point.functions()),
-                barrier_function(point, descent_.barrier().mu()));
+    best_.offer(point.at(), form_.violation(point.functions()), point.functions().objective,
+                point.log_slacks(), descent_.barrier().mu());
   }
 
   void note_iteration(const Descent& descent, bool restoration) {
@@ -253,7 +257,9 @@ class Run final : public Restoration::Watch {
     answer.backend += descent_.newton().backend().name();
     answer.message.reserve(kLongestReason);
     answer.message = reason(status);
-    answer.fault = status == Status::invalid_number ? form_.fault() : Fault{};
+    answer.fault = {};
+    if (status == Status::invalid_number)
+      answer.fault = form_.fault() ? form_.fault() : descent_.last().fault;
     answer.iterations = iterations_;
     const Point& point = descent_.point();
     if (best_.empty()) {

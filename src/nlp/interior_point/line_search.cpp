@@ -133,7 +133,7 @@ LineSearch::Result LineSearch::search(Newton& newton, const BarrierTerms& terms,
     ++result.trials;
     Merit trial{};
     const bool finite = try_step(point, step, alpha, terms.mu, result.trials == 1, trial);
-    result.faulted = !finite && form_.fault();
+    result.fault = finite ? Fault{} : form_.fault();
     if (finite && acceptable(now, trial, from.slope, alpha)) {
       result.accepted = true;
       result.alpha = alpha;

@@ -30,8 +30,8 @@ class LineSearch {
     bool accepted = false;
     double alpha = 0, alpha_dual = 0;
     int trials = 0;
-    int corrections = 0;   ///< second-order corrections tried
-    bool faulted = false;  ///< the last trial met a number that is not finite
+    int corrections = 0;  ///< second-order corrections tried
+    Fault fault = {};     ///< that the last trial met
   };
   /// Along a step found with `terms`. On acceptance `point` is the new iterate, its multipliers y
   /// moved, those of bounds not yet. The first trial evaluates derivatives too, for it is mostly

@@ -49,6 +49,12 @@ void Point::set_along(const Point& from, const Step& step, double alpha, double 
   kernels.combine(form_->rows(), from.at_.y.data(), alpha_y, step.y.data(), change_y().data());
 }
 
+void Point::set(const Iterate& at) {
+  evaluated_ = {};
+  forget_slacks();
+  at_ = at;
+}
+
 void Point::swap_all_but_bounds(Point& other) {
   std::swap(at_.zl, other.at_.zl);
   std::swap(at_.zu, other.at_.zu);
@@ -82,6 +88,11 @@ bool Point::complete(Parts wanted) {
                       .hessian = wanted.hessian && !have.hessian};
   if (!missing.values && !missing.derivatives && !missing.hessian) return true;
   return evaluate(missing);
+}
+
+void Point::scale_functions() {
+  form_->scale(evaluated_, e_);
+  revision_ = form_->revision();
 }
 
 void Point::find_residuals() const {

@@ -26,6 +26,8 @@ class Point {
   std::span<double> change_zu() { return at_.zu; }
   /// Becomes w and y of `from` and so much of the step; multipliers of bounds stay.
   void set_along(const Point& from, const Step& step, double alpha, double alpha_y);
+  /// Becomes `at`.
+  void set(const Iterate& at);
   /// Swaps with a point all but the multipliers of bounds.
   void swap_all_but_bounds(Point& other);
 
@@ -34,6 +36,9 @@ class Point {
   /// Evaluates what of these is not known.
   [[nodiscard]] bool complete(Parts wanted = {
                                   .values = true, .derivatives = true, .hessian = true});
+  /// Takes over the form's scales. The functions here were evaluated with all of them 1, and
+  /// without the Hessian.
+  void scale_functions();
   /// The functions here, as far as they are known.
   const Evaluation& functions() const { return e_; }
 

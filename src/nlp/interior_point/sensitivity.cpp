@@ -44,8 +44,8 @@ Sides central_row(double l, double u, double y, double value, double mu, double 
     const double d = (u - l) / 2;
     const double e = y * d * d / (mu + std::hypot(mu, y * d));
     const double s = std::clamp((l + u) / 2 + e, value - room, value + room);
-    sides.below = std::clamp(s - l, least_slack(l), 2 * d);
-    sides.above = std::clamp(u - s, least_slack(u), 2 * d);
+    sides.below = std::clamp(s - l, std::min(least_slack(l), d), 2 * d);
+    sides.above = std::clamp(u - s, std::min(least_slack(u), d), 2 * d);
     sides.z_below = mu / sides.below;
     sides.z_above = mu / sides.above;
     return sides;

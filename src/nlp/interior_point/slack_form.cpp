@@ -34,6 +34,7 @@ SlackForm::SlackForm(Problem& problem, std::size_t more)
       condensed_(shape_->hessian_row, shape_->hessian_col, row_blocks_, opposite(equation_)),
       row_scale_(shape_->rows, 1.0),
       users_unit_(shape_->rows),
+      entry_scale_(shape_->jacobian_row.size(), 1.0),
       scaled_y_(shape_->rows),
       row_size_(shape_->rows) {
   for (std::size_t r = 0; r < rows(); ++r)
@@ -49,21 +50,39 @@ SlackForm::SlackForm(Problem& problem, std::size_t more)
   find_segments();
 }
 
+bool SlackForm::fits(const Limits& limits) const {
+  const auto same = [&](double lower, double upper, bool constant, std::size_t i) {
+    return constant == (lower == upper) &&
+           (constant || (std::isfinite(lower) == std::isfinite(lower_[i]) &&
+                         std::isfinite(upper) == std::isfinite(upper_[i])));
+  };
+  const std::size_t n = fixed_.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (!same(limits.xl[i], limits.xu[i], fixed_[i] != 0, i)) return false;
+  for (std::size_t r = 0; r < equation_.size(); ++r)
+    if (!same(limits.gl[r], limits.gu[r], equation_[r] != 0, n + r)) return false;
+  return true;
+}
+
 void SlackForm::refresh(Problem& problem) {
   ++revision_.functions;
   problem_ = &problem;
   shape_ = &problem.structure();
+  const auto scaled = [](double scale) { return scale != 1; };
+  in_other_units_ =
+      std::any_of(shape_->row_scale.begin(), shape_->row_scale.end(), scaled) ||
+      std::any_of(shape_->variable_scale.begin(), shape_->variable_scale.end(), scaled);
   const Limits& limits = problem.limits();
   const std::size_t n = variables();
   std::copy(limits.xl.begin(), limits.xl.end(), lower_.begin());
   std::copy(limits.xu.begin(), limits.xu.end(), upper_.begin());
-  for (std::size_t i = 0; room_ > 0 && i < n; ++i) {
+  for (std::size_t i = 0; room_.least > 0 && i < n; ++i) {
     if (fixed_[i]) continue;
-    lower_[i] -= room_ * std::max(1.0, std::fabs(lower_[i]));
-    upper_[i] += room_ * std::max(1.0, std::fabs(upper_[i]));
+    lower_[i] -= std::min(room_.least * std::max(1.0, std::fabs(lower_[i])), room_.most);
+    upper_[i] += std::min(room_.least * std::max(1.0, std::fabs(upper_[i])), room_.most);
   }
   for (std::size_t r = 0; r < rows(); ++r) {
-    const double room = equation_[r] ? 0 : room_;
+    const double room = equation_[r] ? 0 : room_.least;
     lower_[n + r] = (limits.gl[r] - room) * row_scale_[r];
     upper_[n + r] = (limits.gu[r] + room) * row_scale_[r];
     users_unit_[r] = 1 / (row_scale_[r] * shape_->row_scale[r]);
@@ -83,6 +102,8 @@ void SlackForm::set_scale(double objective, std::span<const double> rows) {
       objective != 1 || std::any_of(rows.begin(), rows.end(), [](double s) { return s != 1; });
   if (same) return;
   std::copy(rows.begin(), rows.end(), row_scale_.begin());
+  for (std::size_t t = 0; t < entry_scale_.size(); ++t)
+    entry_scale_[t] = row_scale_[shape_->jacobian_row[t]];
   refresh(*problem_);
 }
 
@@ -140,19 +161,19 @@ bool SlackForm::evaluate_functions(double objective_factor, const Iterate& at, P
   }
   fault_ = problem_->evaluate(x, objective_factor, y, parts, out);
   if (fault_) return false;
-  if (scaled_) scale(parts, out);
+  scale(parts, out);
   return true;
 }
 
 void SlackForm::scale(Parts parts, Evaluation& out) const {
+  if (!scaled_) return;
   if (parts.values) {
     out.objective *= objective_scale_;
     for (std::size_t r = 0; r < rows(); ++r) out.rows[r] *= row_scale_[r];
   }
   if (parts.derivatives) {
     for (double& g : out.gradient) g *= objective_scale_;
-    for (std::size_t t = 0; t < out.jacobian.size(); ++t)
-      out.jacobian[t] *= row_scale_[shape_->jacobian_row[t]];
+    for (std::size_t t = 0; t < out.jacobian.size(); ++t) out.jacobian[t] *= entry_scale_[t];
   }
 }
 

@@ -27,15 +27,23 @@ class SlackForm {
   virtual ~SlackForm() = default;
   SlackForm(const SlackForm&) = delete;
 
+  /// Whether the limits of a problem of this structure can be taken over: the same equations and
+  /// fixed variables, and bounds on the same sides.
+  bool fits(const Limits& limits) const;
   /// Takes the problem's limits anew, and another problem of the same structure if given one.
   void refresh(Problem& problem);
   /// Scales objective and rows (Waechter & Biegler 2006, section 3.8); all 1 by default.
   void set_scale(double objective, std::span<const double> rows);
   double objective_scale() const { return objective_scale_; }
-  /// Moves both sides of every inequality outwards, for rows that leave no interior (the same units
-  /// as the problem's rows). Takes effect at the next refresh.
-  void set_room(double room) { room_ = room; }
-  double room() const { return room_; }
+  /// How far both sides of every inequality move outwards, for rows that leave no interior: rows by
+  /// `least`, in the problem's units, bounds of variables by this share of their size, `most` at
+  /// most.
+  struct Room {
+    double least = 0, most = 0;
+  };
+  /// Takes effect at the next refresh.
+  void set_room(Room room) { room_ = room; }
+  Room room() const { return room_; }
   std::span<const double> row_scale() const { return row_scale_; }
 
   Problem& problem() const { return *problem_; }
@@ -64,6 +72,8 @@ class SlackForm {
 
   /// Evaluates at (w, y); false when a function gave a number that is not finite (see fault()).
   [[nodiscard]] virtual bool evaluate(const Iterate& at, Parts parts, Evaluation& out);
+  /// What evaluate() would give of `out`, which was evaluated with all scales 1.
+  void scale(Parts parts, Evaluation& out) const;
   const Fault& fault() const { return fault_; }
   /// Counts how often what evaluate() gives at the same (w, y) has changed: all of it, or no more
   /// than the objective and its gradient.
@@ -87,6 +97,8 @@ class SlackForm {
   /// Whether every row is met to `tolerance` in the user's unit, or to the rounding of the row's
   /// own terms at w, below which no tolerance can be asked for.
   bool met_to_rounding(const Evaluation& e, std::span<const double> w, double tolerance);
+  /// Whether the problem's rows or variables have scales: then the user's units are others.
+  bool in_other_units() const { return in_other_units_; }
   /// How many sides of variables and slacks have a bound.
   double bounds() const;
 
@@ -100,7 +112,6 @@ class SlackForm {
 
  private:
   void find_segments();
-  void scale(Parts parts, Evaluation& out) const;
 
   Problem* problem_;
   const Structure* shape_;
@@ -111,10 +122,12 @@ class SlackForm {
   kkt::RowBlocks row_blocks_;
   kkt::SymmetricRuns hessian_runs_;
   kkt::CondensedHessian condensed_;
-  double objective_scale_ = 1, room_ = 0;
+  double objective_scale_ = 1;
+  Room room_;
   std::vector<double> row_scale_, users_unit_;  ///< by row; users_unit_: user's value / e.rows
+  std::vector<double> entry_scale_;             ///< by entry of the Jacobian: that of its row
   std::vector<double> scaled_y_, row_size_;
-  bool scaled_ = false;
+  bool scaled_ = false, in_other_units_ = false;
   Fault fault_;
   Revision revision_;
 };

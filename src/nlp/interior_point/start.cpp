@@ -30,9 +30,12 @@ double inside(double value, double lower, double upper, double push) {
 }
 
 /// Without a floor: so far below the tolerances that complementarity can meet them, each product by
-/// itself and, of very many, their sum.
-double least_barrier(const Options& options, double bounds) {
-  return std::min({options.tol / 10, options.dual_tol / 10, kMostGap / 2 / std::max(bounds, 1.0)});
+/// itself and, of very many, their sum, in the user's unit of the objective.
+double least_barrier(const Options& options, const SlackForm& form) {
+  const double unit = form.objective_scale();
+  const double gap = kMostGap / 2 / std::max(form.bounds(), 1.0);
+  return std::min({options.tol / 10, options.dual_tol * unit / 10,
+                   std::max(gap * unit, std::min(gap, kLeastGap))});
 }
 
 /// Of the gradient of a function whose largest entry is `most` (section 3.8).
@@ -169,15 +172,14 @@ bool Starter::prepare(const Start& start, const Options& options) {
   if (floor && !point.complete({.values = true, .derivatives = true, .hessian = warm}))
     return false;
   const double mu = floor ? options.floor : warm ? first.complementarity() : kFirstBarrier;
-  descent_.begin(options.barrier_rule, mu,
-                 floor ? options.floor : least_barrier(options, form_.bounds()));
+  descent_.begin(options.barrier_rule, mu, floor ? options.floor : least_barrier(options, form_));
   first.set_slacks(descent_.barrier().mu());
   first.set_bound_multipliers(descent_.barrier().mu());
   if (!warm) descent_.estimate_multipliers();
   return descent_.start();
 }
 
-/// Scales objective and rows by their gradients (section 3.8), and evaluates them so.
+/// Evaluates objective and rows, and scales them by their gradients (section 3.8).
 bool Starter::evaluate_scaled() {
   const Parts parts{.values = true, .derivatives = true};
   Point& point = descent_.point();
@@ -192,18 +194,20 @@ bool Starter::evaluate_scaled() {
   double most = 0;
   for (double g : e.gradient) most = std::max(most, std::fabs(g));
   form_.set_scale(gradient_scale(most), row_scale_);
-  return point.complete(parts);
+  point.scale_functions();
+  return true;
 }
 
 void hand_out(const SlackForm& form, const Iterate& at, Start& out) {
   const std::size_t n = form.variables();
   const double objective = form.objective_scale();
+  const Limits& limits = form.problem().limits();  // which a form with room goes beyond
   out.x.resize(n);
   out.zl.resize(n);
   out.zu.resize(n);
   out.y.resize(form.rows());
   for (std::size_t i = 0; i < n; ++i) {
-    out.x[i] = at.w[i];
+    out.x[i] = std::clamp(at.w[i], limits.xl[i], limits.xu[i]);
     out.zl[i] = at.zl[i] / objective;
     out.zu[i] = at.zu[i] / objective;
   }

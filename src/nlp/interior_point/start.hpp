@@ -10,6 +10,9 @@ namespace slalom::nlp::ipm {
 /// Of the objective: what all products of slacks and multipliers together may hold it off its
 /// least.
 inline constexpr double kMostGap = 1e-5;
+/// What each bound may at least add to the gap, whatever the objective's scale: less cannot be told
+/// from rounding.
+inline constexpr double kLeastGap = 1e-12;
 
 /// Sets scales, barrier and the first point of a solve (Waechter & Biegler 2006, sections 3.6 and
 /// 3.8).

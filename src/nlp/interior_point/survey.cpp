@@ -59,4 +59,11 @@ Survey Surveyor::operator()(const Point& point) {
   return survey;
 }
 
+double Surveyor::dual_in_users_units() const {
+  double most = 0;
+  for (std::size_t i = 0; i < form_.variables(); ++i)
+    most = std::max(most, std::fabs(gradient_[i]) / form_.shape().variable_scale[i]);
+  return most;
+}
+
 }  // namespace slalom::nlp::ipm

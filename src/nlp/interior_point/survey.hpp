@@ -29,6 +29,9 @@ class Surveyor {
   explicit Surveyor(const SlackForm& form);
   /// Of a point that is complete.
   Survey operator()(const Point& point);
+  /// Largest |gradient of the Lagrangian| by a variable at the point of the last survey, in the
+  /// user's unit of that variable.
+  double dual_in_users_units() const;
 
  private:
   const SlackForm& form_;

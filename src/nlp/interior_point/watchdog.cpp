@@ -27,7 +27,7 @@ Watchdog::Outcome Watchdog::advance(Descent& descent) {
   if (shortened_ < kShortenedSteps) return search(descent);
   shortened_ = 0;
   mu_ = descent.barrier().mu();
-  point_ = descent.point();
+  from_ = descent.point().at();
   merit_ = descent.merit();
   slope_ = descent.slope();
   return leap(descent);
@@ -51,7 +51,7 @@ bool Watchdog::soften(Descent& descent) {
   };
   const double before = error();
   const LineSearch::Result searched = descent.last();
-  point_ = descent.point();
+  from_ = descent.point().at();
   if (descent.leap() && descent.complete()) {
     descent.take_survey();
     if (error() <= kSoftProgress * before) {
@@ -59,8 +59,7 @@ bool Watchdog::soften(Descent& descent) {
       return true;
     }
   }
-  descent.go_back(point_, searched);
-  descent.take_survey();
+  if (descent.go_back(from_, searched)) descent.take_survey();
   return false;
 }
 
@@ -80,9 +79,8 @@ Watchdog::Outcome Watchdog::leap(Descent& descent) {
 Watchdog::Outcome Watchdog::go_back(Descent& descent) {
   end_leaps();
   ++failed_;
-  descent.go_back(point_, descent.last());
   // The factorisation is of another point by now: without second-order corrections of this step.
-  if (!descent.find_step()) return Outcome::stuck;
+  if (!descent.go_back(from_, descent.last()) || !descent.find_step()) return Outcome::stuck;
   if (failed_ >= kMostFailed && descent.point().violation() > kFeasible) return Outcome::stuck;
   return search(descent);
 }

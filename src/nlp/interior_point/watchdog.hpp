@@ -12,7 +12,7 @@ namespace slalom::nlp::ipm {
 /// acceptable, the longest is taken if it brings the primal-dual equations' error down.
 class Watchdog {
  public:
-  explicit Watchdog(SlackForm& form) : point_(form) {}
+  explicit Watchdog(const SlackForm& form) { from_.resize(form.primal(), form.rows()); }
   /// With a start close to a solution, as a warm one is, it leaps from the first step on: nearly
   /// feasible and lower than the solution, such a point would let the filter pass short steps only.
   void restart(bool close = false);
@@ -35,7 +35,7 @@ class Watchdog {
   int softened_ = 0;  ///< soft steps since the filter last accepted one
   double mu_ = 0, slope_ = 0, alpha_ = 0;
   Merit merit_;
-  Point point_;  ///< where it began
+  Iterate from_;  ///< where it began
 };
 
 }  // namespace slalom::nlp::ipm
