@@ -77,6 +77,26 @@ def test_bad_tracks(tmp_path, text, place, message):
     assert str(error.value).startswith(f"{file}{place}") and message in str(error.value), error.value
 
 
+def test_crossings_of_long_lines():
+    """The same as of all pairs at once, in little memory."""
+    import tracemalloc
+
+    from slalom.importing._line import _crossings, crossings
+
+    rng = np.random.default_rng(4)
+    first, second = (np.cumsum(rng.normal(size=(n, 2)), axis=0) % 20 for n in (150, 333))
+    pairs = crossings(first, second)
+    assert len(pairs) > 20 and np.array_equal(pairs, _crossings(first, second))
+    assert crossings(first[:2], first[:2]).shape == (0, 2)
+    angles = np.linspace(0, 2 * np.pi, 4000)
+    ring = np.column_stack([600 * np.cos(angles), 600 * np.sin(angles)])
+    tracemalloc.start()
+    assert len(crossings(ring, 1.01 * ring)) == 0
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 20e6
+
+
 def test_a_scene(tmp_path, version):
     scene = importing.commonroad(written(tmp_path, scenes.commonroad(version)))
     car = scene.vehicle

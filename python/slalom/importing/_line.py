@@ -8,6 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[Any]
+PIECE = 64
+"""Segments of a line that are looked at together."""
 
 
 def lengths(points: Array) -> Array:
@@ -101,7 +103,29 @@ def project(points: Array, place: Array) -> tuple[float, float, float]:
 
 
 def crossings(first: Array, second: Array) -> Array:
-    """Index pairs (k, m) of segments of two lines that cross each other, segments of one point left out."""
+    """Index pairs (k, m) of segments of two lines that cross each other, in order, segments of one point left out."""
+    found = [np.empty((0, 2), dtype=int)]
+    for k, m in _near_each_other(first, second):
+        found.append(_crossings(first[k : k + PIECE + 1], second[m : m + PIECE + 1]) + [k, m])
+    pairs = np.concatenate(found)
+    return pairs[np.lexsort(pairs.T[::-1])]
+
+
+def _near_each_other(first: Array, second: Array) -> Array:
+    """Where pieces of PIECE segments begin whose bounding boxes touch: all pairs of segments of a long line would
+    take gigabytes."""
+
+    def boxes(line: Array) -> tuple[Array, Array, Array]:
+        begins = np.arange(0, len(line) - 1, PIECE)
+        pieces = [line[k : k + PIECE + 1] for k in begins]
+        return begins, np.array([p.min(axis=0) for p in pieces]), np.array([p.max(axis=0) for p in pieces])
+
+    (a, least_a, most_a), (b, least_b, most_b) = boxes(first), boxes(second)
+    touch = np.argwhere(np.all((least_a[:, None] <= most_b[None]) & (least_b[None] <= most_a[:, None]), axis=2))
+    return np.column_stack([a[touch[:, 0]], b[touch[:, 1]]])
+
+
+def _crossings(first: Array, second: Array) -> Array:
     p, q = first[:-1], second[:-1]
     u, v = np.diff(first, axis=0), np.diff(second, axis=0)
     gap = q[None, :, :] - p[:, None, :]
