@@ -62,6 +62,25 @@ def test_a_start_beyond_the_vehicle(tmp_path):
         slalom.load_scenario({"vehicle": "bmw_320i", "start": more, "goal": {"x": 0, "y": 100}})
 
 
+@pytest.mark.parametrize("name", ["acceleration", "slipAngle"])
+def test_a_reduced_start_is_within_the_limits_as_it_is_written(tmp_path, name):
+    """Rounded to the digits of the file, many a limit is passed; writing the scenario would say so."""
+    beyond = {"acceleration": (12, -14, 30), "slipAngle": (0.4, -0.6, 0.9)}[name]
+    for value in beyond:
+        for speed in (11, 17.7, 31):
+            (tmp_path / "map.xml").write_text(scenes.commonroad(start=start(speed=speed, more=scenes.exact(name, value))))
+            scene = importing.commonroad(tmp_path / "map.xml", vehicle="vw_vanagon")
+            assert any("in place of" in note for note in scene.notes)
+            scene.write(tmp_path / "map.yaml", force=True)
+
+
+def test_numbers_are_cut_to_the_digits_of_the_file():
+    from slalom.importing._scene import no_less, no_more
+
+    assert [no_more(x) for x in (1.234567, -1.234567, 1.1, -0.000001)] == [1.23456, -1.23456, 1.1, 0]
+    assert [no_less(x) for x in (1.234561, 1.1, 0.29)] == [1.23457, 1.1, 0.29]
+
+
 def test_a_vehicle_that_is_recorded_to_roll_back(tmp_path):
     scene = scene_of(tmp_path, start=start(speed=-0.1))
     assert scene.start["ux"] == scene.vehicle.ux_min and any("-0.1 m/s" in note for note in scene.notes)

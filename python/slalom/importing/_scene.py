@@ -13,6 +13,9 @@ import slalom
 
 from ._files import BadFile, write_whole
 
+DIGITS = 5
+"""Behind the point of each number in the file, in m and rad: more than any map is worth."""
+
 
 @dataclass(frozen=True)
 class Vehicle:
@@ -117,11 +120,29 @@ class Scene:
         write_whole(path, self.yaml(), force, check)
 
 
+def as_written(value: float) -> float:
+    """A number as its file will have it."""
+    return float(_number(value))
+
+
+def no_more(value: float) -> float:
+    """The nearest number to a value, not farther from zero, that its file will have as it is."""
+    size = as_written(abs(value))
+    if size > abs(value):
+        size = as_written(size - 10**-DIGITS)
+    return math.copysign(size, value)
+
+
+def no_less(value: float) -> float:
+    """The same of a value above zero, not below it."""
+    size = as_written(value)
+    return size if size >= value else as_written(size + 10**-DIGITS)
+
+
 def _number(value: float) -> str:
-    """To a tenth of a millimetre, or of a millirad to 1e-5: more than any map is worth."""
     if not math.isfinite(value):
         raise ValueError(f"a number that is not finite: {value}")
-    text = f"{value:.5f}".rstrip("0").rstrip(".")
+    text = f"{value:.{DIGITS}f}".rstrip("0").rstrip(".")
     return "0" if text in ("", "-0") else text
 
 

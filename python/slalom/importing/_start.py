@@ -11,7 +11,7 @@ import slalom
 
 from ._files import BadFile
 from ._line import Array
-from ._scene import Vehicle
+from ._scene import Vehicle, as_written, no_less, no_more
 
 ROLLS_BACK = 0.5
 """Up to which speed backwards [m/s] a vehicle is taken to stand: what a recording takes for that of one that stands."""
@@ -55,9 +55,9 @@ def start_of(file: str | os.PathLike[str], state: Any, car: Vehicle, notes: list
     ux = speed * float(np.cos(slip))
     if ux < -ROLLS_BACK:
         raise BadFile(file, f"a start at {ux:g} m/s", "one that does not drive backwards")
-    if ux < car.ux_min:
+    if as_written(ux) < car.ux_min:
         notes.append(f"start: {ux:g} m/s; begins at the {car.ux_min:g} m/s that are the least of the vehicle")
-        ux, speed = car.ux_min, max(speed, 0.0)
+        ux, speed = no_less(car.ux_min), max(speed, 0.0)
     start = {
         "x": x + car.centre * float(np.cos(psi)),
         "y": y + car.centre * float(np.sin(psi)),
@@ -75,32 +75,31 @@ def start_of(file: str | os.PathLike[str], state: Any, car: Vehicle, notes: list
 def _as_the_vehicle_can(car: Vehicle, start: dict[str, float], notes: list[str]) -> dict[str, float]:
     """The start with as much of each value as the vehicle's limits and wheel loads allow; recorded ones come from
     other vehicles, and from differences of noisy places."""
-    kept = {"x": 0.0, "y": 0.0, "psi": 0.0, "ux": car.ux_min}
+    kept = {"x": 0.0, "y": 0.0, "psi": 0.0, "ux": no_less(car.ux_min)}
     for key, name in SOURCES.items():
-        share = _most_of(car, kept, key, start[key])
-        if share < 1:
-            notes.append(
-                f"start: {name} {share * start[key]:.3g} in place of {start[key]:.3g}, for more is beyond the vehicle"
-            )
-        kept[key] = share * start[key]
+        kept[key] = _most_of(car, kept, key, start[key])
+        if kept[key] != start[key]:
+            notes.append(f"start: {name} {kept[key]:.3g} in place of {start[key]:.3g}, for more is beyond the vehicle")
     return {**start, **{key: kept[key] for key in SOURCES}}
 
 
 def _most_of(car: Vehicle, others: dict[str, float], key: str, value: float) -> float:
-    """The largest share of a value that a start may have beside others."""
+    """As much of a value as a start may have beside others, all with the digits that the file will have: more of them
+    would be rounded, and beyond the limit by that."""
 
-    def accepted(share: float) -> bool:
-        plain = {"vehicle": car.name, "start": {**others, key: share * value}, "goal": {"x": 0, "y": 100}}
+    def accepted(tried: float) -> bool:
+        start = {name: as_written(number) for name, number in {**others, key: tried}.items()}
+        plain = {"vehicle": car.name, "start": start, "goal": {"x": 0, "y": 100}}
         try:
             slalom.load_scenario(plain)
         except slalom.Error:
             return False
         return True
 
-    if not value or accepted(1.0):
-        return 1.0
+    if not value or accepted(value):
+        return value
     least, most = 0.0, 1.0
     for _ in range(20):
         middle = (least + most) / 2
-        least, most = (middle, most) if accepted(middle) else (least, middle)
-    return least
+        least, most = (middle, most) if accepted(no_more(middle * value)) else (least, middle)
+    return no_more(least * value)

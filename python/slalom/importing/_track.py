@@ -9,7 +9,7 @@ import numpy as np
 
 from ._files import BadFile, read
 from ._line import Array, crossings, curvature, headings, lengths
-from ._scene import Scene, Vehicle
+from ._scene import Scene, Vehicle, no_less
 
 COLUMNS = "x_m,y_m,w_tr_right_m,w_tr_left_m"
 EXPECTED = f"a race track: CSV with the columns {COLUMNS} [m]"
@@ -47,7 +47,7 @@ def track(
         file=pathlib.Path(file),
         source=[f"Imported from the race track {pathlib.Path(file).name}: {len(line)} points, {total:.0f} m"],
         vehicle=car,
-        start={"x": float(line[0, 0]), "y": float(line[0, 1]), "psi": psi, "ux": max(speed, car.ux_min)},
+        start={"x": float(line[0, 0]), "y": float(line[0, 1]), "psi": psi, "ux": max(speed, no_less(car.ux_min))},
         goal={"time": time} if laps is None else {"laps": laps},
         timeout=time + 1 if laps is None else float(np.ceil(laps * total / 5)),
         points=rows.tolist(),
