@@ -63,7 +63,7 @@ formats() {
   make_environment "$folder/formats"
   install_into "$folder/formats" pytest "$(echo "$folder"/slalom-*.whl)[commonroad,mcap]"
   SLALOM_README=$root/README.md "$python" -m pytest -q \
-    tests/test_importing.py tests/test_exporting.py tests/test_commonroad_check.py
+    tests/test_importing*.py tests/test_exporting*.py tests/test_commonroad_check.py
 }
 
 venv=$work/venv
