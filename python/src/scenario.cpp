@@ -25,12 +25,16 @@ io::ScenarioRequest request_of(const std::string& source, const Changes& changes
   return request;
 }
 
-/// A dict as the text of a file: JSON, which is YAML; arrays and NumPy's numbers by their tolist().
+/// A dict as the text of a file: JSON, which is YAML but for pairs of surrogates, so that it has
+/// its letters as they are; arrays and NumPy's numbers by their tolist().
 std::string text_of(const nb::dict& scenario) {
   const nb::object plain =
       nb::cpp_function([](const nb::object& value) { return nb::object(value.attr("tolist")()); });
-  return nb::cast<std::string>(
-      nb::module_::import_("json").attr("dumps")(scenario, "default"_a = plain));
+  const nb::object text = nb::module_::import_("json").attr("dumps")(scenario, "default"_a = plain,
+                                                                     "ensure_ascii"_a = false);
+  // By bytes: half a pair is an error that says so.
+  const auto bytes = nb::cast<nb::bytes>(text.attr("encode")());
+  return {bytes.c_str(), bytes.size()};
 }
 
 std::vector<std::string> keys(const Scenario& scenario) {

@@ -40,6 +40,13 @@ def test_another_vehicle_is_chosen_by_name():
         slalom.load_scenario("E_B", vehicle="tank")
 
 
+def test_a_dict_may_have_any_letters():
+    """JSON's pairs of surrogates are not YAML's."""
+    assert slalom.load_scenario({**MINE, "name": "caf\u00e9 \U0001f3ce", "title": "a\nb\u2028c"}).name == "caf\u00e9 \U0001f3ce"
+    with pytest.raises(ValueError, match="surrogates"):
+        slalom.load_scenario({**MINE, "name": "\ud83c"})
+
+
 def test_values_of_a_scenario():
     scenario = slalom.load_scenario("E_B", tex=0.25, set={"loop.timeout": 1, "loop.warm_up": False})
     assert scenario["loop.tex"] == 0.25 and scenario["loop.warm_up"] is False

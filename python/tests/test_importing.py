@@ -34,6 +34,8 @@ def test_a_track(tmp_path):
     assert scene.start["psi"] == pytest.approx(np.pi / 2) and scene.start["y"] == 0
     scene.write(tmp_path / "ring.yaml")
     assert slalom.load_scenario(tmp_path / "ring.yaml").name == "ring"
+    commented = written(tmp_path, "# one\u2028two\r\n" + scenes.track().replace("\n", "\r\n"), "commented.csv")
+    assert importing.track(commented).points == scene.points
 
 
 def test_laps_of_a_track_are_driven(tmp_path):
@@ -95,6 +97,24 @@ def test_crossings_of_long_lines():
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 20e6
+
+
+@pytest.mark.parametrize("name", ["null", "Null", "NULL", "true", "yes", "Off", "n", "lap\U0001f3ce", "ring\u2028\u0085road", "a b"])
+def test_names_are_text(tmp_path, name):
+    scene = importing.track(written(tmp_path, scenes.track(), name + ".csv"))
+    scene.write(tmp_path / "ring.yaml")
+    assert slalom.load_scenario(tmp_path / "ring.yaml").name == name
+
+
+def test_comments_stay_comments(tmp_path):
+    """Names of files, and what they say, may have line breaks."""
+    scene = importing.track(written(tmp_path, scenes.track(), "ring\nstart: {x: 9}.csv"))
+    scene.notes += ["one\ntwo: 3", "four\rfive: \u0085six: \x1b[1m"]
+    text = scene.yaml()
+    assert [line for line in text.splitlines() if line.startswith(("start", "two", "five", "six"))] == [
+        line for line in text.splitlines() if line.startswith("start: {x: 40")]
+    assert "# - one two: 3" in text and "# - four five: six: ?[1m" in text
+    scene.write(tmp_path / "ring.yaml")
 
 
 def test_a_scene(tmp_path, version):

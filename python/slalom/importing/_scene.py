@@ -15,6 +15,8 @@ from ._files import BadFile, write_whole
 
 DIGITS = 5
 """Behind the point of each number in the file, in m and rad: more than any map is worth."""
+NO_TEXT = frozenset(("null", "true", "false", "yes", "no", "on", "off", "y", "n"))
+"""Words that a reader of YAML takes for something else, in small or capital letters."""
 
 
 @dataclass(frozen=True)
@@ -75,11 +77,14 @@ class Scene:
     notes: list[str] = field(default_factory=list)
     """What could not be carried over, by name, and what was decided, a sentence each."""
 
+    def __post_init__(self) -> None:
+        self.notes = [_one_line(note) for note in self.notes]
+
     def yaml(self) -> str:
         """The scenario file's text."""
-        lines = [f"# {line}" for line in self.source]
+        lines = [f"# {_one_line(line)}" for line in self.source]
         if self.notes:
-            lines += ["# Not as in the source:", *(f"# - {note}" for note in self.notes)]
+            lines += ["# Not as in the source:", *(f"# - {_one_line(note)}" for note in self.notes)]
         lines += [
             f"name: {_text(self.name)}",
             f"vehicle: {_flow({'base': self.vehicle.name, 'footprint': 'rectangle', **self.limits})}",
@@ -146,9 +151,17 @@ def _number(value: float) -> str:
     return "0" if text in ("", "-0") else text
 
 
+def _one_line(text: str) -> str:
+    """What the source says may have line breaks, after which a comment would be no comment."""
+    return "".join(c if c.isprintable() else "?" for c in " ".join(text.split()))
+
+
 def _text(value: str) -> str:
     plain = value and all(c.isalnum() or c in "_-/." for c in value) and value[0].isalpha()
-    return value if plain else json.dumps(value)
+    if plain and value.lower() not in NO_TEXT:
+        return value
+    # Not escaped, for YAML has no pairs of surrogates; a file's name may have single ones, which are no text.
+    return json.dumps(value.encode("utf-8", "replace").decode(), ensure_ascii=False)
 
 
 def _flow(value: Any) -> str:

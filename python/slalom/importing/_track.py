@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import pathlib
 
@@ -67,7 +68,8 @@ def _rows(file: str | os.PathLike[str]) -> tuple[Array, list[int]]:
         raise BadFile(file, "bytes that are no text", EXPECTED, content.count(b"\n", 0, error.start) + 1) from None
     rows, numbers = [], []
     headed = False
-    for number, line in enumerate(text.splitlines(), 1):
+    # Not by splitlines(): comments may have what Unicode takes for the end of a line.
+    for number, line in enumerate(io.StringIO(text, newline=None).read().split("\n"), 1):
         words = [word.strip() for word in line.strip().lstrip("#").split(",")]
         if words == COLUMNS.split(","):
             headed = True
