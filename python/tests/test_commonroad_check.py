@@ -63,6 +63,16 @@ def test_nothing_to_judge(tmp_path):
     assert done.returncode == 2 and "found no NAME/solution.xml" in done.stderr
 
 
+def test_a_shape_that_is_read_elsewhere_is_not_judged(tmp_path):
+    shape = scenes.box(4, 2).replace("</rectangle>", "<orientation>1</orientation><center><x>0</x><y>0</y></center></rectangle>")
+    text = scenes.commonroad(more=scenes.obstacle("2020a", 15, "static", "car", shape, scenes.state("initialState", 0, 80, 9)))
+    (tmp_path / "a.xml").write_text(text)
+    (tmp_path / "solution.xml").write_text(solution(lambda x: 0.0))
+    tool = pathlib.Path(README).parent / "tools" / "commonroad_check.py"
+    done = subprocess.run([sys.executable, tool, tmp_path / "a.xml", tmp_path / "solution.xml"], capture_output=True, text=True)
+    assert done.returncode == 2 and "obstacle 15 has a shape with a place" in done.stderr, done.stdout + done.stderr
+
+
 def test_circles_have_their_radius(tmp_path):
     """A walker of .4 m in radius at y = 1.3 beside a drive along y = 0 is .095 m away."""
     walker = scenes.obstacle("2020a", 15, "static", "pedestrian", "<circle><radius>0.4</radius></circle>",

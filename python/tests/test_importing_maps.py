@@ -181,6 +181,31 @@ def test_headers_that_the_reader_refuses(tmp_path):
     assert len(importing.commonroad(tmp_path / "map.xml").obstacles) == 3
 
 
+def test_points_may_have_heights(tmp_path):
+    """Of lanelets, starts, obstacles and goals alike: a road lies in the plane."""
+    flat = scene_of(tmp_path).yaml()
+    high = scenes.commonroad().replace("</y></point>", "</y><z>1.5</z></point>").replace("</y></center>", "</y><z>1.5</z></center>")
+    (tmp_path / "map.xml").write_text(high)
+    assert importing.commonroad(tmp_path / "map.xml").yaml() == flat
+
+
+def test_what_the_reader_takes_and_cannot_use_is_a_bad_file(tmp_path, monkeypatch):
+    from slalom.importing import _commonroad
+
+    file = tmp_path / "map.xml"
+    text = scenes.commonroad()
+    file.write_text(text)
+    with monkeypatch.context() as patched:
+        patched.setattr(_commonroad, "lanes_of", lambda network: network.no_such_thing)
+        with pytest.raises(importing.BadFile, match="what cannot be imported .AttributeError"):
+            importing.commonroad(file)
+    head, tail = text.split("<initialState>")[:-1], text.split("<initialState>")[-1]
+    later = tail.replace("<time><exact>0</exact></time>", "<time><intervalStart>0</intervalStart><intervalEnd>1</intervalEnd></time>", 1)
+    file.write_text("<initialState>".join([*head, later]))
+    with pytest.raises(importing.BadFile, match="begins at no exact time"):
+        importing.commonroad(file)
+
+
 def test_long_lines_are_smoothed_by_their_bands():
     from slalom.importing._line import smoothed
 

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import shapely
 
+import slalom
+
 from . import _goal
 from ._body import in_bends, turning_in
 from ._files import BadFile
@@ -18,7 +20,7 @@ from ._obstacles import Clock, obstacles_of
 from ._road import BESIDE, Road, holding, joined, road_along
 from ._scene import Scene, Vehicle
 from ._start import exact, place_of, start_of
-from ._xml import open_file
+from ._xml import EXPECTED, open_file, quiet
 
 ACCELERATION = 4.0
 """By which the road's length for a goal of time alone is reckoned [m/s^2]."""
@@ -42,6 +44,15 @@ TURNS = 2.0
 
 def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, oncoming: str) -> Scene:
     """See `slalom.importing.commonroad`."""
+    try:
+        return _scene_of(file, vehicle, problem, oncoming)
+    except (BadFile, ImportError, OSError, slalom.Error):
+        raise
+    except Exception as error:  # what the reader took may still be refused where it is used
+        raise BadFile(file, f"what cannot be imported ({type(error).__name__}: {error})", EXPECTED) from error
+
+
+def _scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, oncoming: str) -> Scene:
     car = Vehicle.load(vehicle)
     scenario, problems, unread = open_file(file)
     chosen = chosen_problem(file, problems.planning_problem_dict, problem)
@@ -50,7 +61,8 @@ def scene_of(file: str | os.PathLike[str], vehicle: str, problem: int | None, on
     notes = _left_out(scenario, problems.planning_problem_dict, chosen.planning_problem_id) + unread
     start = start_of(file, initial, car, notes)
     place, psi = place_of(initial), exact("its heading", getattr(initial, "orientation", 0.0), [])
-    obstacles = obstacles_of(scenario, clock, place, psi, notes)
+    with quiet():
+        obstacles = obstacles_of(scenario, clock, place, psi, notes)
     lanes = lanes_of(scenario.lanelet_network)
     way = _Way(file, lanes, car, initial, oncoming == "always")
     goal, road = _goal_and_road(way, chosen, clock, obstacles)

@@ -42,7 +42,11 @@ def obstacles_of(scenario: Any, clock: Clock, place: Array, psi: float, notes: l
         else:
             made += _moving(obstacle, clock, notes)
     for obstacle in scenario.phantom_obstacle:
-        made += list(_swept(f"phantom{obstacle.obstacle_id}", dict(obstacle.prediction.occupancies), clock, notes))
+        name = f"phantom{obstacle.obstacle_id}"
+        if obstacle.prediction is None:
+            notes.append(f"{name}: says nothing of where it may be; left out")
+        else:
+            made += list(_swept(name, dict(obstacle.prediction.occupancies), clock, notes))
     for obstacle in scenario.environment_obstacle:
         notes.append(f"{obstacle.obstacle_type.value} {obstacle.obstacle_id}: beside the road, left out")
     return made
@@ -82,9 +86,7 @@ def _standing(obstacle: Any, notes: list[str]) -> list[dict[str, Any]]:
     name, state = _name(obstacle), obstacle.initial_state
     parts = None if _uncertain(state) else _outlines(obstacle.obstacle_shape, name, notes)
     if parts is None:
-        occupancy = obstacle.occupancy_at_time(state.time_step)
-        notes.append(f"{name}: its place is not certain; it is where it may be")
-        return [{"name": name, **_polygon(_hull(occupancy))}]
+        return [{"name": name, **_hull_at_first(obstacle, name, notes)}]
     psi = float(getattr(state, "orientation", None) or 0.0)
     made = []
     for part, (outline, centre) in _named(name, parts):
@@ -104,16 +106,16 @@ def _moving(obstacle: Any, clock: Clock, notes: list[str]) -> list[dict[str, Any
     states = [obstacle.initial_state]
     if prediction is None:
         notes.append(f"{name}: says nothing of where it goes; it goes on as it begins")
-        return _with_table(
-            name, _outlines(obstacle.obstacle_shape, name, notes) or [], _going_on(states[0], clock), "goes_on"
-        )
+        return _unpredicted(obstacle, name, clock, notes)
     parts = None
     if isinstance(prediction, TrajectoryPrediction):
         states += [s for s in prediction.trajectory.state_list if s.time_step > states[0].time_step]
         if not any(map(_uncertain, states)):
             parts = _outlines(prediction.shape, name, notes)
+        if parts is None:
+            prediction.shape = _about_its_place(prediction.shape)
     if parts is None:
-        occupancies = {states[0].time_step: obstacle.occupancy_at_time(states[0].time_step), **prediction.occupancies}
+        occupancies = {states[0].time_step: _at_first(obstacle), **prediction.occupancies}
         return list(_swept(name, occupancies, clock, notes))
     states = [s for s in states if s.time_step >= clock.first - 1]
     if not states:
@@ -121,6 +123,18 @@ def _moving(obstacle: Any, clock: Clock, notes: list[str]) -> list[dict[str, Any
         return []
     rows = _going_on(states[-1], clock) if len(states) == 1 else _rows(states, clock)
     return _with_table(name, parts, rows, "absent")
+
+
+def _unpredicted(obstacle: Any, name: str, clock: Clock, notes: list[str]) -> list[dict[str, Any]]:
+    """Of an obstacle that says nothing of where it goes."""
+    state = obstacle.initial_state
+    parts = None if _uncertain(state) else _outlines(obstacle.obstacle_shape, name, notes)
+    if parts is not None:
+        return _with_table(name, parts, _going_on(state, clock), "goes_on")
+    hull = _hull_at_first(obstacle, name, notes)
+    row = np.array([clock(state.time_step), hull.pop("x"), hull.pop("y"), 0.0])
+    table = np.array([row, row + _step_ahead(state, clock)]).tolist()
+    return [{"name": name, **hull, "before": "absent", "after": "goes_on", "table": table}]
 
 
 def _rows(states: list[Any], clock: Clock) -> Array:
@@ -132,9 +146,18 @@ def _rows(states: list[Any], clock: Clock) -> Array:
 def _going_on(state: Any, clock: Clock) -> Array:
     """Two rows: where a state is, and one step on by its velocity."""
     row = _rows([state], clock)[0]
-    speed = float(getattr(state, "velocity", None) or 0.0)
-    ahead = clock.step * np.array([1, speed * np.cos(row[3]), speed * np.sin(row[3]), 0])
-    return np.array([row, row + ahead])
+    return np.array([row, row + _step_ahead(state, clock)])
+
+
+def _step_ahead(state: Any, clock: Clock) -> Array:
+    """By how much t, x, y, psi change until the next step, by a state's velocity."""
+    speed, psi = (_middle(getattr(state, name, None)) for name in ("velocity", "orientation"))
+    return clock.step * np.array([1, speed * np.cos(psi), speed * np.sin(psi), 0])
+
+
+def _middle(value: Any) -> float:
+    """A number, or the middle of an interval."""
+    return float(value.start + value.end) / 2 if hasattr(value, "start") else float(value or 0.0)
 
 
 def _with_table(name: str, parts: list[tuple[dict[str, Any], Array]], rows: Array, after: str) -> list[dict[str, Any]]:
@@ -153,13 +176,17 @@ def _named(name: str, parts: list[Any]) -> Iterator[tuple[str, Any]]:
 
 def _outlines(shape: Any, name: str, notes: list[str]) -> list[tuple[dict[str, Any], Array]] | None:
     """Of a rigid shape, the keys of a scenario's obstacle and where their centre is in the shape's own frame;
-    None for one that bends."""
+    None for one that bends, such as a truck with a trailer."""
     from commonroad.geometry.obstacle_shapes.circle_obstacle_shape import CircleObstacleShape
     from commonroad.geometry.obstacle_shapes.polygon_obstacle_shape import PolygonObstacleShape
     from commonroad.geometry.obstacle_shapes.rect_obstacle_shape import RectObstacleShape
+    from commonroad.geometry.obstacle_shapes.truck_shape import TruckShape
 
     if isinstance(shape, RectObstacleShape):
         return [({"length": shape.length, "width": shape.width}, np.array([-shape.origin_x_shift, 0.0]))]
+    if isinstance(shape, TruckShape):
+        size = {"length": shape.truck_dims.length, "width": shape.truck_dims.width}
+        return [(size, np.array([-shape.origin_x_shift, 0.0]))]
     if isinstance(shape, CircleObstacleShape):
         return [({"r": shape.radius}, np.zeros(2))]
     if isinstance(shape, PolygonObstacleShape):
@@ -169,6 +196,30 @@ def _outlines(shape: Any, name: str, notes: list[str]) -> list[tuple[dict[str, A
         outline = _polygon(polygon.convex_hull)
         return [({"polygon": outline["polygon"]}, np.array([outline["x"], outline["y"]]))]
     return None
+
+
+def _about_its_place(shape: Any) -> Any:
+    """The shape for places that are not certain. About these, commonroad-io puts a polygon as if it had its middle
+    there: in its stead goes the rectangle about the place that holds it."""
+    from commonroad.geometry.obstacle_shapes.polygon_obstacle_shape import PolygonObstacleShape
+    from commonroad.geometry.obstacle_shapes.rect_obstacle_shape import RectObstacleShape
+
+    if not isinstance(shape, PolygonObstacleShape):
+        return shape
+    length, width = (2 * np.abs(np.asarray(shape.vertices)).max(axis=0)).tolist()
+    return RectObstacleShape(length=length, width=width)
+
+
+def _at_first(obstacle: Any) -> Any:
+    """What an obstacle covers, or may cover, in its initial state."""
+    state, shape = obstacle.initial_state, obstacle.obstacle_shape
+    return (_about_its_place(shape) if _uncertain(state) else shape).compute_occupancy(state)
+
+
+def _hull_at_first(obstacle: Any, name: str, notes: list[str]) -> dict[str, Any]:
+    why = "its place is not certain; the hull of where it may be"
+    notes.append(f"{name}: {why if _uncertain(obstacle.initial_state) else 'its hull'} stands for it")
+    return _polygon(_hull(_at_first(obstacle)))
 
 
 def _swept(name: str, occupancies: dict[Any, Any], clock: Clock, notes: list[str]) -> Iterator[dict[str, Any]]:

@@ -39,6 +39,9 @@ NEEDED = {
     "trafficSignElement": ("trafficSignID",),
 }
 """What elements must hold."""
+OBSTACLES = ("obstacle", "staticObstacle", "dynamicObstacle")
+CORNERS = 16
+"""Of a polygon about a circle: at most 2 % wider."""
 MISSING = "CommonRoad's reader is missing: python3 -m pip install 'slalom[commonroad]'"
 
 
@@ -56,10 +59,11 @@ def open_file(file: str | os.PathLike[str]) -> tuple[Any, Any, list[str]]:
     except ImportError:
         raise ExtraMissing(MISSING) from None
     root = check(file, read(file, EXPECTED))
+    changed = _flattened(root) + _placed(file, root)
     unread: list[str] = []
-    with _quiet():
+    with quiet():
         try:
-            scenario, problems = CommonRoadFileReader(os.fspath(file)).open()
+            scenario, problems = _reread(root) if changed else CommonRoadFileReader(os.fspath(file)).open()
         except Exception as error:  # its messages are of all kinds
             try:
                 scenario, problems = _bare(root)
@@ -75,9 +79,7 @@ def _bare(root: Any) -> tuple[Any, Any]:
     """The same of what a vehicle drives on and among alone: many a file has signs, lights and intersections that
     commonroad-io refuses, such as incomings of several intersections with one id, or no location and tags."""
     import copy
-    import tempfile
 
-    from commonroad.common.file_reader import CommonRoadFileReader
     from lxml import etree
 
     plain = copy.deepcopy(root)
@@ -86,10 +88,69 @@ def _bare(root: Any) -> tuple[Any, Any]:
     plain.insert(0, etree.Element("scenarioTags"))
     for name in ("author", "affiliation", "source", "tags", "date"):
         plain.set(name, plain.get(name) or "")
+    return _reread(plain)
+
+
+def _reread(root: Any) -> tuple[Any, Any]:
+    """Scenario and planning problems of an element, by way of a file: commonroad-io reads nothing else."""
+    import tempfile
+
+    from commonroad.common.file_reader import CommonRoadFileReader
+    from lxml import etree
+
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "plain.xml")
-        etree.ElementTree(plain).write(file)
+        etree.ElementTree(root).write(file)
         return CommonRoadFileReader(file).open()  # type: ignore[no-any-return]
+
+
+def _flattened(root: Any) -> int:
+    """Takes the heights off all points, for a road lies in the plane. Returns how many."""
+    heights = [each for tag in ("point", "center") for each in root.iterfind(f".//{tag}/z")]
+    for height in heights:
+        height.getparent().remove(height)
+    return len(heights)
+
+
+def _placed(file: str | os.PathLike[str], root: Any) -> int:
+    """Makes polygons of obstacles' shapes that have a center or an orientation of their own, which commonroad-io
+    passes over. Returns how many. Raises BadFile for such of other shapes."""
+    shapes = [each for kind in OBSTACLES for each in root.iterfind(f"{kind}/shape/*")]
+    count = 0
+    for shape in shapes:
+        given = [shape.find(name) for name in ("center/x", "center/y", "orientation")]
+        x, y, psi = (0.0 if each is None else _number(each.text) for each in given)
+        if x is None or y is None or psi is None:
+            raise BadFile(file, f"a <{shape.tag}> whose place is no number", "x, y and orientation", shape.sourceline)
+        if not (x or y or psi):
+            continue
+        shifted = _number(shape.findtext("originXShift") or "0") != 0
+        if shape.tag not in ("rectangle", "circle") or shifted:
+            found = f"a <{shape.tag}> with center or orientation" + (" and originXShift" if shifted else "")
+            raise BadFile(file, found, "those of a rectangle or a circle, without a shift", shape.sourceline)
+        shape.getparent().replace(shape, _polygon(shape, x, y, psi))
+        count += 1
+    return count
+
+
+def _polygon(shape: Any, x: float, y: float, psi: float) -> Any:
+    """The corners of a rectangle or about a circle, turned by `psi` and moved to (x, y), as an element."""
+    from lxml import etree
+
+    if shape.tag == "circle":
+        angles = [2 * math.pi * k / CORNERS for k in range(CORNERS)]
+        outside = float(shape.findtext("radius")) / math.cos(math.pi / CORNERS)
+        corners = [(outside * math.cos(angle), outside * math.sin(angle)) for angle in angles]
+    else:
+        half = [float(shape.findtext(name)) / 2 for name in ("length", "width")]
+        corners = [(a * half[0], b * half[1]) for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+    c, s = math.cos(psi), math.sin(psi)
+    polygon = etree.Element("polygon")
+    for a, b in corners:
+        point = etree.SubElement(polygon, "point")
+        etree.SubElement(point, "x").text = repr(x + c * a - s * b)
+        etree.SubElement(point, "y").text = repr(y + s * a + c * b)
+    return polygon
 
 
 def _complete(root: Any, problems: dict[int, Any]) -> None:
@@ -133,6 +194,8 @@ def check(file: str | os.PathLike[str], content: bytes) -> Any:
     for problem in root.iter("planningProblem"):
         if problem.find("initialState/position") is None:
             raise BadFile(file, "a planningProblem without initialState and position", "a start", problem.sourceline)
+        if problem.find("initialState/time/exact") is None:
+            raise BadFile(file, "a planningProblem that begins at no exact time", "a time step", problem.sourceline)
     return root
 
 
@@ -198,8 +261,8 @@ def _number(text: str | None) -> float | None:
 
 
 @contextlib.contextmanager
-def _quiet() -> Iterator[None]:
-    """Without the reader's own lines on old formats, which say nothing of this file alone."""
+def quiet() -> Iterator[None]:
+    """Without the reader's own lines, which say nothing of this file alone."""
     before = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
     try:
