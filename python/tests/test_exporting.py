@@ -1,10 +1,13 @@
 """Drives in other formats are read back by the packages of those formats; bad folders are refused."""
 
+import csv
+import dataclasses
 import json
 import os
 import pathlib
 import shutil
 import subprocess
+import types
 
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ import scenes
 import slalom
 from slalom import exporting
 from slalom.exporting import __main__ as command
+from slalom.exporting import _rerun
 from slalom.exporting._shapes import believed, moves
 
 PROGRAM = os.environ.get("SLALOM") or str(pathlib.Path(slalom.__file__).parent / "bin" / "slalom")
@@ -37,6 +41,20 @@ def folder(tmp_path_factory):
     return base / "out"
 
 
+def with_cycles(folder, copy, change):
+    """A copy of a drive, the rows of its cycles.csv changed."""
+    shutil.copytree(folder, copy)
+    with open(folder / "cycles.csv", encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    names = list(rows[0])
+    change(rows)
+    with open(copy / "cycles.csv", "w", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, names, lineterminator="\n", extrasaction="ignore")
+        writer.writeheader()
+        writer.writerows(rows)
+    return copy
+
+
 def messages(file):
     reader = pytest.importorskip("mcap.reader", reason="needs the extra slalom[mcap]")
     with open(file, "rb") as stream:
@@ -58,7 +76,7 @@ def test_mcap_is_read_back(folder, tmp_path):
         for column in columns:
             np.testing.assert_array_equal([row[column] for row in rows], drive.plant[column])
     assert len([1 for _, topic, *_ in found if topic == "/cycle"]) == len(drive.cycles)
-    assert len([1 for _, topic, *_ in found if topic == "/plan"]) == len(drive.plans)
+    assert len([1 for _, topic, *_ in found if topic == "/plan"]) == len(drive.driven()) > 3
     assert [time for _, _, time, _ in found] == sorted(time for _, _, time, _ in found)
 
 
@@ -109,6 +127,68 @@ def test_what_a_plan_expects(folder):
     assert believed(drive, car, 0.0, np.array([0.5, 2.5])) == [None, pytest.approx(car.pose_at(2.5)[:3])]
 
 
+@pytest.mark.parametrize("rule", ["known", "constant_velocity", "constant_turn"])
+def test_what_a_plan_expects_of_held_obstacles(folder, rule):
+    drive = exporting.read_drive(folder)
+    held = {"planner.moving_avoidance": False, "planner.prediction": rule}
+    drive = dataclasses.replace(drive, scenario=drive.scenario.replace(set=held))
+    for obstacle in drive.scenario.obstacles:
+        expected = [pytest.approx(obstacle.pose_at(1.5)[:3])] * 2
+        assert believed(drive, obstacle, 1.5, np.array([1.5, 2.5])) == expected
+    car = next(o for o in drive.scenario.obstacles if o.name == "car")
+    assert believed(drive, car, 0.5, np.array([1.5])) == [None]
+
+
+def test_plans_that_were_not_driven_are_not_shown(folder, tmp_path):
+    """Nor is one that came late shown from before it was driven."""
+    def change(rows):
+        rows[1]["used"] = "0"
+        rows[2]["t_swap"] = str(float(rows[2]["t_swap"]) + 0.125)
+        rows[3]["t_swap"] = str(float(rows[3]["t_swap"]) - 0.125)
+
+    before, drive = exporting.read_drive(folder), exporting.read_drive(with_cycles(folder, tmp_path / "copy", change))
+    begins = [float(plan["t_start"][0]) for plan in before.plans]
+    assert [row["cycle"] for _, row, _ in before.driven()][:4] == [1, 2, 3, 4]
+    expected = [begins[0], begins[2] + 0.125, begins[3]]
+    assert [t for t, _, _ in drive.driven()][:3] == pytest.approx(expected)
+    assert [row["cycle"] for _, row, _ in drive.driven()][:3] == [1, 3, 4]
+
+    shown = []
+    recording = types.SimpleNamespace(set_time=lambda _, duration: shown.append(duration), log=lambda *_: None)
+    _rerun._plans(types.SimpleNamespace(LineStrips2D=lambda *_, **__: None), recording, drive)
+    assert shown[:3] == pytest.approx(expected) and len(shown) == len(drive.driven())
+
+    pytest.importorskip("mcap", reason="needs the extra slalom[mcap]")
+    exporting.mcap(tmp_path / "copy", tmp_path / "drive.mcap")
+    times = [time * 1e-9 for _, topic, time, _ in messages(tmp_path / "drive.mcap") if topic == "/plan"]
+    assert times[:3] == pytest.approx(expected) and len(times) == len(drive.driven())
+
+
+def test_names_with_ends_of_lines_of_unicode(folder, tmp_path):
+    def change(rows):
+        rows[1]["passage_obstacle"] = "a\u2028b\u0085c"
+
+    assert exporting.read_drive(with_cycles(folder, tmp_path / "copy", change)).cycles[1]["passage_obstacle"] == "a\u2028b\u0085c"
+
+
+def without_column(name):
+    def damage(copy):
+        with open(copy / "cycles.csv", encoding="utf-8", newline="") as stream:
+            rows = list(csv.reader(stream))
+        k = rows[0].index(name)
+        (copy / "cycles.csv").write_text("".join(",".join(row[:k] + row[k + 1:]) + "\n" for row in rows))
+    return damage
+
+
+def in_row(number, name, cell):
+    def damage(copy):
+        with open(copy / "cycles.csv", encoding="utf-8", newline="") as stream:
+            rows = list(csv.reader(stream))
+        rows[number][rows[0].index(name)] = cell
+        (copy / "cycles.csv").write_text("".join(",".join(row) + "\n" for row in rows))
+    return damage
+
+
 def test_rerun(folder, tmp_path):
     pytest.importorskip("rerun", reason="needs the extra slalom[rerun]")
     exporting.rerun(folder, tmp_path / "drive.rrd")
@@ -148,6 +228,18 @@ def test_a_commonroad_solution(tmp_path):
     (lambda f: (f / "plant.csv").write_text("t,x\n1,2\n"), "plant.csv:1: found no column y"),
     (lambda f: (f / "plant.csv").write_text((f / "plant.csv").read_text()[:-20]), "cells, expected 16"),
     (lambda f: (f / "plant.csv").write_text((f / "plant.csv").read_text().replace("0", "o")), "plant.csv"),
+    (lambda f: (f / "plant.csv").write_text((f / "plant.csv").read_text().replace("\n0,", "\n,", 1)), "plant.csv:2: found t nan"),
+    (lambda f: (f / "plans.csv").write_text((f / "plans.csv").read_text().replace("\n1,", "\none,", 1)), "plans.csv:2: found could not"),
+    (lambda f: (f / "cycles.csv").write_text((f / "cycles.csv").read_text().split("\n")[0] + "\n"), "cycles.csv: found no row of cycle 1"),
+    (without_column("cycle"), "cycles.csv:1: found no column cycle"),
+    (without_column("t0"), "cycles.csv:1: found no column t0"),
+    (without_column("t_swap"), "cycles.csv:1: found no column t_swap"),
+    (without_column("used"), "cycles.csv:1: found no column used"),
+    (without_column("status"), "cycles.csv:1: found no column status"),
+    (in_row(2, "t0", "soon"), "cycles.csv:3: found t0 'soon'"),
+    (in_row(2, "t0", "nan"), "cycles.csv:3: found t0 nan"),
+    (in_row(2, "t0", ""), "cycles.csv:3: found t0 ''"),
+    (lambda f: (f / "summary.json").write_text("[]"), "summary.json: found a list of JSON"),
     (lambda f: (f / "summary.json").write_text("{"), "summary.json: found no JSON"),
     (lambda f: (f / "resolved.yaml").write_text("name: [\n"), "resolved.yaml"),
 ])

@@ -136,15 +136,9 @@ def _scenes(drive: Drive) -> Iterator[Entry]:
 
 
 def _plans(drive: Drive) -> Iterator[Entry]:
-    """Each cycle's plan from when it takes effect, and where it expects what moves."""
+    """Each plan that was driven, from when it was, and where it expects what moves."""
     moving = [o for o in drive.scenario.obstacles if moves(o, drive.t)]
-    for plan in drive.plans:
-        row = drive.cycle(int(plan["cycle"][0]))
-        t = float(
-            row["t_swap"]
-            if isinstance(row.get("t_swap"), float) and math.isfinite(row["t_swap"])
-            else plan["t_start"][0]
-        )
+    for t, row, plan in drive.driven():
         nodes = np.column_stack([plan["x"], plan["y"]])
         entities = [
             fox.entity(

@@ -101,9 +101,8 @@ def _moving(rerun: Any, recording: Any, drive: Drive) -> None:
 
 def _plans(rerun: Any, recording: Any, drive: Drive) -> None:
     moving = [o for o in drive.scenario.obstacles if moves(o, drive.t)]
-    for plan in drive.plans:
-        row = drive.cycle(int(plan["cycle"][0]))
-        recording.set_time(TIME, duration=min(float(plan["t_start"][0]), float(drive.t[-1])))
+    for t, row, plan in drive.driven():
+        recording.set_time(TIME, duration=min(t, float(drive.t[-1])))
         recording.log(
             "scene/plan", rerun.LineStrips2D([np.column_stack([plan["x"], plan["y"]])], colors=[41, 112, 217])
         )

@@ -47,11 +47,12 @@ def believed(
     """Where a plan made at `t0` expects an obstacle at `times`; None where it is not expected."""
     scenario = drive.scenario
     rule = scenario["planner.prediction"] if "planner.prediction" in scenario.keys() else "known"
+    # Held, of whatever shape and by whatever rule; a planner that verifies its plans moves them all the same.
+    if scenario["planner.method"] == "receding_horizon" and not scenario["planner.moving_avoidance"]:
+        times = np.full(len(times), t0)
     if not obstacle.present(t0) and rule != "known":
         return [None] * len(times)
     if rule == "known":
-        if obstacle.outline is None and not scenario["planner.moving_avoidance"]:
-            times = np.full(len(times), t0)
         return [
             (p[0], p[1], p[2]) if obstacle.present(float(t)) else None
             for t, p in ((t, obstacle.pose_at(float(t))) for t in times)
