@@ -22,10 +22,11 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// A job and how often it has been tried.
+/// A job and how its attempts ended so far.
 struct Attempt {
   PoolJob job;
-  int tries = 0;
+  int faults = 0;  ///< attempts that died or hung by themselves
+  int kills = 0;   ///< attempts that others ended: they say nothing of the job
 };
 
 class Pool {
@@ -36,7 +37,7 @@ class Pool {
     for (;;) {
       if (hooks_.interrupted && hooks_.interrupted()) return false;
       staff();
-      if (seats_.empty()) return true;
+      if (seats_.empty() && !later_) return true;
       wait();
       if (hooks_.tick) hooks_.tick();
     }
@@ -53,26 +54,27 @@ class Pool {
 
   /// Looks one job ahead, so that no worker is started for nothing.
   bool job_waits() {
-    if (waiting_.empty() && !exhausted_) {
-      if (auto job = hooks_.next()) {
-        waiting_.push_back({std::move(*job), 0});
-      } else {
-        exhausted_ = true;
-      }
+    if (waiting_.empty() && !exhausted_ && !later_) {
+      auto job = hooks_.next();
+      exhausted_ = !job;
+      later_ = job && job->line.empty();
+      if (job && !later_) waiting_.push_back({std::move(*job)});
     }
     return !waiting_.empty();
   }
 
   /// Gives every idle worker a job or dismisses it, and starts workers while jobs wait.
   void staff() {
+    later_ = false;
     for (std::size_t i = 0; i < seats_.size();) {
       auto& seat = seats_[i];
       if (seat.ready && !seat.attempt) {
-        if (!job_waits()) {
+        if (job_waits()) {
+          assign(seat);
+        } else if (!later_) {
           seats_.erase(seats_.begin() + static_cast<std::ptrdiff_t>(i));
           continue;
         }
-        assign(seat);
       }
       ++i;
     }
@@ -89,11 +91,11 @@ class Pool {
   void assign(Seat& seat) {
     seat.attempt = std::move(waiting_.front());
     waiting_.pop_front();
-    ++seat.attempt->tries;
     seat.since = Clock::now();
+    const auto& attempt = *seat.attempt;
     if (hooks_.started)
-      hooks_.started(seat.attempt->job.id, seat.worker->process(), seat.attempt->tries);
-    seat.worker->send(seat.attempt->job.line);
+      hooks_.started(attempt.job.id, seat.worker->process(), attempt.faults + attempt.kills + 1);
+    seat.worker->send(attempt.job.line);
   }
 
   /// Waits for a worker to say something, to die or to run out of time.
@@ -104,7 +106,8 @@ class Pool {
       polled.push_back({seat.worker->socket(), static_cast<short>(POLLIN | write), 0});
       polled.push_back({seat.worker->message_pipe(), POLLIN, 0});
     }
-    if (::poll(polled.data(), polled.size(), kTick) < 0) return;  // a signal
+    const int longest = later_ ? 0 : kTick;
+    if (::poll(polled.data(), polled.size(), longest) < 0) return;  // a signal
     for (std::size_t i = 0; i < seats_.size(); ++i) {
       if (polled[2 * i + 1].revents != 0) seats_[i].worker->receive_messages();
       if ((polled[2 * i].revents & POLLOUT) != 0) seats_[i].worker->flush();
@@ -145,13 +148,17 @@ class Pool {
     if (!seat.attempt) return;
     auto attempt = std::move(*seat.attempt);
     if (hooks_.retried) hooks_.retried(attempt.job.id, end.text);
-    if (attempt.tries <= settings_.retries)
+    ++(end.killed ? attempt.kills : attempt.faults);
+    if (attempt.faults > settings_.retries) {
+      const auto count = attempt.faults == 1
+                             ? "1 attempt: "
+                             : fmt::format("{} attempts; the last: ", attempt.faults);
+      hooks_.failed(attempt.job.id, count + end.text);
+    } else if (attempt.kills <= settings_.retries) {
       waiting_.push_front(std::move(attempt));
-    else if (!end.killed)
-      hooks_.failed(attempt.job.id,
-                    fmt::format("{} attempts; the last: {}", attempt.tries, end.text));
-    else if (hooks_.left)
+    } else if (hooks_.left) {
       hooks_.left(attempt.job.id);
+    }
   }
 
   const PoolSettings& settings_;
@@ -159,6 +166,7 @@ class Pool {
   std::vector<Seat> seats_;
   std::deque<Attempt> waiting_;
   bool exhausted_ = false;
+  bool later_ = false;  ///< what is next is not known yet
   int failed_starts_ = 0;
 };
 

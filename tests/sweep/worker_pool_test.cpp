@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "io/files.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::sweep {
@@ -103,6 +104,51 @@ TEST(WorkerPool, AKillByOthersIsNoFailure) {
   EXPECT_TRUE(run.failed.empty());
   EXPECT_EQ(run.left, (std::set<std::int64_t>{1, 3, 4, 5, 6}));
   for (const std::int64_t id : run.left) EXPECT_EQ(run.attempts.at(id), 2);
+}
+
+/// A worker that ends by the signals of a job, one an attempt: "SEGV KILL SEGV".
+PoolSettings by_turns(const test::TemporaryFolder& folder) {
+  auto settings = shell(1);
+  settings.command[2] = "cd " + folder.path().string() +
+                        "; echo ready; read -r line; echo >> tries; set -- $line; "
+                        "shift $(($(wc -l < tries) - 1)); kill -s $1 $$; sleep 1000";
+  return settings;
+}
+
+TEST(WorkerPool, KillsByOthersDoNotCountAgainstAJobNorItsFaultsAmongTheKills) {
+  {
+    const test::TemporaryFolder folder;
+    const PoolRun run(by_turns(folder), {"KILL SEGV SEGV"});
+    EXPECT_EQ(run.attempts.at(0), 3);
+    EXPECT_EQ(run.failed.at(0),
+              "2 attempts; the last: the worker was killed by signal 11 (Segmentation fault)");
+  }
+  const test::TemporaryFolder folder;
+  const PoolRun run(by_turns(folder), {"SEGV KILL KILL"});
+  EXPECT_EQ(run.attempts.at(0), 3);
+  EXPECT_EQ(run.left, std::set<std::int64_t>{0});
+  EXPECT_TRUE(run.failed.empty());
+}
+
+TEST(WorkerPool, AsksAgainWhereWhatIsNextIsNotKnownYet) {
+  for (const int workers : {1, 3}) {
+    int asked = 0;
+    std::set<std::int64_t> done;
+    PoolHooks hooks;
+    hooks.next = [&]() -> std::optional<PoolJob> {
+      ++asked;
+      if (asked > 60) return std::nullopt;
+      return asked % 3 == 0 ? PoolJob{asked, "job"} : PoolJob{};
+    };
+    hooks.done = [&](std::int64_t id, const std::string&) { done.insert(id); };
+    EXPECT_TRUE(run_pool(shell(workers), hooks));
+    EXPECT_EQ(done.size(), 20U);
+    EXPECT_EQ(asked, 61);
+    asked = 0;
+    hooks.next = [] { return PoolJob{}; };
+    hooks.interrupted = [&] { return ++asked > 5; };
+    EXPECT_FALSE(run_pool(shell(workers), hooks));
+  }
 }
 
 TEST(WorkerPool, LongLinesPassWhole) {

@@ -8,7 +8,8 @@
 
 namespace slalom::sweep {
 
-/// One job: a line of text for a worker, which answers with one line.
+/// One job: a line of text for a worker, which answers with one line. An empty line: what is next
+/// is not known yet, ask again.
 struct PoolJob {
   std::int64_t id = 0;
   std::string line;  ///< without line break
@@ -19,7 +20,9 @@ struct PoolSettings {
   /// with one line, and ends when its input does.
   std::vector<std::string> command;
   int workers = 1;
-  int retries = 2;          ///< how often a job is tried again whose worker died or hung
+  /// How often a job is tried again whose worker died or hung; as often, counted by itself, one
+  /// whose worker others killed.
+  int retries = 2;
   double time_limit = 600;  ///< of one attempt [s]; then the worker counts as hung and is killed
 };
 
@@ -32,8 +35,8 @@ struct PoolHooks {
   /// An attempt that came to nothing; the last one of a job is followed by `failed` or `left`.
   std::function<void(std::int64_t id, const std::string& reason)> retried;
   std::function<void(std::int64_t id, const std::string& reason)> failed;
-  /// The worker of the last attempt was killed by others (out of memory, a batch system, a person),
-  /// which says nothing of the job.
+  /// Others killed the worker too often (out of memory, a batch system, a person), which says
+  /// nothing of the job.
   std::function<void(std::int64_t id)> left;
   std::function<void()> tick;         ///< several times a second
   std::function<bool()> interrupted;  ///< polled; true ends the run at once
