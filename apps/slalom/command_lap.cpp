@@ -61,6 +61,11 @@ int lap(const LapOptions& options) {
     throw InvalidValue(scenario.name, "a scenario without a road",
                        "a section `road` that is closed", {"road"});
   planner::LapSettings settings;
+  if (options.interval < planner::least_lap_interval(*scenario.road))
+    throw InvalidValue(
+        "--interval", fmt::format("{}", options.interval),
+        fmt::format("at least {:.3g} m for a road of {:.0f} m",
+                    planner::least_lap_interval(*scenario.road), scenario.road->length()));
   settings.interval = options.interval;
   settings.margin = options.margin;
   settings.max_meshes = options.max_meshes;
@@ -96,9 +101,11 @@ void add_lap(CLI::App& app, Command& run) {
   add_scenario(*command, options->common);
   add_overrides(*command, options->common, true);
   command->add_option("--interval", options->interval, "Of the first mesh along the road [m]")
+      ->check(no_nan())
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--margin", options->margin, "Kept from the road's edges [m]")
+      ->check(no_nan())
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--meshes", options->max_meshes, "Solved one after another, at the most")

@@ -160,6 +160,7 @@ void add_problems(CLI::App& app, Command& run) {
   command
       ->add_option("--tolerance", options->settings.tolerance,
                    "Of the refinement [1]; by default the problem's own, 1e-6")
+      ->check(no_nan())
       ->check(CLI::Range(1e-14, 0.1));
   command->add_flag("--fixed-mesh", options->fixed_mesh, "Solve on the first mesh alone");
   command->add_option("--backend", options->settings.backend, "NLP solver");

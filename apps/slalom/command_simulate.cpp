@@ -23,7 +23,7 @@ struct SimulateOptions : CommonOptions {
   double slow = std::numeric_limits<double>::infinity();  ///< record from this solve time on [s]
 };
 
-/// Writes solves and plans that failed or were slow, one file a cycle.
+/// Writes solves and plans that failed or were slow, each to a file of its own.
 class Recordings {
  public:
   Recordings(const SimulateOptions& options, const sim::Scenario& scenario)
@@ -46,7 +46,10 @@ class Recordings {
               write(io::to_json(io::RecordedMotion{scenario_, plan}));
             }};
   }
-  void next_cycle() { ++cycle_; }
+  void next_cycle() {
+    ++cycle_;
+    of_cycle_ = 0;
+  }
   std::string text() const {
     if (options_.record.empty()) return "";
     const bool verifies = scenario_.planner.method == planner::Method::verified;
@@ -56,14 +59,16 @@ class Recordings {
 
  private:
   void write(const std::string& text) {
-    const auto file = std::filesystem::path(options_.record) / fmt::format("cycle-{}.json", cycle_);
-    write_or_fail([&] { io::write_file(file, text); });
+    // A cycle may solve again and again, on finer meshes or for another way.
+    const auto name = ++of_cycle_ == 1 ? fmt::format("cycle-{}.json", cycle_)
+                                       : fmt::format("cycle-{}-{}.json", cycle_, of_cycle_);
+    write_or_fail([&] { io::write_file(std::filesystem::path(options_.record) / name, text); });
     ++count_;
   }
 
   const SimulateOptions& options_;
   const sim::Scenario& scenario_;
-  int cycle_, count_ = 0;
+  int cycle_, of_cycle_ = 0, count_ = 0;
 };
 
 int simulate(const SimulateOptions& options) {
@@ -115,6 +120,7 @@ void add_simulate(CLI::App& app, Command& run) {
       ->add_option("--record-slow", options->slow,
                    "Record solves of at least this thread time too [s]")
       ->needs(record)
+      ->check(no_nan())
       ->check(CLI::NonNegativeNumber);
   add_printing(*command, *options);
   add_expect(*command, *options, fmt::format("{}", fmt::join(sim::outcome_names(), ", ")));

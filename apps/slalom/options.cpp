@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -59,6 +60,16 @@ void add_expect(CLI::App& command, CommonOptions& options, const std::string& ou
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("OUTCOME[,...]");
+}
+
+CLI::Validator no_nan() {
+  return CLI::Validator(
+      [](std::string& text) {
+        double number = 0;
+        const bool is_nan = CLI::detail::lexical_cast(text, number) && std::isnan(number);
+        return is_nan ? fmt::format("found '{}', expected a number", text) : std::string();
+      },
+      "", "no_nan");
 }
 
 void check_expectations(const std::vector<std::string>& expect,

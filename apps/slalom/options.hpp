@@ -32,6 +32,9 @@ void add_output(CLI::App& command, CommonOptions& options);    ///< --out --forc
 void add_printing(CLI::App& command, CommonOptions& options);  ///< --json --quiet
 void add_expect(CLI::App& command, CommonOptions& options, const std::string& outcomes);
 
+/// For options that are real numbers: ranges let "nan" pass.
+CLI::Validator no_nan();
+
 /// Throws InvalidValue unless every expectation is one of `known`.
 void check_expectations(const std::vector<std::string>& expect,
                         const std::vector<std::string>& known);

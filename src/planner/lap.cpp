@@ -1,9 +1,12 @@
 #include "slalom/planner/lap.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
 #include "lap_problem.hpp"
+#include "slalom/base/error.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -52,8 +55,17 @@ ocp::Refined finer_and_finer(const LapProblem& lap, const LapSettings& settings)
 
 }  // namespace
 
+double least_lap_interval(const world::Road& road) {
+  constexpr double kMostIntervals = 100000;
+  return road.length() / kMostIntervals;
+}
+
 Lap fastest_lap(const world::Road& road, const vehicle::Parameters& vehicle,
                 const LapSettings& settings) {
+  // Neither NaN, which is no less, nor infinity makes a number of intervals.
+  if (!std::isfinite(settings.interval) || settings.interval < least_lap_interval(road))
+    throw InvalidValue("LapSettings::interval", fmt::format("{}", settings.interval),
+                       fmt::format("a finite length of at least {} m", least_lap_interval(road)));
   const LapProblem problem(road, vehicle, settings);
   Lap lap;
   lap.refined = finer_and_finer(problem, settings);

@@ -95,6 +95,13 @@ class BadInput(ProgramTest):
                 (["plan", "E_B", "--expect", "goal"], ["--expect: found 'goal'", "solved"]),
                 (["reproduce", "--set", "planner.NN=3"], ["--set planner.NN"]),
                 (["reproduce", "--expect", "papre"], ["--expect", "'paper'"]),
+                (["lap", "circuit", "--interval", "nan"], ["--interval: found 'nan', expected a number"]),
+                (["lap", "circuit", "--interval", "1e-9"], ["--interval: found 1e-09, expected at least"]),
+                (["lap", "circuit", "--interval", "inf"], ["--interval"]),
+                (["lap", "circuit", "--margin", "nan"], ["--margin: found 'nan'"]),
+                (["problems", "goddard", "--tolerance", "nan"], ["--tolerance: found 'nan'"]),
+                (["simulate", "E_B", "--record-failures", self.folder / "none", "--record-slow", "nan"],
+                 ["--record-slow: found 'nan'"]),
                 (["simulate", "E_B", "--json", "--quiet"], ["--quiet"])):
             with self.subTest(arguments):
                 self.assert_refused(run(*arguments), 2, *parts)

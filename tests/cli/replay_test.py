@@ -118,6 +118,16 @@ class Replay(ProgramTest):
                 for path in files:
                     self.assertEqual(run("replay", path).code, 0, path)
 
+    def test_each_of_several_solves_of_a_cycle_has_its_file(self):
+        folder = self.folder / "several"
+        result = run("simulate", "door", "--planner", "P_D", "--set", "planner.between_nodes=refine",
+                     *FAST[:-1], "--record-failures", folder, "--record-slow", "0")
+        self.assertEqual(result.code, 0, result.err)
+        files = sorted(path.name for path in folder.glob("*"))
+        self.assertIn(f" {len(files)} solves in ", result.out)
+        self.assertIn("cycle-0-2.json", files)
+        self.assertEqual(run("replay", folder / "cycle-0-2.json").code, 0)
+
     def test_bodies_that_turn(self):
         for planner in ("P_D", "P_E"):
             for prediction in ("known", "constant_velocity", "constant_turn"):

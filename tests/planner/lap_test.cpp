@@ -138,5 +138,14 @@ TEST(LinePlanner, DrivesALapInClosedLoopNearlyAsFastAndOnTheRoad) {
   EXPECT_GT(t - begun, best - tex);
 }
 
+TEST(Lap, AnIntervalThatMakesNoMeshIsRefused) {
+  const auto road = oval(60, 40, 6);
+  for (const double interval : {0.0, -6.0, 1e-9, std::nan(""), HUGE_VAL}) {
+    LapSettings settings;
+    settings.interval = interval;
+    EXPECT_THROW((void)fastest_lap(*road, body(), settings), InvalidValue) << interval;
+  }
+}
+
 }  // namespace
 }  // namespace slalom::planner

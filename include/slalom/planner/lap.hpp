@@ -32,7 +32,11 @@ struct Lap {
   std::vector<vehicle::Control> controls;
 };
 
-/// Throws InvalidValue for a road that has two ends or is narrower than the vehicle.
+/// The shortest interval of a first mesh [m]: one along a road has at most 100 000.
+double least_lap_interval(const world::Road& road);
+
+/// Throws InvalidValue for a road that has two ends or is narrower than the vehicle, and for an
+/// interval that is no number or shorter than least_lap_interval().
 Lap fastest_lap(const world::Road& road, const vehicle::Parameters& vehicle,
                 const LapSettings& settings = {});
 
