@@ -55,6 +55,7 @@ std::string json(const sim::Scenario& scenario, const planner::Lap& lap) {
 }
 
 int lap(const LapOptions& options) {
+  poll_interrupts();
   check_expectations(options.common.expect, kOutcomes);
   const auto scenario = io::load_scenario(options.common.request);
   if (!scenario.road)

@@ -22,6 +22,7 @@ struct MakeOptions {
 };
 
 int make_scenarios(const MakeOptions& options) {
+  poll_interrupts();
   std::vector<sim::Scenario> made;
   for (int index = 1; index <= options.count; ++index) {
     if (interrupted()) return kInterrupted;

@@ -43,6 +43,7 @@ std::string plan_text(const sim::Scenario& scenario, const sim::FirstPlan& first
 }
 
 int plan(const CommonOptions& options) {
+  poll_interrupts();
   check_expectations(options.expect, kOutcomes);
   const auto scenario = io::load_scenario(options.request);
   io::ResultsFolder folder;

@@ -45,17 +45,6 @@ std::string table_head() {
                      "paper");
 }
 
-/// Of each cycle, the median of its CPU times in several runs [s].
-std::vector<double> medians(const std::vector<std::vector<double>>& runs) {
-  std::vector<double> result;
-  for (std::size_t i = 0; i < runs.front().size(); ++i) {
-    std::vector<double> times;
-    for (const auto& run : runs) times.push_back(run.at(i));
-    result.push_back(sim::median(std::move(times)));
-  }
-  return result;
-}
-
 /// Drives, writes and prints one after the other.
 class Driver {
  public:
@@ -72,14 +61,15 @@ class Driver {
     hooks.interrupted = interrupted;
     one.drive = sim::drive(one.scenario, hooks);
     if (options_.repeats > 1 && one.drive.outcome != sim::Outcome::interrupted) repeat(one, hooks);
-    if (!kept) return one.drive.outcome != sim::Outcome::interrupted;
+    const bool whole = one.drive.outcome != sim::Outcome::interrupted && !interrupted();
+    if (!kept) return whole;
     if (options_.writes())
       write_or_fail(
           [&] { io::write_drive(fs::path(options_.out) / one.folder, one.scenario, one.drive); });
     as_paper_ &= printed == nullptr || paper::as_paper(one.drive, *printed);
     if (text_) print(row(one, printed));
     json_.push_back(nlohmann::ordered_json::parse(io::summary_json(one.scenario, one.drive)));
-    return one.drive.outcome != sim::Outcome::interrupted;
+    return whole;
   }
 
   bool text() const { return text_; }
@@ -92,9 +82,10 @@ class Driver {
     std::vector<std::vector<double>> runs = {sim::solve_times(one.drive, true)};
     for (int i = 1; i < options_.repeats; ++i) {
       const auto again = sim::drive(one.scenario, hooks);
-      if (again.outcome != sim::Outcome::interrupted) runs.push_back(sim::solve_times(again, true));
+      if (again.outcome == sim::Outcome::interrupted) break;
+      runs.push_back(sim::solve_times(again, true));
     }
-    one.cpu = medians(runs);
+    one.cpu = sim::cycle_medians(runs);
   }
 
   const ReproduceOptions& options_;
@@ -129,6 +120,7 @@ bool drive_all(paper::Reproduction& all, Driver& driver) {
 }
 
 int reproduce(const ReproduceOptions& options) {
+  poll_interrupts();
   check_expectations(options.expect, {"paper"});
   auto all = load(options);
   const fs::path out = options.out;

@@ -72,6 +72,7 @@ class Recordings {
 };
 
 int simulate(const SimulateOptions& options) {
+  poll_interrupts();
   check_expectations(options.expect, sim::outcome_names());
   const auto scenario = io::load_scenario(options.request);
   io::ResultsFolder folder;

@@ -25,6 +25,7 @@ struct ReportOptions {
 };
 
 int study_report(const ReportOptions& options) {
+  poll_interrupts();
   for (const auto trial : options.trials) {
     if (interrupted()) return kInterrupted;
     const auto drive = sweep::trial_drive(options.folder, trial, interrupted);

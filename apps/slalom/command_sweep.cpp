@@ -93,6 +93,7 @@ std::string end_text(const SweepOptions& options, const sweep::SweepSummary& s) 
 }
 
 int sweep(const SweepOptions& options) {
+  poll_interrupts();
   auto request = request_of(options);
   const auto study = sweep::load_study(options.study, options.overrides);
   SweepProgress progress(study.name, options.quiet);

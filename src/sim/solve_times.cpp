@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace slalom::sim {
 
@@ -27,6 +28,17 @@ double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto n = values.size();
   return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+std::vector<double> cycle_medians(const std::vector<std::vector<double>>& runs) {
+  std::vector<double> medians;
+  for (std::size_t i = 0; !runs.empty() && i < runs.front().size(); ++i) {
+    std::vector<double> times;
+    for (const auto& run : runs)
+      if (i < run.size()) times.push_back(run[i]);
+    medians.push_back(median(std::move(times)));
+  }
+  return medians;
 }
 
 double percentile(std::vector<double> values, double per_cent) {

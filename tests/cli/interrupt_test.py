@@ -66,6 +66,15 @@ class Interrupt(ProgramTest):
         self.assertEqual(result.code, 0, result.err)
         self.assertEqual(json.loads(result.out)["outcome"], "interrupted")
 
+    def test_commands_that_write_nothing_end_at_once(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number.name):
+                process = start("problems", "--all")
+                process.stdout.readline()  # the table's head: it is at work
+                result = interrupt(process, number)
+                self.assertLess(result.seconds, 2)
+                self.assertEqual((result.code, result.err), (130, ""))
+
     def test_reproduce_stops_where_it_is(self):
         out = self.folder / "out"
         process = start("reproduce", "--tex", "0.02", "--out", out)

@@ -36,5 +36,11 @@ TEST(SolveTimes, MedianAndGreatestOfUnsortedValues) {
   EXPECT_TRUE(std::isnan(greatest({})));
 }
 
+TEST(SolveTimes, MediansOfCyclesTakeRunsAsLongAsTheyAre) {
+  EXPECT_EQ(cycle_medians({{1, 4, 7}, {3}, {2, 6, 9, 9}}), (std::vector<double>{2, 5, 8}));
+  EXPECT_TRUE(cycle_medians({{}, {1}}).empty());
+  EXPECT_TRUE(cycle_medians({}).empty());
+}
+
 }  // namespace
 }  // namespace slalom::sim

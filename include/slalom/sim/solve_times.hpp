@@ -18,6 +18,9 @@ Unsolved unsolved(const Drive& drive);
 
 /// The mean of the middle two for an even number; NaN for none.
 double median(std::vector<double> values);
+/// Of each cycle of the first of several runs, the median of its times in those runs that had as
+/// many: runs that go by the clock may end earlier, or later.
+std::vector<double> cycle_medians(const std::vector<std::vector<double>>& runs);
 /// The least value that so many per cent of them do not exceed (nearest rank); NaN for none.
 double percentile(std::vector<double> values, double per_cent);
 /// NaN for no values.
