@@ -12,6 +12,7 @@
 #include "slalom/sweep/sweep_pages.hpp"
 #include "slalom/sweep/trial_drive.hpp"
 #include "sweep_server.hpp"
+#include "worker_command.hpp"
 
 namespace slalom::app {
 namespace {
@@ -28,12 +29,14 @@ int study_report(const ReportOptions& options) {
   poll_interrupts();
   for (const auto trial : options.trials) {
     if (interrupted()) return kInterrupted;
-    const auto drive = sweep::trial_drive(options.folder, trial, interrupted);
+    sweep::TrialDrive drive;
+    write_or_fail(
+        [&] { drive = sweep::trial_drive(options.folder, trial, worker_command(), interrupted); });
     if (drive.interrupted) return kInterrupted;
-    const char* how = !drive.again        ? "kept"
-                      : drive.as_recorded ? "driven again, as recorded"
-                                          : "driven again, and NOT as recorded";
-    print(fmt::format("trial {}: {} ({})\n", trial, (drive.folder / "report.html").string(), how));
+    print(fmt::format(
+        "trial {}: {} ({}, {})\n", trial, (drive.folder / "report.html").string(),
+        drive.again ? "driven again" : "kept",
+        drive.difference.empty() ? "as recorded" : "NOT as recorded: " + drive.difference));
   }
   write_or_fail([&] { sweep::write_sweep_report(options.folder, paper::published_sweep()); });
   print(fmt::format("written to {}/index.html\n", options.folder));
@@ -49,8 +52,8 @@ void add_study_report(CLI::App& app, Command& run) {
   command->add_option("DIR", options->folder, "Folder of a sweep")->required();
   command
       ->add_option("--trial", options->trials,
-                   "Drive these trials again, to the same bits, into DIR/drives/, where they were "
-                   "not kept")
+                   "Drive these trials again into DIR/drives/, where they were not kept: to the "
+                   "same bits, unless they go by the clock")
       ->type_name("N[,...]")
       ->delimiter(',');
   command

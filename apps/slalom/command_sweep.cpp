@@ -11,6 +11,7 @@
 #include "slalom/sweep/open_sweep.hpp"
 #include "slalom/sweep/sweep.hpp"
 #include "sweep_progress.hpp"
+#include "worker_command.hpp"
 
 namespace slalom::app {
 namespace {
@@ -48,8 +49,7 @@ sweep::SweepRequest request_of(const SweepOptions& options) {
   request.resume = options.resume;
   request.force = options.force;
   request.again_failed = !options.again.empty();
-  // This very program, also when its file has been replaced meanwhile.
-  request.worker = {"/proc/self/exe", "sweep-worker"};
+  request.worker = worker_command();
   return request;
 }
 

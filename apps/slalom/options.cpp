@@ -88,6 +88,8 @@ int exit_code_for(const std::string& outcome, const std::vector<std::string>& ex
 void write_or_fail(const std::function<void()>& write) {
   try {
     write();
+  } catch (const InvalidValue&) {
+    throw;  // what was given is at fault, not where it goes
   } catch (const Error& error) {
     throw OutputError(error.what());
   }

@@ -42,7 +42,8 @@ void check_expectations(const std::vector<std::string>& expect,
 /// The exit code of a run that ended with `outcome`.
 int exit_code_for(const std::string& outcome, const std::vector<std::string>& expect);
 
-/// Runs what writes files; an Error becomes an OutputError.
+/// Runs what writes files; an Error becomes an OutputError, but for an InvalidValue, which is one
+/// of the input.
 void write_or_fail(const std::function<void()>& write);
 
 /// Prints to stdout; throws OutputError when stdout takes no more.

@@ -12,14 +12,18 @@
 #include <string>
 #include <vector>
 
+#include "../../src/report/html.hpp"
 #include "http_server.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/sweep/trial_drive.hpp"
+#include "worker_command.hpp"
 
 namespace slalom::app {
 namespace {
+
+constexpr const char* kAnyway = "anyway";  ///< asks for a drive's page, whatever was recorded
 
 /// Digits that no other program can guess.
 std::string random_token() {
@@ -95,7 +99,18 @@ Descriptor open_below(const std::filesystem::path& folder, const std::vector<std
   return at;
 }
 
-/// Drives what was not kept, one at a time: the instruction set is the process's.
+/// A page before the drive's own, which says in what it is not what the sweep recorded.
+std::string page_before(std::int64_t trial, const std::string& difference) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n<title>Trial {0}</title>\n"
+      "<p>This drive of trial {0} is not, or not for certain, the one that the sweep recorded: "
+      "{1}.\n"
+      "<p>Drives that go by the clock differ from run to run, and a trial recorded as failed has "
+      "no drive to compare with.\n<p><a href=\"report.html?{2}\">Open it anyway</a>\n</html>\n",
+      trial, report::escape(difference), kAnyway);
+}
+
+/// Drives what was not kept, one at a time.
 class Drives {
  public:
   explicit Drives(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -115,7 +130,7 @@ class Drives {
  private:
   HttpAnswer drive(std::int64_t trial) const {
     try {
-      (void)sweep::trial_drive(folder_, trial, interrupted);
+      (void)sweep::trial_drive(folder_, trial, worker_command(), interrupted);
       return {};
     } catch (const InvalidValue& error) {
       return {404, {}, error.what()};
@@ -144,18 +159,25 @@ class Pages {
       return HttpAnswer{403, {}, "only this page's own requests are answered\n"};
     if (!is_among(request.method, {"GET", "HEAD"}))
       return HttpAnswer{405, {}, "only GET and HEAD are answered\n"};
-    auto path = request.target.substr(0, request.target.find_first_of("?#"));
+    const auto query = request.target.find_first_of("?#");
+    const auto path = request.target.substr(0, query);
     if (!path.starts_with(root_))
       return HttpAnswer{403, {}, "the address is the one that 'slalom study-report' printed\n"};
     const auto parts = parts_of(path.substr(root_.size()));
     if (!is_known(parts)) return HttpAnswer{404, {}, "no such page\n"};
-    if (auto file = found(parts)) return file;
-    if (parts.back() != "report.html" || !may_drive(request))
-      return HttpAnswer{404, {}, "no such page\n"};
-    auto made = drives_.make(trial_of(parts[1]));
-    if (!made || made->status != 200) return made;
-    if (auto file = found(parts)) return file;
-    return HttpAnswer{404, {}, "the drive did not come to its end\n"};
+    auto file = found(parts);
+    const bool is_drive = parts.back() == "report.html";
+    if (!file && is_drive && may_drive(request)) {
+      auto made = drives_.make(trial_of(parts[1]));
+      if (!made || made->status != 200) return made;
+      file = found(parts);
+      if (!file) return HttpAnswer{404, {}, "the drive did not come to its end\n"};
+    }
+    if (!file) return HttpAnswer{404, {}, "no such page\n"};
+    const bool anyway = query != std::string::npos && request.target.substr(query + 1) == kAnyway;
+    if (is_drive && !anyway)
+      if (auto other = before(trial_of(parts[1]))) return other;
+    return file;
   }
 
  private:
@@ -165,6 +187,17 @@ class Pages {
     if (answer.file.number() < 0) return {};
     answer.type = types().at(extension_of(parts.back()));
     return answer;
+  }
+
+  /// What is answered before a drive that is not as recorded.
+  std::optional<HttpAnswer> before(std::int64_t trial) const {
+    try {
+      const auto kept = sweep::kept_drive(folder_, trial);
+      if (!kept || kept->difference.empty()) return {};
+      return HttpAnswer{200, types().at(".html"), page_before(trial, kept->difference)};
+    } catch (const Error& error) {
+      return HttpAnswer{200, types().at(".html"), page_before(trial, error.what())};
+    }
   }
 
   /// Not of a page elsewhere, whose name leads here (DNS rebinding) or which asks across origins.

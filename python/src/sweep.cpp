@@ -95,6 +95,8 @@ void bind_open_sweep(nb::module_& module) {
           "next",
           [](const Sweep& s) -> std::optional<std::pair<std::int64_t, std::string>> {
             auto job = s.sweep().next();
+            for (; job && job->trial == 0; job = s.sweep().next())
+              if (PyErr_CheckSignals() != 0) throw nb::python_error();
             if (!job) return std::nullopt;
             return std::pair(job->trial, std::move(job->order));
           },

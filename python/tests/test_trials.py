@@ -61,9 +61,9 @@ def test_parquet_is_written_through_no_link(folder, tmp_path):
 
 
 def test_a_folder_without_a_sweep_is_refused(tmp_path):
-    with pytest.raises(slalom.Error, match="holds no results of a sweep"):
+    with pytest.raises(slalom.Error, match="no results of a sweep"):
         slalom.read_trials(tmp_path)
-    with pytest.raises(slalom.Error, match="holds no results of a sweep"):
+    with pytest.raises(slalom.Error, match="no results of a sweep"):
         slalom.write_parquet(tmp_path, tmp_path / "t.parquet")
     assert list(tmp_path.iterdir()) == []
 

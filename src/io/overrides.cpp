@@ -133,6 +133,16 @@ void apply_setting(const std::string& path, const Place& place, const Value& val
   apply(a, scenario, places);
 }
 
+std::optional<OptionInfo> option_at(const std::string& path, sim::Scenario scenario) {
+  Assignment a;
+  split_path(path, a);
+  const auto* found = find_section(a.section);
+  if (found == nullptr) return std::nullopt;
+  const auto section = found->bind(scenario);
+  const auto* field = section.find(a.key);
+  return field != nullptr ? std::optional(field->info) : std::nullopt;
+}
+
 void try_settings(const std::string& path, const Place& place,
                   const std::vector<const Value*>& values, sim::Scenario scenario) {
   Assignment a;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,6 +21,10 @@ void apply_setting(const std::string& path, const Place& place, const Value& val
 
 /// The vehicle's settings that assignments or key paths name, without their section.
 std::set<std::string> stated_of_vehicle(const std::vector<std::string>& assignments);
+
+/// The option that a key path names, but for obstacles and the scenario's name and title; nothing
+/// where there is none.
+std::optional<OptionInfo> option_at(const std::string& path, sim::Scenario scenario);
 
 /// Sets each of several values of one key, one after the other, for what is thrown alone.
 void try_settings(const std::string& path, const Place& place,

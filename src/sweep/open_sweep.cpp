@@ -7,12 +7,17 @@
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "store_reader.hpp"
+#include "sweep_files.hpp"
 #include "sweep_folder.hpp"
 #include "trial_message.hpp"
 
 namespace slalom::sweep {
 namespace fs = std::filesystem;
 namespace {
+
+/// Trials recorded as invalid one after the other, before whoever asks for the next may do
+/// something else: there may be a million.
+constexpr int kMostInvalid = 100;
 
 /// What a store says of its study, and the bases it keeps.
 struct Stated {
@@ -30,6 +35,7 @@ Stated stated(const Study& study) {
   table.scenarios = study.scenarios;
   table.planners = study.planners();
   table.columns = study.columns();
+  table.stated = study.stated;
   table.repeats = study.settings.repeats;
   table.size = study.size();
   return result;
@@ -44,9 +50,11 @@ class OpenSweep::Impl {
       : Impl(study, request, std::move(on_event), stated(study)) {}
 
   std::optional<TrialJob> next() {
+    int invalid = 0;
     for (; next_ <= study_.size(); next_ += request_.shards) {
       if (done_[static_cast<std::size_t>(next_)]) continue;
       if (request_.limit && given_ >= *request_.limit) return std::nullopt;
+      if (invalid >= kMostInvalid) return TrialJob{};
       ++given_;
       const auto number = next_;
       const auto trial = study_.trial(number);
@@ -64,6 +72,7 @@ class OpenSweep::Impl {
         record.outcome = "invalid";
         record.message = error.what();
         keep(number, std::move(record));
+        ++invalid;
       }
     }
     return std::nullopt;

@@ -57,6 +57,9 @@ void Database::fail(int code) const {
   // It quotes a damaged file's bytes.
   std::replace_if(
       reason.begin(), reason.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  // Damage is a fault of what was given; all else is one of the disk.
+  if (code == SQLITE_NOTADB || code == SQLITE_CORRUPT)
+    throw InvalidValue(name_, "a damaged file: " + reason, "the results of a sweep");
   throw Error(fmt::format("{}: {}", name_, reason));
 }
 

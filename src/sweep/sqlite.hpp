@@ -8,7 +8,8 @@
 
 namespace slalom::sweep {
 
-/// An open SQLite file. Every failure is an Error that names the file and SQLite's reason.
+/// An open SQLite file. Every failure is an Error that names the file and SQLite's reason, an
+/// InvalidValue where the file is damaged.
 class Database {
  public:
   enum class Mode { read, write };  ///< write: makes the file if need be, in WAL mode

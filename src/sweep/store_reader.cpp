@@ -136,13 +136,18 @@ SweepTable read_study(const Database& database, const fs::path& file) {
   // A process killed while it made the file leaves one that states nothing yet.
   if (!Statement(database, "SELECT 1 FROM sqlite_master WHERE name = 'study'").step()) return {};
   Statement format(database, "SELECT format FROM study");
-  if (!format.step()) throw Error(fmt::format("{}: states no study", file.string()));
-  if (format.integer(0) != kStoreFormat)
-    throw Error(fmt::format("{}: written by another version of Slalom (format {}, expected {})",
-                            file.string(), format.integer(0), kStoreFormat));
+  if (!format.step())
+    throw InvalidValue(file.string() + ": damaged", "no study stated", "the study of its trials");
+  if (format.integer(0) != kStoreFormat && format.integer(0) != kFormatBeforeStated)
+    throw InvalidValue(file.string(),
+                       fmt::format("format {}, of another version of Slalom", format.integer(0)),
+                       fmt::format("format {}", kStoreFormat));
+  const char* stated = format.integer(0) == kFormatBeforeStated ? "'[]' AS stated" : "stated";
   Statement statement(database,
-                      "SELECT name, title, scenarios, identity, kernels, planners, columns, "
-                      "repeats, size FROM study");
+                      fmt::format("SELECT name, title, scenarios, identity, kernels, planners, "
+                                  "columns, {}, repeats, size FROM study",
+                                  stated)
+                          .c_str());
   (void)statement.step();
   Row row(statement, file.string());
   SweepTable study;
@@ -158,6 +163,7 @@ SweepTable read_study(const Database& database, const fs::path& file) {
   study.planners = row.list();
   row.require(!study.planners.empty(), "none", "a list of planners");
   study.columns = row.list();
+  study.stated = row.list();
   study.repeats = static_cast<int>(row.integer(1, kMaxTrials));
   study.size = row.integer(1, kMaxTrials);
   return study;
@@ -220,7 +226,8 @@ std::optional<TrialRecord> TrialStream::next() {
   auto record = (*first)->take();
   if (!record) return std::nullopt;
   for (const auto& cursor : cursors_)
-    if (cursor->number() == record->trial) (void)cursor->take();
+    if (cursor->number() == record->trial)
+      if (auto other = cursor->take(); record->outcome == "failed") record = std::move(other);
   return record;
 }
 
@@ -248,8 +255,9 @@ std::string stored_base(const fs::path& file, std::int64_t number) {
   const auto bases = stored_bases(file);
   const auto count = static_cast<std::int64_t>(bases.size());
   if (number < 1 || number > study.size || count == 0 || study.size % count != 0)
-    throw Error(fmt::format("{}: trial {}: damaged: {} scenarios of {} trials", file.string(),
-                            number, count, study.size));
+    throw InvalidValue(fmt::format("{}: trial {}: damaged", file.string(), number),
+                       fmt::format("{} scenarios of {} trials", count, study.size),
+                       "as many trials of each scenario");
   // Bases vary slowest: each has as many trials as the others, one after the other.
   return bases.at(static_cast<std::size_t>((number - 1) / (study.size / count)));
 }

@@ -11,10 +11,12 @@
 
 namespace slalom::sweep {
 
-// What stands in stores, checked: who reads on may rely on it. All throw Error for a file that is
-// no store or was damaged, naming the file and, where it is a trial's, its number.
+// What stands in stores, checked: who reads on may rely on it. All throw InvalidValue for a file
+// that is no store or was damaged, naming the file and, where it is a trial's, its number; Error
+// where it cannot be read.
 
-/// The trials of several stores, one by one in trial order. Of equals the first store's comes.
+/// The trials of several stores, one by one in trial order. Of equals the first comes that has not
+/// failed, where there is one.
 class TrialStream {
  public:
   explicit TrialStream(const std::vector<std::filesystem::path>& stores);
@@ -36,7 +38,7 @@ report::SweepTable stored_study(const std::filesystem::path& file);
 /// What the axes of its study are crossed with, each as a resolved file; empty when the store
 /// states no study yet.
 std::vector<std::string> stored_bases(const std::filesystem::path& file);
-/// The one of them of which trial `number` is made. Throws Error where the store has none.
+/// The one of them of which trial `number` is made. Throws InvalidValue where the store has none.
 std::string stored_base(const std::filesystem::path& file, std::int64_t number);
 
 /// The trial of this number, if the store holds it.

@@ -52,12 +52,13 @@ class StudyLoader {
     if (const io::Value* title = root_.find("title")) study_.title = io::to_text(*title, "a title");
     io::Section("").add(study_options(), study_.settings).read(root_, places_, other_keys());
     bases_ = read_bases(root_, file_, overrides_, places_);
-    check_size(bases_.all.size());
-    check_size(static_cast<std::size_t>(study_.settings.repeats));
+    check_size(bases_.all.size(), "scenarios");
+    check_size(static_cast<std::size_t>(study_.settings.repeats), "repeats");
     if (const io::Value* axes = root_.find("axes")) read_axes(*axes);
     check_set_keys();
     study_.kernels = kernel_name(study_.settings.kernels);
     study_.scenarios = std::move(bases_.scenarios);
+    study_.stated = std::move(bases_.stated);
     study_.bases = std::move(bases_.all);
     return std::move(study_);
   }
@@ -73,14 +74,18 @@ class StudyLoader {
     if (list.kind == io::Value::Kind::null || list.kind != io::Value::Kind::sequence)
       throw InvalidValue(list.place.to_string(), list.describe(), "a list of axes");
     std::set<std::string> keys;
-    for (const auto& item : list.items) {
+    const auto option_of = [&](const std::string& key) {
+      return io::option_at(key, bases_.all.front());
+    };
+    for (auto item : list.items) {
+      take_in_files(item, option_of);
       auto placed = read_axis(item, study_.settings.seed, study_.axes.size());
       for (std::size_t i = 0; i < placed.axis.keys.size(); ++i)
         if (!keys.insert(placed.axis.keys[i]).second)
           throw InvalidValue(placed.keys[i].to_string(),
                              fmt::format("key '{}' a second time", placed.axis.keys[i]),
                              "each key on one axis");
-      check_size(placed.axis.points.size());
+      check_size(placed.axis.points.size(), item.place);
       try_values(placed);
       study_.axes.push_back(std::move(placed.axis));
     }
@@ -139,8 +144,14 @@ class StudyLoader {
     }
   }
 
+  /// Of a key of the study, which may be left out.
+  void check_size(std::size_t points, const std::string& key) {
+    const io::Value* value = root_.find(key);
+    check_size(points, value != nullptr ? value->place : root_.place);
+  }
+
   /// Before an axis is gone through, for a slip of a few digits makes billions.
-  void check_size(std::size_t points) {
+  void check_size(std::size_t points, const io::Place& place) {
     factors_.push_back(points);
     double size = 1;
     std::string product;
@@ -149,7 +160,7 @@ class StudyLoader {
       if (factor > 1) product += fmt::format("{}{}", product.empty() ? "" : " x ", factor);
     }
     if (size > static_cast<double>(kMaxTrials))
-      throw InvalidValue(file_.string(), fmt::format("{:.10g} trials ({})", size, product),
+      throw InvalidValue(place.to_string(), fmt::format("{:.10g} trials ({})", size, product),
                          fmt::format("at most {} in one study", kMaxTrials));
   }
 
@@ -238,18 +249,19 @@ Trial Study::trial(std::int64_t number) const {
 }
 
 sim::Scenario Study::resolve(const Trial& trial) const {
-  return resolve_trial(bases.at(trial.base), columns(), trial.values, trial.number);
+  return resolve_trial(bases.at(trial.base), {columns(), stated}, trial);
 }
 
-sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& keys,
-                            const std::vector<std::string>& values, std::int64_t number) {
-  const auto where = fmt::format("trial {}", number);
+sim::Scenario resolve_trial(sim::Scenario base, const TrialKeys& keys, const Trial& trial) {
+  const auto where = fmt::format("trial {}", trial.number);
   io::Places places;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const io::Place place{where + ": " + keys[i], 0, 0};
-    io::apply_setting(keys[i], place, io::parse_argument(values.at(i), place.source), base, places);
+  for (std::size_t i = 0; i < keys.axes.size(); ++i) {
+    const io::Place place{where + ": " + keys.axes[i], 0, 0};
+    io::apply_setting(keys.axes[i], place, io::parse_argument(trial.values.at(i), place.source),
+                      base, places);
   }
-  vehicle::derive(base.vehicle, io::stated_of_vehicle(keys));
+  vehicle::derive(base.vehicle, io::stated_of_vehicle(keys.axes),
+                  {keys.stated.begin(), keys.stated.end()});
   io::check_scenario(base, {where, 0, 0}, places);
   return base;
 }
@@ -271,6 +283,7 @@ std::string Study::identity(const std::vector<std::string>& resolved) const {
     for (std::size_t k = 0; k < axis.points.size(); ++k)
       for (const auto& value : axis.points[k]) digest.add(value);
   }
+  for (const auto& setting : stated) digest.add("stated").add(setting);
   return digest.hex();
 }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "../io/number_file.hpp"
 #include "../io/section.hpp"
 #include "axis_values.hpp"
 #include "slalom/base/options.hpp"
@@ -33,6 +35,12 @@ void add_value(const io::Value& value, std::size_t key, AxisPoints& points) {
   std::vector<std::string> items;
   for (const auto& item : value.items) items.push_back(fmt::format("{}", finite(item)));
   points.add(key, fmt::format("[{}]", fmt::join(items, ", ")));
+}
+
+io::Value* member_of(io::Value& map, const char* key) {
+  for (auto& member : map.members)
+    if (member.key == key) return &member.value;
+  return nullptr;
 }
 
 /// {from, to, count}: evenly spaced, both ends included and met exactly.
@@ -139,6 +147,37 @@ void check_form(const io::Value& map) {
 }
 
 }  // namespace
+
+void take_in_files(
+    io::Value& map,
+    const std::function<std::optional<OptionInfo>(const std::string& key)>& option_of) {
+  const auto take_in = [&](const io::Value& key, io::Value& value) {
+    if (value.kind != io::Value::Kind::scalar) return;
+    const auto option = option_of(key.text);
+    if (!option || option->kind != OptionKind::vector || option->length != 0) return;
+    io::Value list;
+    list.kind = io::Value::Kind::sequence;
+    list.place = value.place;
+    for (const double number : io::read_numbers(*option, value))
+      list.items.push_back(scalar(number, value.place));
+    value = std::move(list);
+  };
+  const io::Value *key = map.find("key"), *keys = map.find("keys");
+  if (io::Value* values = member_of(map, "values"))
+    for (auto& item : values->items) {
+      if (key != nullptr) take_in(*key, item);
+      if (keys == nullptr) continue;
+      for (std::size_t i = 0; i < std::min(keys->items.size(), item.items.size()); ++i)
+        take_in(keys->items[i], item.items[i]);
+    }
+  io::Value* draw = member_of(map, "draw");
+  io::Value* of = draw != nullptr ? member_of(*draw, "of") : nullptr;
+  if (of == nullptr) return;
+  for (auto& drawn : of->items)
+    if (io::Value* choice = member_of(drawn, "choice"); choice != nullptr)
+      if (const io::Value* name = drawn.find("key"))
+        for (auto& item : choice->items) take_in(*name, item);
+}
 
 PlacedAxis read_axis(const io::Value& map, int seed, std::size_t stream) {
   only(map, "an axis", {"key", "keys", "values", "range", "draw"});

@@ -62,6 +62,7 @@ class BaseReader {
   StudyBases read() {
     const auto scenarios = read_scenarios();
     const auto planners = read_planners();
+    read_stated();
     bases_.scenarios.resize(scenarios.size());
     for (std::size_t i = 0; i < scenarios.size(); ++i) add_scenario(i, scenarios[i], planners);
     return std::move(bases_);
@@ -107,9 +108,9 @@ class BaseReader {
     std::vector<Reference> found;
     const io::Value* planners = root_.find("planners");
     if (planners == nullptr) return found;
-    if (planners->kind != io::Value::Kind::sequence || planners->items.empty())
-      throw InvalidValue(planners->place.to_string(),
-                         planners->items.empty() ? "no planner" : planners->describe(),
+    const bool is_list = planners->kind == io::Value::Kind::sequence;
+    if (!is_list || planners->items.empty())
+      throw InvalidValue(planners->place.to_string(), is_list ? "no planner" : planners->describe(),
                          "a list of planners");
     for (const auto& planner : planners->items) found.push_back(referenced("planner", planner));
     return found;
@@ -150,19 +151,24 @@ class BaseReader {
   sim::Scenario load(const io::ScenarioRequest& request) {
     auto scenario = io::load_scenario(request);
     apply_to(bases_, scenario, [&] {
-      if (const io::Value* set = root_.find("set")) {
-        io::require_map(*set, "a map from key paths to values");
-        std::vector<std::string> keys;
-        for (const auto& member : set->members) {
+      if (const io::Value* set = root_.find("set"))
+        for (const auto& member : set->members)
           io::apply_setting(member.key, member.place, member.value, scenario, places_);
-          keys.push_back(member.key);
-        }
-        vehicle::derive(scenario.vehicle, io::stated_of_vehicle(keys));
-      }
       for (const auto& assignment : overrides_) io::apply_override(assignment, scenario, places_);
-      vehicle::derive(scenario.vehicle, io::stated_of_vehicle(overrides_));
     });
+    // Once, so that what one of the two states is not derived from the other.
+    vehicle::derive(scenario.vehicle, {bases_.stated.begin(), bases_.stated.end()});
     return scenario;
+  }
+
+  void read_stated() {
+    auto keys = overrides_;
+    if (const io::Value* set = root_.find("set")) {
+      io::require_map(*set, "a map from key paths to values");
+      for (const auto& member : set->members) keys.push_back(member.key);
+    }
+    const auto stated = io::stated_of_vehicle(keys);
+    bases_.stated.assign(stated.begin(), stated.end());
   }
 
   const io::Value& root_;

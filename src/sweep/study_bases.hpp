@@ -13,6 +13,7 @@ namespace slalom::sweep {
 struct StudyBases {
   std::vector<std::string> scenarios;  ///< by name, each once, in the study's order
   std::vector<sim::Scenario> all;      ///< each with each planner and `set`; planners vary fastest
+  std::vector<std::string> stated;     ///< settings of the vehicle that `set` or --set states
 };
 
 /// Reads `scenario:` or `scenarios:`, `planners:` and `set:` of the study `root` that stands in

@@ -1,5 +1,7 @@
 #include "slalom/sweep/sweep.hpp"
 
+#include "slalom/base/error.hpp"
+#include "slalom/base/kernels.hpp"
 #include "slalom/sweep/open_sweep.hpp"
 #include "slalom/sweep/worker_pool.hpp"
 
@@ -41,7 +43,15 @@ PoolHooks pool_hooks(OpenSweep& sweep, const SweepHooks& hooks,
 
 }  // namespace
 
+void check_kernels(const std::string& kernels) {
+  if (!has_kernels(kernel_set(kernels)))
+    throw InvalidValue("kernels", kernels,
+                       std::string("an instruction set that this processor has, such as ") +
+                           to_string(best_kernels()));
+}
+
 SweepSummary run_sweep(const Study& study, const SweepRequest& request, const SweepHooks& hooks) {
+  check_kernels(study.kernels);  // else every trial would fail
   OpenSweep sweep(study, request, hooks.on_event);
   const auto report = [&](SweepEvent event) {
     const auto summary = sweep.summary();

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "../io/file_set.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/io/drive_files.hpp"
 #include "store_reader.hpp"
+#include "sweep_files.hpp"
 #include "trials_csv.hpp"
 
 namespace slalom::sweep {
@@ -23,7 +23,8 @@ constexpr std::size_t kPart = 1 << 16;  ///< bytes of a table written at once
 /// Two stores of one study state the same trials.
 bool stated_alike(const report::SweepTable& a, const report::SweepTable& b) {
   return a.kernels == b.kernels && a.scenarios == b.scenarios && a.planners == b.planners &&
-         a.columns == b.columns && a.repeats == b.repeats && a.size == b.size;
+         a.columns == b.columns && a.stated == b.stated && a.repeats == b.repeats &&
+         a.size == b.size;
 }
 
 /// The study whose results stand in a folder; its identity is empty if there are none.
@@ -33,30 +34,34 @@ report::SweepTable study_in(const fs::path& folder) {
     auto study = stored_study(file);
     if (study.identity.empty()) continue;
     if (!found.identity.empty() && found.identity != study.identity)
-      throw Error(fmt::format("{}: holds the results of two studies, '{}' and '{}'",
-                              folder.string(), found.name, study.name));
+      throw InvalidValue(
+          folder.string(),
+          fmt::format("the results of two studies, '{}' and '{}'", found.name, study.name),
+          "those of one");
     if (!found.identity.empty() && !stated_alike(found, study))
-      throw Error(fmt::format("{}: damaged: states another study than the stores beside it",
-                              file.string()));
+      throw InvalidValue(file.string() + ": damaged", "another study than beside it",
+                         "the one that all stores of the folder state");
     found = std::move(study);
   }
   return found;
 }
 
-/// Whether a sweep may have left a file of this name.
-bool is_ours(const fs::path& file) {
-  const auto name = file.filename().string();
-  return name == "trials.csv" || name == "index.html" || name == "figures" || name == "drives" ||
-         (name.starts_with("trials") && name.find(".sqlite") != std::string::npos) ||
-         name.ends_with(".lock") || name.ends_with(".aside");
+/// Whether the folder holds results of this very study, undamaged.
+bool holds(const fs::path& folder, const report::SweepTable& study) {
+  try {
+    const auto found = study_in(folder);
+    return found.identity == study.identity && stated_alike(found, study);
+  } catch (const Error&) {
+    return false;
+  }
 }
 
-/// A name in the folder that no sweep left there; empty if there is none.
-std::string foreign_entry(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (!is_ours(entry.path())) return entry.path().filename().string();
-  return "";
+/// Throws Error where something stands in the folder that is no sweep's.
+void refuse_foreign(const fs::path& folder, OtherFiles other_files) {
+  if (const auto name = foreign_entry(folder, other_files); !name.empty())
+    throw Error(
+        fmt::format("{}: holds something else already ('{}'), expected an empty or new folder",
+                    folder.string(), name));
 }
 
 /// Throws Error unless the folder holds nothing, or results of the same study.
@@ -83,14 +88,11 @@ void check_sweep_folder(const fs::path& folder, const report::SweepTable& study,
                     "folder, or --force to replace what is there",
                     folder.string(), study.name));
   if (!found.identity.empty()) return;
-  if (const auto name = foreign_entry(folder); !name.empty())
-    throw Error(
-        fmt::format("{}: holds something else already ('{}'), expected an empty or new folder",
-                    folder.string(), name));
+  refuse_foreign(folder, OtherFiles::count);
 }
 
 /// The one study of several folders, of which some may hold nothing but a store that was killed as
-/// it was made.
+/// it was made. Throws InvalidValue where there are two, or none.
 report::SweepTable common_study(const std::vector<fs::path>& folders) {
   const auto is_empty = [](const fs::path& folder) {
     return !store_files(folder).empty() && study_in(folder).identity.empty();
@@ -101,40 +103,22 @@ report::SweepTable common_study(const std::vector<fs::path>& folders) {
   for (auto folder = first + 1; folder != folders.end(); ++folder) {
     if (is_empty(*folder)) continue;
     if (const auto study = study_of(*folder); study.identity != common.identity)
-      throw Error(fmt::format("{}: holds another study ('{}') than {} ('{}')", folder->string(),
-                              study.name, first->string(), common.name));
+      throw InvalidValue(folder->string(), fmt::format("another study, '{}'", study.name),
+                         fmt::format("'{}', as in {}", common.name, first->string()));
   }
   return common;
-}
-
-/// Copies the kept drives that `out` does not have.
-void copy_drives(const fs::path& folder, const fs::path& out) {
-  std::error_code error;
-  if (!fs::exists(folder / "drives", error) || fs::equivalent(folder, out, error)) return;
-  fs::copy(folder / "drives", out / "drives",
-           fs::copy_options::recursive | fs::copy_options::skip_existing, error);
-  if (error) throw Error(fmt::format("{}: {}", (out / "drives").string(), error.message()));
-}
-
-void remove_tree(const fs::path& path) {
-  std::error_code error;
-  fs::remove_all(path, error);
-  if (error) throw Error(fmt::format("{}: {}", path.string(), error.message()));
 }
 
 fs::path lock_file(const fs::path& store) {
   return store.parent_path() / ("." + store.stem().string() + ".lock");
 }
 
-/// The shard i/n whose store is locked by `.trials-i-of-n.lock`, 1/1 for `.trials.lock`; 0/0 for
-/// other files.
-std::pair<int, int> shard_of(const fs::path& lock) {
-  const auto name = lock.filename().string();
-  int shard = 0, shards = 0;
-  if (name == ".trials.lock") return {1, 1};
-  if (std::sscanf(name.c_str(), ".trials-%9d-of-%9d", &shard, &shards) != 2 || shards < 1)
-    return {0, 0};
-  return {shard, shards};
+/// The shard i/n whose store is locked by `.trials-i-of-n.lock`, 1/1 for `.trials.lock`; nothing
+/// for other files.
+std::optional<std::pair<int, int>> shard_of(const fs::path& lock) {
+  const auto name = lock.stem().string();
+  if (lock.extension() != ".lock" || !name.starts_with('.')) return std::nullopt;
+  return shard_of_store(name.substr(1) + ".sqlite");
 }
 
 /// Shards of a folder at which another process is at work.
@@ -145,8 +129,8 @@ Shards at_work(const fs::path& folder) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const auto shard = shard_of(entry.path());
-    if (shard.second != 0 && !io::FileLock(entry.path(), io::FileLock::Wait::no).held())
-      found.push_back(shard);
+    if (shard && !io::FileLock(entry.path(), io::FileLock::Wait::no).held())
+      found.push_back(*shard);
   }
   return found;
 }
@@ -160,25 +144,6 @@ void check_apart(const Shards& shards, const SweepRequest& request,
     if (shares || stored_study(store).identity != study.identity)
       throw Error(fmt::format("{}: another sweep is at work on it", store.string()));
   }
-}
-
-/// Removes what sweeps left in the folder, nothing else.
-void clear_sweep_folder(const fs::path& folder) {
-  std::vector<fs::path> ours;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_ours(entry.path()) && entry.path().extension() != ".lock") ours.push_back(entry.path());
-  for (const auto& path : ours) remove_tree(path);
-}
-
-/// Removes what is there of the trials of one shard, for other shards are at work.
-void clear_shard(const fs::path& folder, int shard, int shards) {
-  for (const auto& store : store_files(folder)) forget_trials(store, shard, shards);
-  std::vector<fs::path> ours;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder / "drives", error))
-    if ((std::atoll(entry.path().filename().c_str()) - shard) % shards == 0)
-      ours.push_back(entry.path());
-  for (const auto& path : ours) remove_tree(path);
 }
 
 /// What the stores of several folders keep of their study's scenarios: a store that was killed as
@@ -201,15 +166,20 @@ HeldStore open_store(const SweepRequest& request, const report::SweepTable& stud
   const io::FileLock beginning(folder, io::FileLock::Wait::yes);
   const auto working = at_work(folder);
   check_apart(working, request, study);
-  const bool anew = request.force && working.empty();
-  if (!anew) check_sweep_folder(folder, study, request.resume);
+  // Of the same study the results of other shards stay, whether these are at work or have ended.
+  const bool anew =
+      request.force && working.empty() && !(request.shards > 1 && holds(folder, study));
+  if (anew)
+    refuse_foreign(folder, OtherFiles::pass);
+  else
+    check_sweep_folder(folder, study, request.resume);
   const auto file = store_file(folder, request.shard, request.shards);
   HeldStore held;
   held.lock = std::make_unique<io::FileLock>(lock_file(file), io::FileLock::Wait::no);
   if (!held.lock->held())
     throw Error(fmt::format("{}: another sweep is at work on it", file.string()));
   if (anew)
-    clear_sweep_folder(folder);
+    clear_sweep(folder);
   else if (request.force)
     clear_shard(folder, request.shard, request.shards);
   held.store = std::make_unique<TrialStore>(file, study, bases);
@@ -223,13 +193,10 @@ report::SweepTable study_of(const fs::path& folder) {
   auto study = study_in(folder);
   std::error_code error;
   if (study.identity.empty())
-    throw Error(fmt::format("{}: holds no results of a sweep{}", folder.string(),
-                            fs::is_directory(folder, error) ? "" : " (no such folder)"));
+    throw InvalidValue(folder.string(),
+                       fs::is_directory(folder, error) ? "no results of a sweep" : "no such folder",
+                       "the folder of a sweep");
   return study;
-}
-
-fs::path drive_folder(const fs::path& folder, std::int64_t trial) {
-  return folder / "drives" / fmt::format("{:06}", trial);
 }
 
 report::SweepTable read_sweep(const fs::path& folder) {
@@ -282,8 +249,10 @@ SweepContent merge_sweeps(const std::vector<fs::path>& from, const fs::path& out
     held.store->add_all(trials);
   }
   held.store->checkpoint();
+  // The drives last: they take longest, and the table is whole without them.
+  auto content = export_sweep(out);
   for (const auto& folder : from) copy_drives(folder, out);
-  return export_sweep(out);
+  return content;
 }
 
 }  // namespace slalom::sweep

@@ -4,7 +4,7 @@
 
 #include "../io/file_set.hpp"
 #include "slalom/sweep/sweep.hpp"
-#include "sweep_folder.hpp"
+#include "sweep_files.hpp"
 
 namespace slalom::sweep {
 

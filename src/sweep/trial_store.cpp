@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "store_reader.hpp"
@@ -16,7 +17,8 @@ using report::TrialRecord;
 
 constexpr const char* kSchema =
     "CREATE TABLE study (format INTEGER, name TEXT, title TEXT, scenarios TEXT,"
-    " identity TEXT, kernels TEXT, planners TEXT, columns TEXT, repeats INTEGER, size INTEGER);"
+    " identity TEXT, kernels TEXT, planners TEXT, columns TEXT, stated TEXT, repeats INTEGER,"
+    " size INTEGER);"
     "CREATE TABLE bases (number INTEGER PRIMARY KEY, resolved TEXT);"
     "CREATE TABLE trials (trial INTEGER PRIMARY KEY, identity TEXT, scenario TEXT,"
     " planner TEXT, axes TEXT, repeat INTEGER, outcome TEXT, hit TEXT, message TEXT, nearest TEXT,"
@@ -31,15 +33,10 @@ std::string as_json(const std::vector<std::string>& list) {
   return nlohmann::json(list).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-bool is_store(const fs::path& file) {
-  const auto name = file.filename().string();
-  return file.extension() == ".sqlite" && name.starts_with("trials");
-}
-
 /// What an empty file becomes.
 void state(Database& database, const SweepTable& study, const std::vector<std::string>& bases) {
   database.execute(kSchema);
-  Statement(database, "INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+  Statement(database, "INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
       .bind(1, std::int64_t{kStoreFormat})
       .bind(2, study.name)
       .bind(3, study.title)
@@ -48,8 +45,9 @@ void state(Database& database, const SweepTable& study, const std::vector<std::s
       .bind(6, study.kernels)
       .bind(7, as_json(study.planners))
       .bind(8, as_json(study.columns))
-      .bind(9, std::int64_t{study.repeats})
-      .bind(10, study.size)
+      .bind(9, as_json(study.stated))
+      .bind(10, std::int64_t{study.repeats})
+      .bind(11, study.size)
       .run();
   Statement insert(database, "INSERT INTO bases VALUES (?, ?)");
   for (std::size_t i = 0; i < bases.size(); ++i)
@@ -63,11 +61,21 @@ fs::path store_file(const fs::path& folder, int shard, int shards) {
          (shards == 1 ? "trials.sqlite" : fmt::format("trials-{}-of-{}.sqlite", shard, shards));
 }
 
+std::optional<std::pair<int, int>> shard_of_store(const std::string& name) {
+  int shard = 1, shards = 1;
+  if (name != "trials.sqlite" &&
+      std::sscanf(name.c_str(), "trials-%9d-of-%9d.sqlite", &shard, &shards) != 2)
+    return std::nullopt;
+  // Written again it must be the same: no zeros before, nothing after.
+  if (shard < 1 || shard > shards || store_file("", shard, shards) != name) return std::nullopt;
+  return std::pair(shard, shards);
+}
+
 std::vector<fs::path> store_files(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
-    if (is_store(entry.path())) files.push_back(entry.path());
+    if (shard_of_store(entry.path().filename().string())) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -80,10 +88,12 @@ TrialStore::TrialStore(const fs::path& file, const SweepTable& study,
   if (!Statement(database_, "SELECT 1 FROM sqlite_master").step()) state(database_, study, bases);
   database_.execute("COMMIT");
   insert_ = std::make_unique<Statement>(
-      database_, fmt::format("INSERT OR IGNORE INTO trials ({}) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?,"
-                             " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                             kTrialColumns)
-                     .c_str());
+      database_,
+      fmt::format("INSERT OR REPLACE INTO trials ({}) SELECT ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?,"
+                  " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ? WHERE NOT EXISTS (SELECT 1 FROM trials"
+                  " WHERE trial = ?1 AND (outcome <> 'failed' OR ?7 = 'failed'))",
+                  kTrialColumns)
+          .c_str());
 }
 
 void TrialStore::add(const TrialRecord& r) {

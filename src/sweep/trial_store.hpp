@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slalom/report/sweep_table.hpp"
@@ -12,7 +14,8 @@ namespace slalom::sweep {
 
 class TrialStream;
 
-inline constexpr int kStoreFormat = 4;  ///< of stores; another one is another version's
+inline constexpr int kStoreFormat = 5;         ///< of stores; another one is another version's
+inline constexpr int kFormatBeforeStated = 4;  ///< it has no SweepTable::stated, and is read still
 /// The columns of a store's trials, in the order in which they are written and read.
 inline constexpr const char* kTrialColumns =
     "trial, identity, scenario, planner, axes, repeat, outcome, hit, message, nearest, time_s,"
@@ -22,6 +25,8 @@ inline constexpr const char* kTrialColumns =
 
 /// The file a shard of a sweep is kept in: trials.sqlite, or trials-2-of-4.sqlite.
 std::filesystem::path store_file(const std::filesystem::path& folder, int shard, int shards);
+/// The shard i/n that a store of this name is of, 1/1 for trials.sqlite; nothing for other names.
+std::optional<std::pair<int, int>> shard_of_store(const std::string& name);
 /// All such files of a folder, sorted.
 std::vector<std::filesystem::path> store_files(const std::filesystem::path& folder);
 
@@ -35,7 +40,8 @@ class TrialStore {
   TrialStore(const std::filesystem::path& file, const report::SweepTable& study,
              const std::vector<std::string>& bases);
 
-  /// Records a trial; one that is there already stays as it is.
+  /// Records a trial; one that is there already stays as it is, unless it failed and this one did
+  /// not.
   void add(const report::TrialRecord& record);
   /// All trials of a stream, in one transaction.
   void add_all(TrialStream& trials);

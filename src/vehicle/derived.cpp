@@ -62,12 +62,13 @@ const std::vector<Rule>& rules() {
 
 }  // namespace
 
-std::vector<std::string> derive(Parameters& parameters, const std::set<std::string>& stated) {
+std::vector<std::string> derive(Parameters& parameters, const std::set<std::string>& stated,
+                                const std::set<std::string>& kept) {
   const Parameters before = parameters;
   auto changed = stated;
   std::vector<std::string> derived;
   for (const auto& rule : rules()) {
-    if (stated.count(rule.name) > 0 ||
+    if (stated.count(rule.name) > 0 || kept.count(rule.name) > 0 ||
         std::none_of(rule.of.begin(), rule.of.end(),
                      [&](const auto& name) { return changed.count(name) > 0; }))
       continue;

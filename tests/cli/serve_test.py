@@ -1,9 +1,11 @@
 """The server of a sweep's page: it drives what its page asks for, shows what `slalom` left there, and nobody else's
 requests or slowness get anything out of it."""
 
+import concurrent.futures
 import os
 import re
 import shutil
+import signal
 import socket
 import time
 import unittest
@@ -80,6 +82,19 @@ class Served(SweepTest):
         self.assertIn("is taken", taken.err)
         interrupt(self.process)
         self.assertEqual(self.process.returncode, 0)
+
+    def test_a_drive_that_is_not_as_recorded_is_not_shown_without_a_word(self):
+        page = self.page("drives/000001/report.html")
+        drive = self.ask(page)[1]
+        self.assertIn(b"<html", drive)
+        summary = self.out / "drives/000001/summary.json"
+        summary.write_text(summary.read_text().replace('"time_s": ', '"time_s": 1'))
+        status, said = self.ask(page)
+        self.assertEqual(status, 200)
+        self.assertIn(b"the one that the sweep recorded: time_s 1", said)
+        self.assertIn(b'href="report.html?anyway"', said)
+        self.assertEqual(self.ask(page + "?anyway"), (200, drive))
+        self.assertEqual(self.ask(self.page("drives/000001/summary.json"))[1], summary.read_bytes())
 
     def test_requests_of_others_are_refused(self):
         drive = self.page("drives/000001/report.html")
@@ -199,15 +214,48 @@ class Served(SweepTest):
 
 
 class LongDrive(SweepTest):
+    def test_a_drive_that_crashes_costs_its_own_process(self):
+        study = self.write("slow.yaml", SMALL.replace("E_B", "E_C").replace("1.5}", "40, planner.N: 200}"))
+        self.record_as_failed(study)
+        process = start("study-report", self.folder / "out", "--serve", "0")
+        self.addCleanup(interrupt, process)
+        while not (address := process.stdout.readline().split(" ")[0]).startswith("http"):
+            pass
+        with concurrent.futures.ThreadPoolExecutor() as pool:
+            page = pool.submit(urllib.request.urlopen, address.replace("index.html", "drives/000001/report.html"),
+                               timeout=60)
+            os.kill(self.child_of(process.pid), signal.SIGABRT)
+            with self.assertRaises(urllib.error.HTTPError) as refused:
+                page.result()
+            self.assertEqual(refused.exception.code, 500)
+            self.assertIn(b"trial 1: 1 attempt: the worker was killed by signal 6", refused.exception.read())
+            refused.exception.close()
+        self.assertIn(b"Click on a trial", urllib.request.urlopen(address, timeout=20).read())
+
+    def record_as_failed(self, study):
+        """Strikes every attempt at trial 1."""
+        process = start("sweep", study, "--out", self.folder / "out", "--json", "--limit", "1", "--jobs", "1")
+        for line in process.stdout:
+            if '"started"' in line:
+                os.kill(int(re.search(r'"process":(\d+)', line).group(1)), signal.SIGABRT)
+        process.communicate(timeout=60)
+
+    @staticmethod
+    def child_of(process):
+        for _ in range(100):
+            for task in os.listdir(f"/proc/{process}/task"):
+                with open(f"/proc/{process}/task/{task}/children") as file:
+                    if children := file.read().split():
+                        time.sleep(0.5)
+                        return int(children[0])
+            time.sleep(0.05)
+        raise AssertionError("no process drives")
+
     def test_ctrl_c_ends_a_drive_at_work_and_leaves_nothing_of_it(self):
         study = self.write("slow.yaml", SMALL.replace("E_B", "E_C").replace("1.5}", "40, planner.N: 200}"))
         self.sweep("out", "--limit", "0", study=study)
         # Recorded as failed without being driven: a store of its own making would take as long.
-        process = start("sweep", study, "--out", self.folder / "out", "--json", "--limit", "1", "--jobs", "1")
-        for line in process.stdout:
-            if '"started"' in line:
-                os.kill(int(re.search(r'"process":(\d+)', line).group(1)), 6)
-        process.communicate(timeout=60)
+        self.record_as_failed(study)
         for arguments in (["--trial", "1"], ["--serve", "0"]):
             process = start("study-report", self.folder / "out", *arguments)
             if arguments[0] == "--serve":

@@ -35,7 +35,8 @@ DAMAGES = (
     ("UPDATE study SET size = 4611686018427387904", ["size"]),
     ("UPDATE study SET repeats = 0", ["repeats"]),
     ("UPDATE study SET kernels = 'sse'", ["'sse'", "an instruction set"]),
-    ("DELETE FROM study", ["states no study"]),
+    ("UPDATE study SET stated = '{}'", ["stated"]),
+    ("DELETE FROM study", ["no study stated"]),
     ("DROP TABLE trials", ["no such table: trials"]),
     ("ALTER TABLE trials DROP COLUMN hit", ["no such column: hit"]),
 )

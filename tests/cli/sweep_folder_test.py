@@ -110,8 +110,8 @@ class Together(SweepTest):
                     drive = run("study-report", self.out, "--trial", "2")
                     self.assertEqual(drive.code, 0, drive.err)
                     self.assertIn("driven again, as recorded", drive.out)
-                self.assert_refused(run("merge", self.folder / "s1", self.folder, "--out", self.out), 3,
-                                    "holds no results")
+                self.assert_refused(run("merge", self.folder / "s1", self.folder, "--out", self.out), 2,
+                                    "no results of a sweep")
 
     def test_timed_kills_of_what_begins_leave_nothing_that_loses_scenarios(self):
         dice = random.Random(5)

@@ -4,6 +4,7 @@ full or may not be written to; nothing is lost."""
 import contextlib
 import os
 import resource
+import shutil
 import sqlite3
 import subprocess
 import unittest
@@ -30,6 +31,7 @@ class Refused(SweepTest):
                 (head + "planners: [P_C, P_X]\n", ["s.yaml:2:17", "planner 'P_X'"]),
                 (head + "planners: [P_C, P_C]\n", ["s.yaml:2:17", "a second planner named 'P_C'"]),
                 (head + "planners: []\n", ["s.yaml:2:11", "no planner"]),
+                (head + "planners: P_C\n", ["s.yaml:2:11", "found 'P_C'", "a list of planners"]),
                 (head + "axes:\n  - {key: loop.tx, values: [1]}\n",
                  ["s.yaml:3:11", "unknown key 'tx'", "did you mean 'tex'?"]),
                 (head + "axes:\n  - {key: lop.tex, values: [1]}\n", ["s.yaml:3:11", "'loop'"]),
@@ -50,7 +52,7 @@ class Refused(SweepTest):
                 (head + "axes:\n" + "".join(
                     f"  - {{key: {key}, range: {{from: 1, to: 2, count: 1000}}}}\n"
                     for key in ("loop.tex", "start.ux", "planner.w_g")),
-                 ["1000000000 trials (1000 x 1000 x 1000)", "at most 1000000"]),
+                 ["s.yaml:5:5", "1000000000 trials (1000 x 1000 x 1000)", "at most 1000000"]),
                 (head + "axes:\n" + "".join(
                     f"  - {{key: {key}, range: {{from: 1, to: 2, count: 100000}}}}\n"
                     for key in ("loop.tex", "start.ux")),
@@ -136,9 +138,33 @@ class Refused(SweepTest):
         self.assert_refused(run("sweep", self.study, "--out", drive), 3, "something else")
         self.assertEqual(self.entries(drive), before)
         self.assert_refused(run("sweep", self.study, "--out", self.study), 3, "is a file")
-        self.assert_refused(run("merge", out, notes, "--out", self.folder / "m"), 3,
+        self.assert_refused(run("merge", out, notes, "--out", self.folder / "m"), 2,
                             "another study")
-        self.assert_refused(run("merge", self.folder, "--out", self.folder / "m"), 3, "no results")
+        self.assert_refused(run("merge", self.folder, "--out", self.folder / "m"), 2, "no results")
+        self.assert_refused(run("merge", self.folder / "nosuch", "--out", self.folder / "m"), 2, "no such folder")
+
+    def test_force_takes_nothing_that_is_no_sweeps(self):
+        self.sweep("out", "--limit", "1")
+        for name in ("index.html", "trials.csv", "figures/a.svg", "drives/000001/report.html"):
+            with self.subTest(name):
+                site = self.folder / "site"
+                file = site / name
+                file.parent.mkdir(parents=True)
+                file.write_text("mine")
+                for command in (["sweep", self.study], ["merge", self.folder / "out"]):
+                    for force in ([], ["--force"]):
+                        self.assert_refused(run(*command, "--out", site, *force), 3, "something else",
+                                            f"'{name.split('/')[0]}'")
+                self.assertEqual(file.read_text(), "mine")
+                shutil.rmtree(site)
+
+    def test_an_instruction_set_that_is_not_there_fails_no_trial(self):
+        with open("/proc/cpuinfo") as file:
+            if "avx512f" in file.read():
+                self.skipTest("this processor has every instruction set")
+        study = self.write("wide.yaml", SMALL + "kernels: avx512\n")
+        self.assert_refused(run("sweep", study, "--out", self.folder / "wide"), 2, "kernels: found avx512")
+        self.assertFalse((self.folder / "wide").exists())
 
     def test_a_store_of_another_version_is_replaced_by_force_alone(self):
         self.sweep("out", "--limit", "1")
@@ -263,6 +289,8 @@ class NoRoom(SweepTest):
             self.skipTest("only root can be someone else")
         self.sweep("out", "--limit", "1")
         self.folder.chmod(0o755)  # to be reached at all
+        result = run("study-report", self.folder / "out", "--trial", "1", user="nobody")
+        self.assert_refused(result, 3, "/out")
         for out in ("out", "new"):
             result = run("sweep", self.study, "--out", self.folder / out, user="nobody")
             self.assert_refused(result, 3, f"/{out}", "cannot be written (Permission denied)")

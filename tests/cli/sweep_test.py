@@ -8,6 +8,7 @@ import random
 import signal
 import sqlite3
 import subprocess
+import threading
 import time
 import unittest
 import xml.etree.ElementTree
@@ -157,9 +158,21 @@ class Report(SweepTest):
         self.assertIn("as recorded", run("study-report", self.folder / "all", "--trial", "4").out)
 
     def test_a_folder_without_a_sweep_is_refused(self):
-        self.assert_refused(run("study-report", self.folder), 3, "holds no results of a sweep")
-        self.assert_refused(run("study-report", self.folder / "none"), 3, "holds no results",
-                            "no such folder")
+        self.assert_refused(run("study-report", self.folder), 2, "no results of a sweep")
+        self.assert_refused(run("study-report", self.folder / "none"), 2, "no such folder")
+
+    def test_a_drive_that_is_not_as_recorded_says_so(self):
+        self.sweep("out", "--limit", "1")
+        first = run("study-report", self.folder / "out", "--trial", "1")
+        self.assertIn("(driven again, as recorded)", first.out)
+        self.assertIn("(kept, as recorded)", run("study-report", self.folder / "out", "--trial", "1").out)
+        summary = self.folder / "out/drives/000001/summary.json"
+        summary.write_text(summary.read_text().replace('"outcome": "timeout"', '"outcome": "crash"'))
+        self.assertIn('(kept, NOT as recorded: outcome "crash", recorded "timeout")',
+                      run("study-report", self.folder / "out", "--trial", "1").out)
+        summary.unlink()
+        self.assertIn("NOT as recorded: its summary.json cannot be read",
+                      run("study-report", self.folder / "out", "--trial", "1").out)
 
 
 class Killed(SweepTest):
@@ -254,6 +267,26 @@ class Killed(SweepTest):
         self.assertEqual(run("merge", self.folder / "out", "--out", self.folder / "merged",
                              "--quiet").code, 0)
         self.assertEqual(table(self.folder / "merged"), expected)
+
+    def test_ctrl_c_ends_the_recording_of_what_contradicts_itself(self):
+        study = self.write("many.yaml", "scenario: E_B\nset: {planner.tf_max: 8}\naxes:\n"
+                           "  - {key: loop.tex, range: {from: 9, to: 9.5, count: 500000}}\n")
+        process = start("sweep", study, "--out", self.folder / "out", "--json")
+        next_event(process, "recorded")
+        lines = []
+        reader = threading.Thread(target=lambda: lines.extend(process.stdout))
+        reader.start()
+        begin = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        try:
+            self.assertEqual(process.wait(timeout=10), 130)
+        finally:
+            process.kill()
+            reader.join()
+            process.stdout.close()
+            process.stderr.close()
+        self.assertLess(time.monotonic() - begin, 5)
+        self.assertEqual(json.loads(lines[-1])["run"], len(table(self.folder / "out")))
 
     def test_ctrl_c_ends_soon_with_a_valid_table(self):
         slow = self.write("slow.yaml", "scenario: E_C\nset: {loop.tex: 0.01}\nrepeats: 4\n")

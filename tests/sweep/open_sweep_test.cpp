@@ -7,34 +7,16 @@
 #include "../../src/sweep/trial_message.hpp"
 #include "io/files.hpp"
 #include "slalom/base/error.hpp"
+#include "sweep/six_trials.hpp"
 
 namespace slalom::sweep {
 namespace {
 
+using test::numbers;
+using test::request_for;
+using test::six_trials;
+using test::study_from;
 using test::TemporaryFolder;
-
-/// Two of the six trials contradict themselves: tex above tf_max.
-Study six_trials() {
-  const TemporaryFolder folder;
-  test::write(folder / "six.yaml",
-              "scenario: E_B\naxes:\n  - {key: loop.tex, values: [0.25, 9]}\n"
-              "  - {key: planner.tf_max, values: [8, 10, 8.5]}\n");
-  return load_study((folder / "six.yaml").string());
-}
-
-SweepRequest request_for(const TemporaryFolder& folder, int shard = 1, int shards = 1) {
-  SweepRequest request;
-  request.out = folder.path();
-  request.shard = shard;
-  request.shards = shards;
-  return request;
-}
-
-std::vector<std::int64_t> numbers(const report::SweepTable& table) {
-  std::vector<std::int64_t> found;
-  for (const auto& record : table.trials) found.push_back(record.trial);
-  return found;
-}
 
 TEST(OpenSweep, HandsOutWhatWaitsAndRecordsWhatContradictsItself) {
   const TemporaryFolder folder;
@@ -61,6 +43,22 @@ TEST(OpenSweep, HandsOutWhatWaitsAndRecordsWhatContradictsItself) {
   given.clear();
   while (const auto job = again.next()) given.push_back(job->trial);
   EXPECT_EQ(given, (std::vector<std::int64_t>{1, 3, 5}));
+}
+
+TEST(OpenSweep, BetweenManyThatContradictThemselvesItsCallerMayDoSomethingElse) {
+  const TemporaryFolder folder;
+  const auto study = study_from(
+      "scenario: E_B\nset: {planner.tf_max: 8}\naxes:\n"
+      "  - {key: loop.tex, range: {from: 9, to: 9.5, count: 250}}\n");
+  OpenSweep sweep(study, request_for(folder));
+  for (const std::int64_t done : {100, 200}) {
+    const auto job = sweep.next();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->trial, 0);
+    EXPECT_EQ(sweep.summary().done, done);
+  }
+  EXPECT_FALSE(sweep.next());
+  EXPECT_EQ(sweep.summary().done, 250);
 }
 
 TEST(OpenSweep, KeepsToItsLimitAndItsShard) {

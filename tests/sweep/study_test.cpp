@@ -203,6 +203,59 @@ TEST(Study, TheIdentityChangesWithTheTrialsAndOnlyWithThem) {
             identity);
 }
 
+TEST(Study, AFileOfNumbersOnAnAxisIsReadWhereTheStudyStands) {
+  const TemporaryFolder folder;
+  test::write(folder / "a.csv", "solve_time_s\n0.1\n0.25\n");
+  test::write(folder / "b.txt", "0.5\n");
+  test::write(folder / "study.yaml",
+              "scenario: E_B\naxes:\n  - {key: loop.solve_times, values: [a.csv, [0.3], b.txt]}\n"
+              "  - {keys: [loop.latency, loop.tex], values: [[recorded, 0.5]]}\n");
+  const auto load = [&] { return load_study((folder / "study.yaml").string()); };
+  const auto study = load();
+  EXPECT_EQ(study.trial(1).values, (std::vector<std::string>{"[0.1, 0.25]", "recorded", "0.5"}));
+  EXPECT_EQ(study.resolve(study.trial(1)).loop.solve_times, (std::vector<double>{0.1, 0.25}));
+  EXPECT_EQ(study.resolve(study.trial(2)).loop.solve_times, std::vector<double>{0.3});
+  EXPECT_EQ(study.resolve(study.trial(3)).loop.solve_times, std::vector<double>{0.5});
+  EXPECT_EQ(load().identity(), study.identity());
+  test::write(folder / "b.txt", "0.6\n");
+  EXPECT_NE(load().identity(), study.identity());
+  test::write(folder / "b.txt", "soon\n");
+  EXPECT_THROW((void)load(), InvalidValue);
+}
+
+TEST(Study, AFileOfNumbersMayBeDrawnOrStandAmongSeveralKeys) {
+  const TemporaryFolder folder;
+  test::write(folder / "a.csv", "0.1\n");
+  test::write(folder / "study.yaml",
+              "scenario: E_B\nset: {loop.latency: recorded}\naxes:\n"
+              "  - draw: {count: 3, of: [{key: loop.solve_times, choice: [a.csv]}]}\n"
+              "  - {keys: [loop.tex, plant.mass_factor], values: [[0.5, 1.1]]}\n");
+  const auto study = load_study((folder / "study.yaml").string());
+  EXPECT_EQ(study.trial(3).values, (std::vector<std::string>{"[0.1]", "0.5", "1.1"}));
+}
+
+TEST(Study, WhatIsStatedOfTheVehicleHoldsInEveryTrial) {
+  const std::string head = "scenario: E_B\nset: {vehicle.FzF0: 9000, vehicle.h: 0.6}\n";
+  const auto study = study_of(head + "axes:\n  - {key: vehicle.m, values: [2000, 2500]}\n");
+  for (const std::int64_t n : {1, 2}) {
+    const auto vehicle = study.resolve(study.trial(n)).vehicle;
+    EXPECT_EQ(vehicle.FzF0, 9000);
+    EXPECT_NEAR(vehicle.FzR0, vehicle.m * 9.80665 * vehicle.la / (vehicle.la + vehicle.lb), 1e-9);
+  }
+  const TemporaryFolder folder;
+  test::write(folder / "study.yaml", head);
+  const auto file = (folder / "study.yaml").string();
+  const auto set = load_study(file, {"vehicle.m=2000", "vehicle.FzR0=9500"});
+  EXPECT_EQ(set.bases[0].vehicle.FzF0, 9000);
+  EXPECT_EQ(set.bases[0].vehicle.FzR0, 9500);
+  // What is stated tells studies apart, even where it says what stands there anyway.
+  const auto plain = load_study("paper");
+  const auto same =
+      load_study("paper", {"vehicle.ux_max=" + std::to_string(plain.bases[0].vehicle.ux_max)});
+  EXPECT_EQ(same.resolved_bases(), plain.resolved_bases());
+  EXPECT_NE(same.identity(), plain.identity());
+}
+
 TEST(Study, ATrialWhoseValuesContradictEachOtherIsNamed) {
   const auto study = study_of(
       "scenario: E_B\naxes:\n  - {key: loop.tex, values: [0.5, 9]}\n"

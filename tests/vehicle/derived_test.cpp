@@ -32,6 +32,15 @@ TEST(Derived, WhatIsStatedStays) {
   EXPECT_EQ(derive(p, {"ux_max", "width"}), Names{});
 }
 
+TEST(Derived, WhatWasStatedBeforeStaysAndIsDerivedFrom) {
+  Parameters p;
+  p.m = 1350;
+  p.FzF0 = 6000;
+  EXPECT_EQ(derive(p, {"m"}, {"FzF0", "h"}),
+            (Names{"FzR0", "KZX", "KZYR", "KZYF", "F_offset_rear"}));
+  EXPECT_EQ(p.FzF0, 6000);
+}
+
 /// A car by its data sheet drives straight on when no one steers.
 TEST(Derived, AVehicleOfOnesOwnDoesNotPull) {
   Parameters car;

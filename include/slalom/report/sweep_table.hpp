@@ -40,6 +40,8 @@ struct SweepTable {
   std::string kernels;                           ///< instruction set
   std::vector<std::string> scenarios, planners;  ///< by name, in the study's order
   std::vector<std::string> columns;              ///< key paths of the axes
+  /// Settings of the vehicle that the study states for all trials: no axis makes others of them.
+  std::vector<std::string> stated;
   int repeats = 1;
   std::int64_t size = 0;  ///< trials of the whole study
   std::vector<TrialRecord> trials;

@@ -12,8 +12,8 @@ namespace slalom::sweep {
 
 /// A trial that waits to be run.
 struct TrialJob {
-  std::int64_t trial = 0;
-  std::string order;  ///< one line, all that a worker needs to know
+  std::int64_t trial = 0;  ///< 0: none is known yet, ask again
+  std::string order;       ///< one line, all that a worker needs to know
 };
 
 /// A sweep at work on its folder, whoever runs the trials: hands out those that wait and records
@@ -31,7 +31,8 @@ class OpenSweep {
   OpenSweep& operator=(const OpenSweep&) = delete;
 
   /// The next trial that has not been run; nothing: there is none, or the limit is reached. Trials
-  /// whose values contradict each other are recorded as `invalid` on the way.
+  /// whose values contradict each other are recorded as `invalid` on the way, some of them at a
+  /// call.
   std::optional<TrialJob> next();
   /// Records what a worker answered. Throws Error when the drive's files could not be written.
   void record(std::int64_t trial, const std::string& answer);

@@ -83,6 +83,9 @@ struct Study {
   std::vector<std::string> scenarios;  ///< by name, in the study's order
   /// Each scenario with each planner and all of `set` applied; planners vary fastest.
   std::vector<sim::Scenario> bases;
+  /// Settings of the vehicle that `set` and the command line state: what an axis says of others
+  /// does not make anything else of them.
+  std::vector<std::string> stated;
   std::vector<Axis> axes;
   StudySettings settings;
   std::string kernels;  ///< the instruction set by name: baseline, avx2 or avx512
@@ -111,10 +114,14 @@ struct Study {
 /// trial.
 Study load_study(const std::string& name_or_file, const std::vector<std::string>& overrides = {});
 
+/// The keys of a study that its trials are made by: Study::columns() and Study::stated.
+struct TrialKeys {
+  std::vector<std::string> axes, stated;
+};
+
 /// `base` with a trial's values in the place of its own. Throws InvalidValue, naming the trial and
 /// the key at fault, for values that contradict each other.
-sim::Scenario resolve_trial(sim::Scenario base, const std::vector<std::string>& keys,
-                            const std::vector<std::string>& values, std::int64_t number);
+sim::Scenario resolve_trial(sim::Scenario base, const TrialKeys& keys, const Trial& trial);
 
 /// A hash of a trial's resolved configuration (the YAML of its scenario, instruction set, repeat).
 std::string trial_identity(const std::string& resolved, const std::string& kernels, int repeat);

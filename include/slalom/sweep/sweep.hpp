@@ -19,9 +19,11 @@ struct SweepRequest {
   std::optional<std::int64_t> limit;  ///< at most so many trials in this run
   int shard = 1, shards = 1;          ///< trials shard, shard + shards, shard + 2 shards, ...
   bool resume = false;                ///< demand that `out` holds this study already
-  bool force = false;                 ///< replace what another sweep left in `out`
-  bool again_failed = false;          ///< run trials again that stand there as failed
-  std::vector<std::string> worker;    ///< command of a worker process, one that runs serve_trials()
+  /// Replace what another sweep left in `out`; of a shard of the study that stands there, its own
+  /// trials alone.
+  bool force = false;
+  bool again_failed = false;        ///< run trials again that stand there as failed
+  std::vector<std::string> worker;  ///< command of a worker process, one that runs serve_trials()
 };
 
 /// Something that happened in a sweep.
@@ -52,9 +54,14 @@ struct SweepSummary {
   bool interrupted = false;
 };
 
+/// Throws InvalidValue where this processor lacks a study's instruction set. An OpenSweep does not
+/// ask: its workers may be on other machines.
+void check_kernels(const std::string& kernels);
+
 /// Runs the trials of a study that `request.out` does not hold yet, records each as it ends and
 /// writes trials.csv at the end. Whatever is killed, no recorded trial is lost or doubled. Throws
-/// Error when the folder holds something else, cannot be written or is in use.
+/// InvalidValue as check_kernels() does, and Error when the folder holds something else, cannot be
+/// written or is in use.
 SweepSummary run_sweep(const Study& study, const SweepRequest& request, const SweepHooks& hooks);
 
 /// What stands in a folder, without the trials themselves.
@@ -63,13 +70,14 @@ struct SweepContent {
   std::int64_t trials = 0;  ///< their number
 };
 
-/// Puts the results of several folders of one study into `out`. Throws Error when they are of
-/// different studies.
+/// Puts the results of several folders of one study into `out`; of equal trials one that has not
+/// failed. Throws InvalidValue when a folder holds no results or those of another study, Error when
+/// `out` holds something else, cannot be written or is in use.
 SweepContent merge_sweeps(const std::vector<std::filesystem::path>& from,
                           const std::filesystem::path& out, bool force);
 
-/// All trials that stand in a folder, of a sweep that is at work too. Throws Error when it holds no
-/// sweep.
+/// All trials that stand in a folder, of a sweep that is at work too. Throws InvalidValue when it
+/// holds no sweep.
 report::SweepTable read_sweep(const std::filesystem::path& folder);
 
 /// The same as the text of trials.csv: one row a trial, in trial order: trial, scenario, planner,
