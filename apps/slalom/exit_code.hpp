@@ -17,7 +17,7 @@ enum ExitCode : int {
 inline constexpr const char* kExitCodeHelp =
     "Exit codes:\n"
     "  0    done; with --expect, the outcome is an expected one\n"
-    "  1    the outcome is none of those expected; of replay: the answers differ\n"
+    "  1    the outcome is none of those expected; of replay, problems: the answers differ\n"
     "  2    bad input or usage: the message says where, what was found and what was expected\n"
     "  3    output could not be written, or stands already and --force is not given\n"
     "  4    internal error\n"
