@@ -157,6 +157,21 @@ class Report(SweepTest):
                              self.folder / "all").code, 0)
         self.assertIn("as recorded", run("study-report", self.folder / "all", "--trial", "4").out)
 
+    def test_a_merged_sweep_has_the_drives_that_were_kept(self):
+        study = self.write("keep.yaml", SMALL + "keep: drives\n")
+        for i in (1, 2):
+            self.sweep(f"s{i}", "--shard", f"{i}/2", "--limit", "2", study=study)
+        # As a shard at work has it.
+        (self.folder / "s1/drives/000001/.plans.csv.00ff.aside").symlink_to("gone")
+        (self.folder / "s2/drives/000002/report.html").unlink()
+        self.assertEqual(run("merge", self.folder / "s1", self.folder / "s2", "--out", self.folder / "all",
+                             "--quiet").code, 0)
+        self.assertEqual([p.name for p in sorted((self.folder / "all/drives").iterdir())], ["000001", "000003", "000004"])
+        for trial, shard in (("000001", "s1"), ("000003", "s1"), ("000004", "s2")):
+            for file in (self.folder / shard / "drives" / trial).glob("*.*"):
+                if not file.name.startswith("."):
+                    self.assertEqual((self.folder / "all/drives" / trial / file.name).read_bytes(), file.read_bytes())
+
     def test_a_folder_without_a_sweep_is_refused(self):
         self.assert_refused(run("study-report", self.folder), 2, "no results of a sweep")
         self.assert_refused(run("study-report", self.folder / "none"), 2, "no such folder")
