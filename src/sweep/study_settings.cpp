@@ -7,7 +7,7 @@ const OptionTable<StudySettings>& study_options() {
     using S = StudySettings;
     OptionTable<S> t;
     t.integer("repeats", &S::repeats, OptionRange::closed(1, kMaxTrials), "1",
-              "How often each trial is run; the drives are the same, the solve times are not.")
+              "How often each trial is run; solve times differ, and drives that go by the clock.")
         .choice("keep", &S::keep, {"figures", "drives"},
                 "figures: a row a trial; drives: the folder of each drive too.")
         .integer("seed", &S::seed, OptionRange::closed(0, 2147483647), "1",
