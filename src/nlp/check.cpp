@@ -47,16 +47,21 @@ double product(double s, double z) {
   return z < 0 || std::isinf(s) ? std::fabs(z) : std::fabs(s * z);
 }
 
+/// NaN of either is NaN.
+double larger(double a, double b) {
+  return std::isnan(b) ? b : std::max(a, b);
+}
+
 double complementarity(const Item& item, const Options& options) {
   const bool lower = std::isfinite(item.lower), upper = std::isfinite(item.upper);
   const double sl = item.value - item.lower, su = item.upper - item.value;
   const double mu = options.floor;
-  if (mu <= 0) return std::max(product(sl, item.z_lower), product(su, item.z_upper));
+  if (mu <= 0) return larger(product(sl, item.z_lower), product(su, item.z_upper));
   if (item.is_row && lower && upper) return two_sided_centrality(item, mu, options.constraint_tol);
   const auto side = [&](bool exists, double s, double z) {
     return exists ? centrality(s, z, mu, options.constraint_tol) : std::fabs(z);
   };
-  return std::max(side(lower, sl, item.z_lower), side(upper, su, item.z_upper));
+  return larger(side(lower, sl, item.z_lower), side(upper, su, item.z_upper));
 }
 
 double violation(const Item& item) {
@@ -140,37 +145,30 @@ namespace {
 /// of duals relative to what adds up in them, and to the objective.
 void judge_scaled(const Structure& shape, const Limits& limits, const Start& point,
                   const Evaluation& at, const std::vector<double>& lagrangian, Residuals& result) {
-  const auto outside = [](double value, double lower, double upper) {
-    return std::max({0.0, lower - value, value - upper});
-  };
-  double most = 1;
-  for (const double slope : at.gradient) most = std::max(most, std::fabs(slope));
+  Worst most{1}, violated, stationarity, complementarity;
+  for (const double slope : at.gradient) most.keep(std::fabs(slope), 0);
   for (std::size_t e = 0; e < at.jacobian.size(); ++e)
-    most = std::max(most, std::fabs(point.y[shape.jacobian_row[e]] * at.jacobian[e]));
-  double violation = 0, stationarity = 0, complementarity = 0;
-  for (std::size_t r = 0; r < shape.rows; ++r) {
-    violation = std::max(violation, outside(at.rows[r], limits.gl[r], limits.gu[r]));
-    if (limits.gl[r] == limits.gu[r]) continue;
-    const Item item{at.rows[r],
-                    limits.gl[r],
-                    limits.gu[r],
-                    std::max(-point.y[r], 0.0),
-                    std::max(point.y[r], 0.0),
-                    true};
-    complementarity = std::max({complementarity, product(item.value - item.lower, item.z_lower),
-                                product(item.upper - item.value, item.z_upper)});
-  }
+    most.keep(std::fabs(point.y[shape.jacobian_row[e]] * at.jacobian[e]), 0);
+  const auto add = [&](const Item& item) {
+    violated.keep(violation(item), 0);
+    if (item.lower == item.upper) return;
+    complementarity.keep(product(item.value - item.lower, item.z_lower), 0);
+    complementarity.keep(product(item.upper - item.value, item.z_upper), 0);
+  };
+  for (std::size_t r = 0; r < shape.rows; ++r)
+    add({at.rows[r], limits.gl[r], limits.gu[r], std::max(-point.y[r], 0.0),
+         std::max(point.y[r], 0.0), true});
   for (std::size_t i = 0; i < shape.variables; ++i) {
-    violation = std::max(violation, outside(point.x[i], limits.xl[i], limits.xu[i]));
+    add({point.x[i], limits.xl[i], limits.xu[i], point.zl[i], point.zu[i], false});
     if (limits.xl[i] == limits.xu[i]) continue;
-    most = std::max({most, std::fabs(point.zl[i]), std::fabs(point.zu[i])});
-    stationarity = std::max(stationarity, std::fabs(lagrangian[i] - point.zl[i] + point.zu[i]));
-    complementarity = std::max({complementarity, product(point.x[i] - limits.xl[i], point.zl[i]),
-                                product(limits.xu[i] - point.x[i], point.zu[i])});
+    most.keep(std::fabs(point.zl[i]), 0);
+    most.keep(std::fabs(point.zu[i]), 0);
+    stationarity.keep(std::fabs(lagrangian[i] - point.zl[i] + point.zu[i]), 0);
   }
-  result.relative_violation = violation;
-  result.relative_stationarity = stationarity / most;
-  result.relative_complementarity = complementarity / std::max(std::fabs(at.objective), most);
+  result.relative_violation = violated.value;
+  result.relative_stationarity = stationarity.value / most.value;
+  result.relative_complementarity =
+      complementarity.value / larger(std::fabs(at.objective), most.value);
 }
 
 }  // namespace

@@ -23,14 +23,13 @@ std::pair<std::size_t, std::size_t> find(const PhasedProblem& problem,
 
 Links::Links(const PhasedProblem& problem, const std::vector<std::unique_ptr<Transcription>>& parts,
              const std::vector<Offsets>& offsets) {
-  std::vector<Expr> values, symbols;
-  for (const auto& link : problem.links()) values.push_back(link.value);
+  for (const auto& link : problem.links()) values_.push_back(link.value);
   std::vector<char> touched(parts.size(), parts.size() == 1);
-  for (const auto& symbol : expr::symbols_of(values))
+  for (const auto& symbol : expr::symbols_of(values_))
     touched[find(problem, parts, symbol).first] = 1;
-  for (const auto& cost : problem.costs()) values.push_back(cost.value);
-  for (const auto& symbol : expr::symbols_of(values)) {
-    symbols.push_back(symbol);
+  for (const auto& cost : problem.costs()) values_.push_back(cost.value);
+  for (const auto& symbol : expr::symbols_of(values_)) {
+    symbols_.push_back(symbol);
     const auto [p, at] = find(problem, parts, symbol);
     variables_.push_back(offsets[p].variables + at);
     scales_.push_back(parts[p]->structure().variable_scale[at]);
@@ -39,10 +38,10 @@ Links::Links(const PhasedProblem& problem, const std::vector<std::unique_ptr<Tra
     if (!touched[p])
       throw InvalidValue(problem.name() + ": phase " + problem.phases()[p].name(), "no link",
                          "a link with another phase");
-  function_ = expr::Function(symbols, {}, values);
+  function_ = expr::Function(symbols_, {}, values_);
   evaluator_.emplace(function_, 1);
   evaluator_->prepare({.values = true, .jacobian = true, .hessian = true});
-  inputs_.resize(symbols.size());
+  inputs_.resize(symbols_.size());
   for (std::size_t i = 0; i < inputs_.size(); ++i) evaluator_->set_variable(i, &inputs_[i], true);
 }
 
@@ -69,6 +68,20 @@ std::vector<Expr> Links::formulas(const std::vector<Expr>& variables) const {
   for (std::size_t i = 0; i < inputs_.size(); ++i)
     inputs.push_back(scales_[i] * variables[variables_[i]]);
   return function_(inputs, {});
+}
+
+std::size_t Links::with_bad_curvature() const {
+  const std::vector<double> one{1.0};
+  std::vector<double> none;
+  for (std::size_t output = 0; output < values_.size(); ++output) {
+    const expr::Function alone(symbols_, {}, {values_[output]});
+    std::vector<double> curvature(alone.hessian_pattern().size());
+    alone.evaluate(1, inputs_, {}, one, {.values = false, .hessian = true}, none, none, curvature);
+    if (!std::all_of(curvature.begin(), curvature.end(),
+                     [](double entry) { return std::isfinite(entry); }))
+      return output;
+  }
+  return values_.size();
 }
 
 }  // namespace slalom::ocp

@@ -35,8 +35,12 @@ class Links {
   void evaluate(std::span<const double> x, std::span<const double> weights, nlp::Parts parts);
   const expr::Evaluator& results() const { return *evaluator_; }
   std::vector<Expr> formulas(const std::vector<Expr>& variables) const;
+  /// The first output with a second derivative that is not finite where evaluate() was last called;
+  /// the number of outputs if there is none.
+  std::size_t with_bad_curvature() const;
 
  private:
+  std::vector<Expr> values_, symbols_;
   expr::Function function_;
   std::optional<expr::Evaluator> evaluator_;
   std::vector<std::size_t> variables_;

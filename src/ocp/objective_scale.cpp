@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace slalom::ocp {
 namespace {
@@ -60,7 +61,11 @@ double slope_at(nlp::Problem& problem, const std::vector<double>& x,
   double most = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (measured[i]) most = std::max(most, std::fabs(at.gradient[i]));
-  return most > kRounding * std::fabs(at.objective) ? most : 0;
+  // 1 / most is to be a factor: neither infinite nor 0.
+  return std::isfinite(most) && std::isfinite(1 / most) &&
+                 most > kRounding * std::fabs(at.objective)
+             ? most
+             : 0;
 }
 
 /// x with every variable moved up by half its scale, or down where its bound is nearer: where a
@@ -95,14 +100,19 @@ nlp::Answer solve_scaled(nlp::Problem& problem, nlp::Solver& solver, const nlp::
   if (answer.status != nlp::Status::solved) return answer;
   const double at_answer = slope_at(problem, answer.point.x, measured);
   if (at_answer == 0 || at_answer >= kLeastSlope * slope) return answer;
+  // Both solves together have what the options allow.
   nlp::Options warm = options;
   warm.warm_start = true;
+  warm.max_iterations -= answer.iterations;
+  warm.time_limit = std::max(0.0, options.time_limit - (answer.cpu_s - answer.callback_s));
+  if (warm.max_iterations <= 0 || warm.time_limit <= 0) return answer;
   nlp::Answer again = solve_times(problem, 1 / at_answer, solver, answer.point, warm);
-  if (again.status != nlp::Status::solved) return answer;
-  again.iterations += answer.iterations;
-  again.cpu_s += answer.cpu_s;
-  again.wall_s += answer.wall_s;
-  return again;
+  nlp::Answer& better = again.status == nlp::Status::solved ? again : answer;
+  better.iterations = answer.iterations + again.iterations;
+  better.cpu_s = answer.cpu_s + again.cpu_s;
+  better.wall_s = answer.wall_s + again.wall_s;
+  better.callback_s = answer.callback_s + again.callback_s;
+  return std::move(better);
 }
 
 }  // namespace slalom::ocp

@@ -58,7 +58,7 @@ class PhasedTranscription::Impl {
               sigma);
     links_->evaluate(x, weights_, parts);
     add_results(parts, out);
-    return check_links(parts, out);
+    return check_links(parts);
   }
 
   /// The rows' values, of the links alone: the phases have seen to theirs.
@@ -255,23 +255,40 @@ class PhasedTranscription::Impl {
             at.hessian()[e] * links_->scale(entry.row) * links_->scale(entry.col);
       }
   }
-  nlp::Fault check_links(nlp::Parts parts, const nlp::Evaluation& out) const {
-    if (parts.values) {
-      for (std::size_t r = first_link; r < structure.rows; ++r)
-        if (!std::isfinite(out.rows[r])) return {"link " + row_name(r), "the phases' ends", ""};
-      const auto values = links_->results().values();
-      for (std::size_t c = 0; c < problem_.costs().size(); ++c)
-        if (!std::isfinite(values[link_scale_.size() + c]))
-          return {"cost " + problem_.costs()[c].name, "the phases' ends", ""};
-    }
+  /// The first number of the links and the cost terms that is not finite.
+  nlp::Fault check_links(nlp::Parts parts) const {
+    const expr::Evaluator& at = links_->results();
+    const expr::Function& f = links_->function();
+    const auto scale = [&](std::size_t row) {
+      return row < link_scale_.size() ? link_scale_[row] : 1;
+    };
+    if (parts.values)
+      for (std::size_t row = 0; row < f.outputs(); ++row)
+        if (!std::isfinite(at.values()[row] * scale(row))) return fault_of(row, "");
     if (parts.derivatives)
-      for (std::size_t e = links_jacobian_; e < out.jacobian.size(); ++e)
-        if (!std::isfinite(out.jacobian[e]))
-          return {"link " + row_name(structure.jacobian_row[e]), "the phases' ends",
-                  variable_name(structure.jacobian_col[e])};
+      for (std::size_t e = 0; e < f.jacobian_pattern().size(); ++e) {
+        const auto [row, col] = f.jacobian_pattern()[e];
+        if (!std::isfinite(at.jacobian()[e] * links_->scale(col) * scale(row)))
+          return fault_of(row, variable_name(links_->variable(col)));
+      }
+    if (parts.hessian)
+      for (std::size_t e = 0; e < f.hessian_pattern().size(); ++e) {
+        const auto [a, b] = f.hessian_pattern()[e];
+        if (!std::isfinite(at.hessian()[e] * links_->scale(a) * links_->scale(b)))
+          return fault_of(links_->with_bad_curvature(), variable_name(links_->variable(a)) + ", " +
+                                                            variable_name(links_->variable(b)));
+      }
     return {};
   }
-
+  /// Of an output of the links and cost terms; of f.outputs(), of their sum.
+  nlp::Fault fault_of(std::size_t output, const std::string& variable) const {
+    const std::size_t links = link_scale_.size();
+    const std::string name = output < links ? "link " + problem_.links()[output].name
+                             : output < links + problem_.costs().size()
+                                 ? "cost " + problem_.costs()[output - links].name
+                                 : "a sum of links and cost terms";
+    return {name, "the phases' ends", variable};
+  }
   std::size_t phase_of(std::size_t index, std::size_t Offsets::*what) const {
     std::size_t p = parts_.size() - 1;
     while (offsets_[p].*what > index) --p;

@@ -167,12 +167,16 @@ TEST(Check, NotANumberIsNeverSolved) {
   auto problem = hs071();
   const Start good = solution(problem, options);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (auto part : {&Start::x, &Start::zl, &Start::zu}) {
-      Start bad = good;
-      (bad.*part)[i] = nan;
-      EXPECT_FALSE(check(problem, bad, options).solved(options)) << i;
-    }
+  for (const Options& each : {options, Options()}) {
+    const Start solved = solution(problem, each);
+    for (auto part : {&Start::x, &Start::y, &Start::zl, &Start::zu})
+      for (std::size_t i = 0; i < (solved.*part).size(); ++i) {
+        Start bad = solved;
+        (bad.*part)[i] = nan;
+        const auto residuals = check(problem, bad, each);
+        EXPECT_FALSE(residuals.solved(each)) << i << " at a floor of " << each.floor;
+        EXPECT_FALSE(residuals.complementarity <= 1 && residuals.stationarity <= 1) << i;
+      }
   }
   const auto rows = problem.rows;
   problem.rows = [&](const Vector& x) {

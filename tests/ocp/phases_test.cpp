@@ -218,6 +218,58 @@ TEST(Phases, DerivativesOfLinksMatchDifferences) {
   }
 }
 
+/// Two stretches from rest, in whose guess the second ends where it begins, at 0.
+TEST(Phases, DerivativesOfLinksAndCostsAreFiniteOrAFault) {
+  const auto two = [] {
+    Stretch a("a", {-1, 1}), b("b", {-1, 1});
+    a.problem.initial_bounds(a.x, Bounds::equal(0));
+    PhasedProblem both("both");
+    both.add(a.problem);
+    both.add(b.problem);
+    both.connect(0, 1, {.without = {"time"}});
+    return both;
+  };
+  const auto fault = [](PhasedProblem both, nlp::Parts parts) {
+    PhasedTranscription t(both, {{Mesh::uniform(2)}, {Mesh::uniform(2)}});
+    const std::vector<double> x(t.structure().variables, 0.0), y(t.structure().rows, 1.0);
+    nlp::Evaluation at;
+    return t.evaluate(x, 1, y, parts, at);
+  };
+  const auto end = [](const PhasedProblem& both) {
+    return both.phases()[1].states()[0].final_symbol;
+  };
+  PhasedProblem root = two(), power = two(), linked = two();
+  root.mayer("harmless", square(end(root)));
+  root.mayer("root", sqrt(end(root)));
+  const auto slope = fault(root, {.values = true, .derivatives = true});
+  EXPECT_EQ(slope.function, "cost root");
+  EXPECT_EQ(slope.variable, "b: x at node 2");
+  EXPECT_FALSE(fault(root, {.values = true}));
+  power.mayer("harmless", square(end(power)));
+  power.mayer("power", pow(end(power), 1.5));
+  EXPECT_FALSE(fault(power, {.values = true, .derivatives = true}));
+  const auto curvature = fault(power, {.hessian = true});
+  EXPECT_EQ(curvature.function, "cost power");
+  EXPECT_EQ(curvature.variable, "b: x at node 2, b: x at node 2");
+  linked.link("bent", pow(end(linked), 1.5), {-1, 1});
+  EXPECT_EQ(fault(linked, {.hessian = true}).function, "link bent");
+}
+
+/// An infinite slope gave the objective a factor of 0, and an answer whose objective was NaN.
+TEST(Phases, ACostThatIsNotSmoothAtTheGuessEndsTheSolve) {
+  Stretch a("a", {-1, 1}), b("b", {-1, 1});
+  a.problem.initial_bounds(a.x, Bounds::equal(0));
+  b.problem.final_bounds(b.x, Bounds::equal(0));
+  PhasedProblem both("both");
+  both.add(a.problem);
+  both.add(b.problem);
+  both.connect(0, 1, {.without = {"time"}});
+  both.mayer("root", sqrt(both.phases()[1].states()[0].initial_symbol));
+  const PhasedSolution solution = solve(both);
+  EXPECT_EQ(solution.status, nlp::Status::invalid_number);
+  EXPECT_EQ(solution.fault.function, "cost root");
+}
+
 TEST(Phases, GlobalsOfAPhaseAreAtItsLastStage) {
   PhasedTranscription t(least_time_in_two(), {{Mesh::uniform(3)}, {Mesh::uniform(4)}});
   const auto& shape = t.structure();

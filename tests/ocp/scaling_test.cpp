@@ -270,5 +270,27 @@ TEST(Scaling, ToleranceIsNotAskedForBelowRounding) {
   }
 }
 
+/// Where the slope at the answer asks for another scale, both solves are within the limit.
+TEST(Scaling, ASecondSolveHasTheIterationsThatAreLeft) {
+  Problem p("steep");
+  const Expr x = p.state("x"), u = p.control("u", {-10, 10});
+  p.dynamics(x, u);
+  p.initial_bounds(x, Bounds::equal(0));
+  p.lagrange("cost", exp(u));
+  int calls = 0;
+  SolveSettings settings;
+  settings.options.on_iteration = [](const nlp::IterationInfo&, void* data) {
+    ++*static_cast<int*>(data);
+  };
+  settings.options.on_iteration_data = &calls;
+  const Solution whole = solve(p, settings);
+  ASSERT_TRUE(whole.solved());
+  EXPECT_EQ(whole.iterations, calls);
+  settings.options.max_iterations = calls - 1;
+  calls = 0;
+  EXPECT_TRUE(solve(p, settings).solved());
+  EXPECT_LE(calls, settings.options.max_iterations);
+}
+
 }  // namespace
 }  // namespace slalom::ocp
