@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -48,6 +49,7 @@ struct Run {
 
 using Update = std::function<void(nb::handle_t<Problem>, Cycle)>;
 using Check = std::function<std::optional<std::string>(Cycle)>;
+using Measure = std::function<std::vector<double>(Vector)>;
 
 /// A loop with what its callbacks need.
 class Loop {
@@ -144,8 +146,9 @@ void make(Loop* self, const Problem& problem, const MeshChoice& mesh, const Sche
           const PointsChoice& points, const std::string& backend, const nb::object& guess,
           const std::map<std::string, std::pair<double, double>>& goal, const Problem* plant,
           const std::map<std::string, double>& start_tolerance,
-          const std::vector<double>& first_controls, const std::optional<Update>& update,
-          const std::optional<Check>& check, const nb::kwargs& options) {
+          const std::vector<double>& first_controls, const std::optional<Measure>& measure,
+          const std::optional<Update>& update, const std::optional<Check>& check,
+          const nb::kwargs& options) {
   MpcSettings settings;
   nb::kwargs solver = nb::borrow<nb::kwargs>(options.attr("copy")());
   set_options(settings, solver);
@@ -156,6 +159,11 @@ void make(Loop* self, const Problem& problem, const MeshChoice& mesh, const Sche
   if (plant != nullptr) settings.plant = ocp::system_of(*plant);
   settings.start_tolerance = start_tolerance;
   settings.first_controls = first_controls;
+  if (measure)
+    settings.measure = [measure](std::span<const double> plant) {
+      const nb::gil_scoped_acquire lock;
+      return (*measure)(to_numpy({plant.begin(), plant.end()}));
+    };
   new (self) Loop(problem, std::move(settings), update, check);
 }
 
@@ -244,8 +252,10 @@ void bind_mpc(nb::module_& module) {
         "Problem.solve.\n`goal` has by state a value and a tolerance; `plant` is the problem whose "
         "dynamics run() drives,\nthe same if left out; `start_tolerance` by state how far a plan "
         "may begin from where it should;\n`first_controls` hold until the first plan does. "
-        "`update(problem, cycle)` is called before each solve\nand may change the problem's "
-        "numbers, `check(cycle)` after it and may return a reason to stop.\n";
+        "`measure(states)` gives the problem's states, in their order, from an\narray of the "
+        "plant's; left out, they are those of the same names. `update(problem, cycle)` is "
+        "called\nbefore each solve and may change the problem's numbers, `check(cycle)` after it "
+        "and may return a\nreason to stop.\n";
     for (const auto& entry : ocp::mpc_options().entries())
       text += "\n- " + entry.info.name + ": " + entry.info.doc;
     return text;
@@ -255,8 +265,8 @@ void bind_mpc(nb::module_& module) {
            "scheme"_a = "hermite_simpson", "points"_a = nb::none(), "backend"_a = "",
            "guess"_a = nb::none(), "goal"_a = std::map<std::string, std::pair<double, double>>(),
            "plant"_a = nb::none(), "start_tolerance"_a = std::map<std::string, double>(),
-           "first_controls"_a = std::vector<double>(), "update"_a = nb::none(),
-           "check"_a = nb::none(), "options"_a, keywords.c_str())
+           "first_controls"_a = std::vector<double>(), "measure"_a = nb::none(),
+           "update"_a = nb::none(), "check"_a = nb::none(), "options"_a, keywords.c_str())
       .def("run", &Loop::run, "x0"_a, "t0"_a = 0.0, doc::ocp_Mpc_run)
       .def(
           "step",

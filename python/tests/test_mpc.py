@@ -59,6 +59,23 @@ def test_another_plant():
     assert any(abs(c.x0 - c.arrived).max() > 1e-3 for c in result.cycles)
 
 
+def test_a_plant_that_is_measured_by_a_function():
+    p, _ = cart()
+    plant = slalom.Problem("in other units")
+    y, w, u = plant.state("y"), plant.state("w"), plant.control("u")
+    plant.dynamics(y, w)
+    plant.dynamics(w, 100 * u)  # centimetres
+    with pytest.raises(slalom.InvalidValue, match="measure"):
+        slalom.Mpc(p, plant=plant).run([0, 0])
+    loop = slalom.Mpc(p, tex=0.25, mesh=20, goal=GOAL, plant=plant, measure=lambda states: states / 100)
+    result = loop.run([0, 0])
+    assert result.status == "goal" and result.states["y"][-1] == pytest.approx(100, abs=1)
+    with pytest.raises(slalom.Error, match="another Mpc"):
+        loop.run([0, 0])
+    with pytest.raises(ZeroDivisionError):
+        slalom.Mpc(p, plant=plant, measure=lambda states: 1 / 0).run([0, 0])
+
+
 def test_callbacks():
     p, wish = cart()
     seen = []
@@ -107,7 +124,7 @@ def test_bad_settings(settings, error, message):
 
 def test_a_warm_up_is_among_the_cycles():
     p, _ = cart()
-    result = slalom.Mpc(p, tex=0.25, mesh=20, warm_up=True, max_cycles=2).run([0, 0])
+    result = slalom.Mpc(p, tex=0.25, mesh=20, warm_up=np.bool_(True), max_cycles=np.int64(2)).run([0, 0])
     assert [cycle.index for cycle in result.cycles] == [0, 1, 2]
     assert all(cycle.solution.solved for cycle in result.cycles)
 

@@ -159,6 +159,9 @@ class Mpc::Impl {
   Impl(const Problem& problem, MpcSettings settings) : loop_(problem, std::move(settings)) {}
 
   MpcResult run(const Vector& x0, double t0) {
+    if (loop_.status() != MpcStatus::running)
+      throw Error(loop_.problem().name() + ": mpc: a run after the end (" + loop_.message() +
+                  "); another run needs another Mpc");
     const Plant plant(loop_);
     MpcResult result;
     result.plant_states = plant.system().states;

@@ -105,7 +105,9 @@ MpcCycle MpcLoop::open(const Vector& measured, double t) {
   if (!std::isfinite(t)) throw InvalidValue(where, fmt::format("time {}", t), "a finite number");
   if (!cycles_.empty() && cycles_.back().arrived.empty()) cycles_.back().arrived = measured;
   measured_ = measured;
-  plans_.pass(t);
+  // A plan is due in this cycle though rounding, or the caller's clock, has it begin a little
+  // early.
+  plans_.pass(t + settings_.tex / 2);
   MpcCycle cycle;
   cycle.index = index_ + 1;
   cycle.t = t;

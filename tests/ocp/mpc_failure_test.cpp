@@ -7,6 +7,7 @@
 
 #include "ocp/cart.hpp"
 #include "ocp/messages.hpp"
+#include "slalom/base/error.hpp"
 #include "slalom/ocp/mpc.hpp"
 
 namespace slalom::ocp {
@@ -89,6 +90,13 @@ TEST(Mpc, TheCheckStopsIt) {
   EXPECT_EQ(result.status, MpcStatus::stopped);
   EXPECT_EQ(result.message, "a cow on the track");
   EXPECT_EQ(result.cycles.size(), 4u);
+}
+
+TEST(MpcErrors, ASecondRunIsRefused) {
+  Cart cart;
+  Mpc mpc(cart.problem, cart.settings());
+  EXPECT_EQ(mpc.run({-2, 0}).status, MpcStatus::goal);
+  EXPECT_THROW((void)mpc.run({-2, 0}), Error);
 }
 
 TEST(MpcErrors, NameWhatIsWrong) {

@@ -11,6 +11,7 @@
 #include "ocp/cart.hpp"
 #include "ocp/closed_forms.hpp"
 #include "ocp/messages.hpp"
+#include "slalom/ocp/interpolant.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -164,6 +165,37 @@ TEST(Mpc, DrivesAPlantOtherThanTheModel) {
   EXPECT_EQ(same.states, result.states);
   settings.plant_known = true;
   EXPECT_LT(miss(Mpc(cart.problem, settings).run({0, 0, -2})), 1e-6);
+}
+
+/// Of the cycles' begins k * tex some are less by a bit than the last one's + tex.
+TEST(Mpc, DrivesEveryPlanHoweverTimesRound) {
+  Cart cart;
+  auto settings = cart.settings();
+  settings.goal.clear();
+  settings.tex = 0.2;
+  settings.max_cycles = 20;
+  settings.plant = lagging_cart();
+  const auto result = Mpc(cart.problem, settings).run({0, 0, -2});
+  ASSERT_EQ(result.cycles.size(), 20u) << result.message;
+  for (std::size_t k = 1, i = 0; k < result.cycles.size(); ++k) {
+    const Solution& plan = result.cycles[k - 1].solution;
+    const Interpolant planned(cart.problem, plan.trajectory, plan.mesh, plan.scheme);
+    const double begin = result.cycles[k].t, end = begin + settings.tex;
+    for (; i < result.t.size() && result.t[i] < end - 1e-6; ++i)
+      if (result.t[i] > begin + 1e-6)
+        EXPECT_NEAR(result.controls[i][0], planned.controls(result.t[i])[0], 1e-9)
+            << "cycle " << k + 1;
+  }
+}
+
+TEST(Mpc, TakesTheLastPlanWhereTheCallersClockIsEarly) {
+  Cart cart;
+  Mpc mpc(cart.problem, cart.settings());
+  ASSERT_EQ(mpc.step({-2, 0}, 0), MpcStatus::running);
+  const double planned = mpc.controls(0.3)[0];
+  ASSERT_GT(planned, 0.9);
+  ASSERT_EQ(mpc.step({-2, 0}, 0.24), MpcStatus::running);
+  EXPECT_EQ(mpc.controls(0.3)[0], planned);
 }
 
 TEST(Mpc, PlantsMayTakePlannedStatesAsInputs) {

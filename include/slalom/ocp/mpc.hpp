@@ -148,7 +148,8 @@ class Mpc {
   const std::string& message() const;  ///< one sentence on how it ended
   const std::vector<MpcCycle>& cycles() const;
 
-  /// The whole loop from the plant's state x0 at time t0, until it ends.
+  /// The whole loop from the plant's state x0 at time t0, until it ends. Throws Error after the
+  /// end: another run needs another Mpc.
   [[nodiscard]] MpcResult run(const std::vector<double>& x0, double t0 = 0);
 
  private:
