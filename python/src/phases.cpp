@@ -87,14 +87,7 @@ void start_warm(const PhasedProblem& problem, const PhasedSolved& answer, Phased
     check_alike(problem.phases()[p], *answer.phases[p].problem);
     same = same && same_grid(answer.phases[p].answer, start.settings.grids[p]);
   }
-  if (same) {
-    start.settings.warm_start = answer.answer.point;
-    return;
-  }
-  if (answer.answer.link_multipliers.size() != problem.links().size())
-    throw InvalidValue(problem.name() + ": warm_start",
-                       std::to_string(answer.answer.link_multipliers.size()) + " links",
-                       std::to_string(problem.links().size()));
+  if (same) start.settings.warm_start = answer.answer.point;
   start.previous = std::make_unique<const PhasedSolution>(answer.whole());
   start.settings.previous = start.previous.get();
 }

@@ -46,9 +46,12 @@ std::string names_of(const List& list) {
 
 }  // namespace
 
-OptionValue option_value(nb::handle value, const std::string& name) {
+OptionValue option_value(nb::handle given, const std::string& name) {
+  nb::object value = nb::borrow(given);
+  if (nb::hasattr(value, "dtype") && nb::hasattr(value, "item")) value = value.attr("item")();
   if (nb::isinstance<nb::bool_>(value)) return nb::cast<bool>(value);
-  if (nb::isinstance<nb::int_>(value)) return nb::cast<std::int64_t>(value);
+  std::int64_t whole = 0;  // what is too large for it is out of every option's range as a real, too
+  if (nb::isinstance<nb::int_>(value) && nb::try_cast(value, whole)) return whole;
   if (nb::isinstance<nb::str>(value)) return nb::cast<std::string>(value);
   return as<double>(value, "option " + name, "a number, a word or a truth value");
 }
@@ -160,10 +163,8 @@ ocp::SolveSettings settings_of(const ocp::Problem& problem, const GridChoice& ch
   settings.guess = guess_of(problem, guess);
   if (warm_start == nullptr) return settings;
   check_alike(problem, *warm_start->problem);
-  if (same_grid(warm_start->answer, grid))
-    settings.warm_start = warm_start->answer.point;
-  else
-    settings.previous = &warm_start->answer;
+  settings.previous = &warm_start->answer;  // where there is no point, or none that fits
+  if (same_grid(warm_start->answer, grid)) settings.warm_start = warm_start->answer.point;
   return settings;
 }
 

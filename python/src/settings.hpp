@@ -33,12 +33,14 @@ struct GridChoice {
 /// Sizes that a caller gives are bounded, for what they make cannot be interrupted. Throws
 /// InvalidValue.
 void check_at_most(std::int64_t value, std::int64_t most, const std::string& where);
+/// Of one call.
+inline constexpr std::int64_t kMostThreads = 1024;
 
 /// Throws InvalidValue for lists that have not one entry an interval; warns of points for schemes
 /// that all have a number of their own.
 ocp::PhasedTranscription::Grid grid_of(const GridChoice& choice, const std::string& where);
 
-/// An option's value as Python gave it; a TypeError that names it for another type.
+/// An option's value as Python or NumPy gave it; a TypeError that names it for another type.
 OptionValue option_value(nb::handle value, const std::string& name);
 
 /// Solver options from keyword arguments, by their table. Throws InvalidValue for another name;

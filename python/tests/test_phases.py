@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from problems import two_legs
+from problems import swing, two_legs
 
 import slalom
 
@@ -166,3 +166,47 @@ def test_gaps_of_connected_phases():
     s = p.solve(mesh=4)
     assert s.solved
     assert s[1].state("m")[0] == pytest.approx(s[0].state("m")[-1] - 4)
+
+
+def test_warm_starts_on_the_same_mesh():
+    one = slalom.PhasedProblem("one")
+    one.add(swing())
+    cold = swing().solve(mesh=20)
+    warm = swing().solve(mesh=20, warm_start=one.solve(mesh=20)["swing"])
+    assert warm.solved and warm.iterations < cold.iterations
+    stopped = one.solve(mesh=20, time_limit=0)
+    assert swing().solve(mesh=20, warm_start=stopped[0]).solved
+    p, x, u = pushed()
+    earlier = p.solve(mesh=20)
+    p.path("sum", x + u, upper=50)
+    assert p.solve(mesh=20, warm_start=earlier).solved  # with a row more
+
+
+def pushed():
+    p = slalom.Problem("pushed")
+    x, u = p.state("x", initial=0, final=1), p.control("u")
+    p.dynamics(x, u)
+    p.lagrange("effort", u**2)
+    return p, x, u
+
+
+def test_warm_starts_of_problems_with_another_link():
+    p, legs = slalom.PhasedProblem("pieces"), []
+    for k in range(2):
+        leg = slalom.Problem(f"piece {k}")
+        x, u = leg.state("x"), leg.control("u", lower=-3, upper=3)
+        leg.dynamics(x, u - x**3)
+        leg.lagrange("effort", u**2)
+        leg.initial_time(equal=k)
+        leg.final_time(equal=k + 1)
+        if k == 0:
+            leg.initial_bounds(x, equal=0)
+        else:
+            leg.final_bounds(x, equal=1)
+        p.add(leg)
+        legs.append((leg, x))
+    p.connect(0, 1)
+    earlier = p.solve(mesh=10)
+    p.link("even", legs[1][0].final(legs[1][1]) - legs[0][0].final(legs[0][1]), upper=0.9)
+    for mesh in (10, 15):
+        assert p.solve(mesh=mesh, warm_start=earlier).solved

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
 #include "between_points.hpp"
 #include "duals.hpp"
+#include "set_up_watch.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -43,7 +45,41 @@ std::vector<double> defect_multipliers(const Scheme& scheme, const std::vector<d
   return solve_definite(std::move(normal), std::move(right));
 }
 
-/// A solution's multipliers by name, as densities over time.
+/// One name's multipliers as a density over time; 0 of a name that an answer has not. `ends_apart`:
+/// what stands at the horizon's ends is no part of a density but what fixes the ends.
+class Density {
+ public:
+  Density(const Duals& duals, const Layout& layout, const Multipliers* of, bool ends_apart)
+      : duals_(duals), layout_(layout), of_(of) {
+    if (of == nullptr || of->points.empty()) return;
+    first_apart_ = ends_apart && of->points.front() == 0;
+    last_apart_ = ends_apart && of->points.back() + 1 == duals.tau.size();
+    from_ = first_apart_ ? 1 : 0;
+    const std::size_t to = of->points.size() - (last_apart_ ? 1 : 0);
+    for (std::size_t k = from_; k < to; ++k) tau_.push_back(duals.tau[of->points[k]]);
+  }
+
+  /// At a point of the new mesh.
+  double at(std::size_t point) const {
+    if (first_apart_ && point == 0) return of_->values.front();
+    if (last_apart_ && point + 1 == layout_.points()) return of_->values.back();
+    if (tau_.empty()) return 0;
+    const auto density = [&](std::size_t k) {
+      return of_->values[from_ + k] / share_of(duals_.tau, of_->points[from_ + k]);
+    };
+    return between_points(tau_, density, layout_.tau[point]) * share_of(layout_.tau, point);
+  }
+
+ private:
+  const Duals& duals_;
+  const Layout& layout_;
+  const Multipliers* of_;
+  bool first_apart_ = false, last_apart_ = false;
+  std::size_t from_ = 0;
+  std::vector<double> tau_;
+};
+
+/// A solution's multipliers by name.
 class Densities {
  public:
   Densities(const Duals& duals, const Layout& layout) : duals_(duals), layout_(layout) {
@@ -54,25 +90,8 @@ class Densities {
     const Multipliers* found = find(name);
     return found == nullptr || found->values.empty() ? 0 : found->values.front();
   }
-  /// At a point of the new mesh. `ends_apart`: what stands at the horizon's ends is no part of a
-  /// density but what fixes the ends.
-  double at(const std::string& name, std::size_t point, bool ends_apart) const {
-    const Multipliers* found = find(name);
-    if (found == nullptr || found->points.empty()) return 0;
-    const bool first = point == 0, last = point + 1 == layout_.points();
-    if (ends_apart && first && found->points.front() == 0) return found->values.front();
-    if (ends_apart && last && found->points.back() + 1 == duals_.tau.size())
-      return found->values.back();
-    std::size_t from = 0, to = found->points.size();
-    if (ends_apart && found->points.front() == 0) ++from;
-    if (ends_apart && found->points.back() + 1 == duals_.tau.size()) --to;
-    if (from >= to) return 0;
-    std::vector<double> tau;
-    for (std::size_t k = from; k < to; ++k) tau.push_back(duals_.tau[found->points[k]]);
-    const auto density = [&](std::size_t k) {
-      return found->values[from + k] / share_of(duals_.tau, found->points[from + k]);
-    };
-    return between_points(tau, density, layout_.tau[point]) * share_of(layout_.tau, point);
+  Density over_time(const std::string& name, bool ends_apart) const {
+    return {duals_, layout_, find(name), ends_apart};
   }
 
  private:
@@ -92,6 +111,7 @@ void carry_defects(const Transcribed& data, const Schemes& schemes,
   for (std::size_t k = 0; k < layout.intervals(); ++k) {
     const Scheme& scheme = schemes.of(k);
     for (std::size_t i = 0; i < layout.nx; ++i) {
+      SetUpWatch::poll();
       std::vector<double> at_points;
       for (std::size_t j = 0; j < scheme.points.size(); ++j)
         at_points.push_back(between_points(
@@ -108,13 +128,23 @@ void carry_defects(const Transcribed& data, const Schemes& schemes,
 
 void carry_rows(const Problem& problem, const Transcribed& data, const Densities& densities,
                 nlp::Start& start) {
+  std::map<std::pair<std::size_t, std::size_t>, Density> known;  // by constraint and member
   for (std::size_t r = 0; r < data.origins.size(); ++r) {
+    SetUpWatch::poll();
     const RowOrigin& origin = data.origins[r];
     if (origin.constraint == kNone) continue;
-    const std::string name = name_of(problem, origin);
-    const bool over_time = problem.constraints()[origin.constraint].over_time();
-    const double value =
-        over_time ? densities.at(name, origin.point, false) : densities.single(name);
+    double value = 0;
+    if (problem.constraints()[origin.constraint].over_time()) {
+      auto found = known.find({origin.constraint, origin.member});
+      if (found == known.end())
+        found = known
+                    .emplace(std::pair(origin.constraint, origin.member),
+                             densities.over_time(name_of(problem, origin), false))
+                    .first;
+      value = found->second.at(origin.point);
+    } else {
+      value = densities.single(name_of(problem, origin));
+    }
     start.y[r] = value / data.structure.row_scale[r];
   }
 }
@@ -127,12 +157,16 @@ void carry_bounds(const Problem& problem, const Transcribed& data, const Densiti
     start.zu[variable] = std::max(z, 0.0);
     start.zl[variable] = std::max(-z, 0.0);
   };
-  for (std::size_t i = 0; i < layout.nx; ++i)
-    for (const std::size_t p : layout.state_points)
-      set(layout.state(p, i), densities.at(problem.states()[i].name, p, true));
-  for (std::size_t i = 0; i < layout.nu; ++i)
-    for (std::size_t p = 0; p < layout.points(); ++p)
-      set(layout.control(p, i), densities.at(problem.controls()[i].name, p, false));
+  for (std::size_t i = 0; i < layout.nx; ++i) {
+    SetUpWatch::ask_now();
+    const Density density = densities.over_time(problem.states()[i].name, true);
+    for (const std::size_t p : layout.state_points) set(layout.state(p, i), density.at(p));
+  }
+  for (std::size_t i = 0; i < layout.nu; ++i) {
+    SetUpWatch::ask_now();
+    const Density density = densities.over_time(problem.controls()[i].name, false);
+    for (std::size_t p = 0; p < layout.points(); ++p) set(layout.control(p, i), density.at(p));
+  }
   for (std::size_t i = 0; i < layout.slack.size(); ++i)
     set(layout.slack[i], densities.single(problem.slacks()[i].name));
   set(layout.t0, densities.single("t0"));

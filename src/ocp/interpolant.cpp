@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "point_functions.hpp"
+#include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/quadrature.hpp"
 
@@ -90,6 +91,7 @@ Interpolant::Interpolant(const Problem& problem, const Trajectory& trajectory, c
                        fmt::format("{}, those of the mesh", points + 1));
   const PointFunctions functions(problem, trajectory);
   for (std::size_t p = 0; p <= points; ++p) {
+    SetUpWatch::poll();
     auto& rate = at.rate.emplace_back(problem.states().size());
     functions.rates(trajectory.time(p), trajectory.states[p], trajectory.controls[p], rate);
   }
@@ -154,6 +156,7 @@ Trajectory Interpolant::resampled(const Mesh& mesh, const Schemes& schemes) cons
   result.controls.clear();
   const auto& breaks = mesh.breakpoints();
   const auto add = [&](double tau) {
+    SetUpWatch::poll();
     result.tau.push_back(tau);
     const double t = result.t0 + tau * (result.tf - result.t0);
     result.states.push_back(states(t));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "set_up_watch.hpp"
 #include "slalom/expr/function.hpp"
 
 namespace slalom::ocp {
@@ -270,10 +271,12 @@ Problem with_scales(Problem problem, const Trajectory& guess) {
   for (const auto& each : problem.integrals()) set(each, size_of(each.bounds));
   for (const auto& each : problem.slacks())
     set(each, each.guess != 0 ? size_of(each.guess) : size_of(each.bounds));
-  for (std::size_t c = 0; c < problem.constraints().size(); ++c)
+  for (std::size_t c = 0; c < problem.constraints().size(); ++c) {
+    SetUpWatch::ask_now();
     if (problem.constraints()[c].scale == kAutomaticScale)
       if (const double size = sizes.row(problem.constraints()[c]); size > 0)
         problem.set_scale(ConstraintId{c}, size);
+  }
   // Times by how long it lasts, however far from zero the clock stands.
   const double duration = guess.tf - guess.t0;
   const double horizon = duration > 0 ? duration : std::max(size_of(guess.t0), size_of(guess.tf));

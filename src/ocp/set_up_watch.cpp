@@ -8,7 +8,7 @@ SetUpWatch::SetUpWatch(const nlp::Options& options) : options_(options), outer_(
   current_ = this;
 }
 SetUpWatch::~SetUpWatch() {
-  current_ = outer_;
+  over();
 }
 
 void SetUpWatch::ask() const {

@@ -7,11 +7,12 @@
 
 namespace slalom::ocp {
 
-/// Ends a solve's set-up, which may take longer than the solve: by the options' time limit, counted
-/// from when this was made, or by their callback. One a thread, the innermost, while it lives.
+/// Ends a solve's set-up, which may take longer than the solve, and other work between solves: by
+/// the options' time limit, counted from when this was made, or by their callback. One a thread,
+/// the innermost, while it lives.
 class SetUpWatch {
  public:
-  /// Thrown by poll(); solve() alone catches it.
+  /// Thrown by poll(); whoever made the watch catches it.
   struct Stopped {
     nlp::Status status;
   };
@@ -22,6 +23,10 @@ class SetUpWatch {
   SetUpWatch& operator=(const SetUpWatch&) = delete;
 
   double seconds() const { return timer_.wall(); }
+  /// Ends nothing from now on.
+  void over() {
+    if (current_ == this) current_ = outer_;
+  }
 
   /// To be called once each step of a loop over points, rows or entries; asks every kSteps steps.
   static void poll() {

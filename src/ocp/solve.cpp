@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 
-#include "conflicts.hpp"
-#include "lookup.hpp"
 #include "moved.hpp"
-#include "set_up_watch.hpp"
 #include "simulated_guess.hpp"
-#include "slalom/base/error.hpp"
+#include "slalom/base/timer.hpp"
 #include "slalom/ocp/guess.hpp"
-#include "slalom/ocp/moments.hpp"
-#include "slalom/ocp/scaling.hpp"
-#include "slalom/ocp/transcription.hpp"
+#include "solve_once.hpp"
 #include "solved.hpp"
-#include "unwind.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -34,171 +27,6 @@ constexpr int kCoarseMeshes[] = {4, 10};
 constexpr double kHeldControls[] = {0.5, 0.25};
 /// A limit below is there to see how a solve begins.
 constexpr int kEnoughIterations = 100;
-
-}  // namespace
-
-std::vector<double> Solution::time() const {
-  std::vector<double> result;
-  for (std::size_t k = 0; k < trajectory.tau.size(); ++k) result.push_back(trajectory.time(k));
-  return result;
-}
-std::vector<double> Solution::state(const std::string& name) const {
-  return column(trajectory.states, index_of(name, state_names, "state"));
-}
-std::vector<double> Solution::control(const std::string& name) const {
-  return column(trajectory.controls, index_of(name, control_names, "control"));
-}
-double Solution::static_parameter(const std::string& name) const {
-  return trajectory.static_parameters[index_of(name, static_parameter_names, "static parameter")];
-}
-double Solution::slack(const std::string& name) const {
-  return trajectory.slacks[index_of(name, slack_names, "slack")];
-}
-const Multipliers& Solution::multiplier(const std::string& name) const {
-  return multipliers[index_of(name, names_of(multipliers), "multiplier")];
-}
-const Excesses& Solution::excess(const std::string& name) const {
-  return excesses[index_of(name, names_of(excesses), "soft constraint")];
-}
-double Solution::cost_term(const std::string& name) const {
-  std::vector<std::string> names;
-  for (const auto& term : cost_terms) names.push_back(term.first);
-  return cost_terms[index_of(name, names, "cost term")].second;
-}
-std::vector<double> Solution::costate(const std::string& state_name) const {
-  return column(costates, index_of(state_name, state_names, "state"));
-}
-
-namespace {
-
-void append(const nlp::Start& part, nlp::Start& whole) {
-  for (auto list : {&nlp::Start::x, &nlp::Start::y, &nlp::Start::zl, &nlp::Start::zu})
-    (whole.*list).insert((whole.*list).end(), (part.*list).begin(), (part.*list).end());
-}
-
-/// One entry a phase, or none for defaults.
-template <class List>
-void check_count(const PhasedProblem& problem, const char* what, const List& list) {
-  if (!list.empty() && list.size() != problem.phases().size())
-    throw InvalidValue(problem.name() + ": " + what, std::to_string(list.size()),
-                       std::to_string(problem.phases().size()) + ", one a phase, or none");
-}
-
-void tell_end(const SetUpWatch& watch, nlp::Status status, const nlp::Options& options,
-              auto& solution) {
-  solution.status = status;
-  solution.objective = std::numeric_limits<double>::quiet_NaN();
-  solution.options = options;
-  solution.wall_s = watch.seconds();
-}
-
-/// What the set-up has left of the time limit.
-nlp::Options left(const SetUpWatch& watch, nlp::Options options) {
-  options.time_limit = std::max(0.0, options.time_limit - watch.seconds());
-  return options;
-}
-
-Solution solve_within(const SetUpWatch& watch, const Problem& problem,
-                      const SolveSettings& settings) {
-  const auto grid = with_moments(problem, {settings.mesh, settings.scheme});
-  const Beginning beginning = begin(problem, grid, settings.guess, settings.previous);
-  const Problem scaled = with_scales(problem, beginning.guess);
-  Transcription transcription(scaled, grid.mesh, grid.schemes);
-  const bool warm = settings.previous == nullptr && !settings.warm_start.x.empty();
-  const nlp::Start start = warm ? from_user(settings.warm_start, transcription.structure())
-                                : start_of(transcription, beginning);
-  const auto solver = nlp::make_solver(settings.backend);
-  Solution solution;
-  auto point = run(transcription, *solver, left(watch, settings.options), start,
-                   transcription.regular_variables(), solution);
-  if (solution.iterations > 0 && unwind(scaled, transcription, point.x))
-    solution.point = to_user(point, transcription.structure());
-  describe(scaled, grid, Tables(scaled), transcription, point, solution);
-  return solution;
-}
-
-PhasedSolution solve_within(const SetUpWatch& watch, const PhasedProblem& problem,
-                            const PhasedSettings& settings) {
-  const std::size_t phases = problem.phases().size();
-  auto grids = settings.grids;
-  if (grids.empty()) grids.resize(phases);
-  check_count(problem, "guesses", settings.guesses);
-  const PhasedSolution* previous = settings.previous;
-  if (previous != nullptr)
-    check_count(problem, "phases of the previous solution", previous->phases);
-  std::vector<Beginning> beginnings;
-  PhasedProblem scaled = problem;
-  for (std::size_t p = 0; p < phases && p < grids.size(); ++p) {
-    grids[p] = with_moments(problem.phases()[p], grids[p]);
-    beginnings.push_back(begin(problem.phases()[p], grids[p],
-                               settings.guesses.empty() ? Trajectory{} : settings.guesses[p],
-                               previous == nullptr ? nullptr : &previous->phases[p]));
-    scaled.replace(p, with_scales(problem.phases()[p], beginnings[p].guess));
-  }
-  PhasedTranscription transcription(scaled, grids);
-  nlp::Start start;
-  std::vector<char> regular;
-  for (std::size_t p = 0; p < phases; ++p) {
-    append(start_of(transcription.phase(p), beginnings[p]), start);
-    const auto counts = transcription.phase(p).regular_variables();
-    regular.insert(regular.end(), counts.begin(), counts.end());
-  }
-  const auto& row_scale = transcription.structure().row_scale;
-  if (previous != nullptr && !previous->link_multipliers.empty())
-    for (std::size_t l = 0; l < problem.links().size(); ++l)
-      start.y.push_back(previous->link_multipliers.at(l).second /
-                        row_scale[transcription.first_link() + l]);
-  else if (!settings.warm_start.x.empty())
-    start = from_user(settings.warm_start, transcription.structure());
-  const auto solver = nlp::make_solver(settings.backend);
-  PhasedSolution solution;
-  nlp::Start point =
-      run(transcription, *solver, left(watch, settings.options), start, regular, solution);
-  bool unwound = false;
-  auto first = point.x.begin();  // of the phase's variables, which follow those of the phase before
-  for (std::size_t p = 0; p < phases && solution.iterations > 0; ++p) {
-    std::vector<double> x = transcription.part_of(p, point).x;
-    unwound = unwind(scaled.phases()[p], transcription.phase(p), x) || unwound;
-    first = std::copy(x.begin(), x.end(), first);
-  }
-  if (unwound) solution.point = to_user(point, transcription.structure());
-  describe(scaled, grids, transcription, point, solution);
-  if (knows_conflicts(solution)) solution.conflicts = conflicts(scaled, solution);
-  return solution;
-}
-
-Solution stopped_at_set_up(const SetUpWatch& watch, nlp::Status status, const Problem& problem,
-                           const SolveSettings& settings) {
-  Solution solution =
-      not_begun(problem, {settings.mesh, settings.scheme}, settings.guess, settings.previous);
-  tell_end(watch, status, settings.options, solution);
-  return solution;
-}
-
-PhasedSolution stopped_at_set_up(const SetUpWatch& watch, nlp::Status status,
-                                 const PhasedProblem& problem, const PhasedSettings& settings) {
-  PhasedSolution solution;
-  for (std::size_t p = 0; p < problem.phases().size(); ++p) {
-    solution.phases.push_back(
-        not_begun(problem.phases()[p],
-                  p < settings.grids.size() ? settings.grids[p] : PhasedTranscription::Grid{},
-                  p < settings.guesses.size() ? settings.guesses[p] : Trajectory{},
-                  settings.previous == nullptr ? nullptr : &settings.previous->phases[p]));
-    tell_end(watch, status, settings.options, solution.phases.back());
-  }
-  tell_end(watch, status, settings.options, solution);
-  return solution;
-}
-
-template <class Problem, class Settings>
-auto solve_once(const Problem& problem, const Settings& settings) {
-  const SetUpWatch watch(settings.options);
-  try {
-    return solve_within(watch, problem, settings);
-  } catch (const SetUpWatch::Stopped& stopped) {
-    return stopped_at_set_up(watch, stopped.status, problem, settings);
-  }
-}
 
 /// Whether nothing but a guess is there to start from.
 template <class Settings>
@@ -276,21 +104,21 @@ bool has_numbers_by_point(const PhasedProblem& problem) {
                      [](const Problem& phase) { return has_numbers_by_point(phase); });
 }
 
-/// Solves of one problem within one limit of time, and what they took together.
+/// Solves of one problem within one limit of time, counted from when this was made, and what they
+/// took together.
 template <class Answer, class Problem, class Settings>
 class Tries {
  public:
-  Tries(const Problem& problem, double time_limit) : problem_(problem), left_s_(time_limit) {}
+  Tries(const Problem& problem, double time_limit) : problem_(problem), limit_s_(time_limit) {}
 
   /// Another solve; none where no time or iteration is left for one.
   std::optional<Answer> solve(Settings settings) {
-    settings.options.time_limit = left_s_;
-    if (iterations_ > 0 && (settings.options.max_iterations <= 0 || !(left_s_ > 0)))
+    settings.options.time_limit = left_s();
+    if (iterations_ > 0 && (settings.options.max_iterations <= 0 || !(left_s() > 0)))
       return std::nullopt;
     Answer answer = solve_once(problem_, settings);
     iterations_ += answer.iterations;
     wall_s_ += answer.wall_s;
-    left_s_ -= answer.wall_s;
     interrupted_ = answer.status == nlp::Status::interrupted;
     return answer;
   }
@@ -335,7 +163,7 @@ class Tries {
     if constexpr (requires { settings.guess; })
       for (const double share : kHeldControls) {
         Settings again = settings;
-        if (!simulated(problem_, share, left_s_, again)) continue;
+        if (!simulated(problem_, share, left_s(), again)) continue;
         std::optional<Answer> found = solve(std::move(again));
         if (found && found->solved()) answer = std::move(*found);
         if (!found || answer.solved() || interrupted_) return;
@@ -347,8 +175,12 @@ class Tries {
   double wall_s() const { return wall_s_; }
 
  private:
+  double left_s() const { return std::max(0.0, limit_s_ - timer_.wall()); }
+
   const Problem& problem_;
-  double left_s_, wall_s_ = 0;
+  const double limit_s_;
+  const Timer timer_;
+  double wall_s_ = 0;
   int iterations_ = 0;
   bool interrupted_ = false;
 };

@@ -202,6 +202,7 @@ std::vector<double> Transcription::point(const Trajectory& guess) const {
   const auto& scale = impl_->data.structure.variable_scale;
   std::vector<double> x(layout.variables, 0.0);
   for (std::size_t point = 0; point < layout.points(); ++point) {
+    SetUpWatch::poll();
     for (std::size_t i = 0; i < layout.nx && layout.has_state(point); ++i)
       x[layout.state(point, i)] = between_points(guess.tau, guess.states, i, layout.tau[point]);
     for (std::size_t i = 0; i < layout.nu; ++i)

@@ -6,9 +6,12 @@
 
 #include "ocp/closed_forms.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/base/timer.hpp"
 #include "slalom/ocp/interpolant.hpp"
 #include "slalom/ocp/refine.hpp"
 #include "slalom/ocp/scaling.hpp"
+#include "slalom/ocp/transcription.hpp"
+#include "support/sanitized.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -145,6 +148,68 @@ TEST(Carry, PhasesRefineEachByItsOwnErrors) {
   one.phases.resize(1);
   start.previous = &one;
   EXPECT_THROW((void)solve(problem, start), InvalidValue);
+}
+
+TEST(Carry, OfALinkThatTheAnswerHasNotIsZero) {
+  PhasedProblem problem = three_phases();
+  const PhasedSolution before = solve(problem);
+  ASSERT_TRUE(before.solved());
+  const auto& phases = problem.phases();
+  problem.link("slow enough", phases[2].final_time() - phases[0].final_time(), Bounds::at_most(50));
+  PhasedSettings start;
+  start.previous = &before;
+  const PhasedSolution after = solve(problem, start);
+  ASSERT_TRUE(after.solved());
+  EXPECT_NEAR(after.objective, before.objective, 1e-6);
+  EXPECT_LT(after.iterations, before.iterations);
+}
+
+TEST(Carry, TakesAPointThatFitsBeforeAnAnswer) {
+  Problem p = bryson_denham(1.0 / 9).problem;
+  const auto wall = p.path("wall", p.states()[1].symbol, Bounds::at_least(-0.9));
+  const Solution rough = solve(p, {.mesh = Mesh::uniform(5)});
+  SolveSettings settings{.mesh = Mesh::uniform(40)};
+  settings.warm_start = solve(p, settings).point;
+  const int by_point = solve(p, settings).iterations;
+  settings.previous = &rough;
+  EXPECT_LE(solve(p, settings).iterations, by_point + 1);
+  p.enable(wall, false);
+  EXPECT_TRUE(solve(p, settings).solved()) << "the point has a row too many";
+}
+
+/// An answer to many points is carried in a time that grows as they do.
+TEST(Carry, TakesNoLongerThanItHasPoints) {
+  constexpr int kIntervals = kSanitized ? 15000 : 60000;
+  Problem p("long");
+  const Expr x = p.state("x", {-1, 1}), u = p.control("u", {-1, 1});
+  p.dynamics(x, u);
+  p.path("sum", x + u, {-1, 1});
+  p.lagrange("effort", square(u));
+  const Mesh mesh = Mesh::uniform(kIntervals);
+  Transcription transcription(p, mesh, trapezoidal());
+  Trajectory guess;
+  Duals duals;
+  for (const double tau : mesh.breakpoints()) {
+    guess.tau.push_back(tau);
+    guess.states.push_back({0.5 * tau});
+    guess.controls.push_back({0.5});
+    duals.tau.push_back(tau);
+    duals.costates.tau.push_back(tau);
+    duals.costates.values.push_back({1});
+  }
+  guess.tf = 1;
+  for (const char* name : {"x", "u", "sum"}) {
+    Multipliers& each = duals.multipliers.emplace_back();
+    each.name = name;
+    for (std::size_t point = 0; point < guess.tau.size(); ++point) {
+      each.points.push_back(point);
+      each.values.push_back(1e-3);
+    }
+  }
+  const Timer timer;
+  const nlp::Start start = transcription.carried(guess, duals);
+  EXPECT_LT(timer.cpu(), 3);
+  EXPECT_EQ(start.y.size(), transcription.structure().rows);
 }
 
 }  // namespace

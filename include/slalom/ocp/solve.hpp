@@ -38,7 +38,8 @@ struct SolveSettings {
   Trajectory guess = {};       ///< empty: straight lines between the bounds at both ends
   nlp::Start warm_start = {};  ///< a Solution's `point` on the same mesh and scheme; beats guess
   /// A solution on any mesh and scheme, whose trajectory and multipliers are carried to this mesh;
-  /// beats the two above. It must outlive the call.
+  /// beats the guess. With `warm_start` too, that is taken if it has the sizes of this problem's
+  /// NLP. It must outlive the call.
   const Solution* previous = nullptr;
 };
 
