@@ -171,14 +171,14 @@ void bind_refine(nb::module_& module) {
         const bool none = r.answer.errors.interval.empty();
         return none ? std::optional<ocp::ErrorEstimate>() : r.answer.errors;
       },
-      "The re-integrated errors of that solution; None where no mesh was solved.");
+      "The re-integrated errors of that solution; None where no mesh was judged.");
   auto several =
       bind_refined<PhasedAnswer>(module, "PhasedRefined",
                                  "What PhasedProblem.refine comes to: the last mesh's answer, and "
                                  "every mesh's record.");
   several.def_prop_ro(
       "errors", [](const PhasedAnswer& r) { return r.answer.errors; },
-      "The re-integrated errors of each phase; empty where no mesh was solved.");
+      "The re-integrated errors of each phase; empty where no mesh was judged.");
   auto problem = nb::borrow<nb::class_<Problem>>(module.attr("Problem"));
   def_refine(problem, &refine);
   auto phased = nb::borrow<nb::class_<Phases>>(module.attr("PhasedProblem"));

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "point_functions.hpp"
+#include "set_up_watch.hpp"
 #include "symbols.hpp"
 
 namespace slalom::ocp {
@@ -41,7 +42,7 @@ std::vector<std::vector<double>> multipliers_of(const Problem& problem, const So
   for (const auto& each : solution.multipliers) known[each.name] = &each;
   const auto judged = names_of_state_rows(problem);
   std::vector<std::vector<double>> list;
-  for (const auto& row : functions.rows()) {
+  for (const auto& row : functions.known_rows()) {
     auto& values = list.emplace_back();
     const auto at = known.find(row.name);
     if (at == known.end() || std::find(judged.begin(), judged.end(), row.name) == judged.end() ||
@@ -68,6 +69,7 @@ std::vector<double> bound_shares(const Problem& problem, const Solution& solutio
   const auto& breaks = solution.mesh.breakpoints();
   std::vector<double> values(multipliers.size()), low(values.size()), high(values.size());
   for (std::size_t k = 0, first = 0; k < intervals; ++k) {
+    SetUpWatch::ask_now();
     const std::size_t last = first + solution.scheme.of(k).points.size() - 1;
     std::fill(low.begin(), low.end(), 0.0);
     high = low;
@@ -76,8 +78,8 @@ std::vector<double> bound_shares(const Problem& problem, const Solution& solutio
       const double t = solution.trajectory.time_at(breaks[k] + c * (breaks[k + 1] - breaks[k]));
       functions.row_values(t, polynomials.states(k, c), polynomials.controls(k, c), values);
       for (std::size_t r = 0; r < values.size(); ++r) {
-        low[r] = std::max(low[r], functions.rows()[r].bounds.lower - values[r]);
-        high[r] = std::max(high[r], values[r] - functions.rows()[r].bounds.upper);
+        low[r] = std::max(low[r], functions.known_rows()[r].bounds.lower - values[r]);
+        high[r] = std::max(high[r], values[r] - functions.known_rows()[r].bounds.upper);
       }
     }
     for (std::size_t r = 0; r < values.size(); ++r)

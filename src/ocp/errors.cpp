@@ -11,6 +11,7 @@
 #include "bound_shares.hpp"
 #include "integrator.hpp"
 #include "point_functions.hpp"
+#include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
 
@@ -168,6 +169,7 @@ Sizes sizes_of(const Problem& problem, const Solution& solution, const Interpola
   const Reintegration integrator(problem, solution, polynomials, list.units, 0.5);
   Vector integrals;
   for (std::size_t k = 0; k < solution.mesh.intervals(); ++k) {
+    SetUpWatch::poll();
     const Vector part = integrator.quadrature(k, true);
     integrals.resize(part.size(), 0.0);
     for (std::size_t i = 0; i < part.size(); ++i) integrals[i] += part[i];
@@ -205,6 +207,7 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
   estimate.bound_share = bound_shares(problem, solution, polynomials);
   Vector running = begin(0);
   for (std::size_t k = 0; k < solution.mesh.intervals(); ++k) {
+    SetUpWatch::ask_now();
     Vector expected = trajectory.states[node[k + 1]];
     for (const double integral : integrator.quadrature(k, false)) expected.push_back(integral);
     const Vector found = integrator.across(k, begin(k));
@@ -309,6 +312,7 @@ std::vector<double> unresolved_controls(const Problem& problem, const Solution& 
       continue;
     }
     Vector gap(intervals + 1, kInfinity);  // by node; none counts at the horizon's ends
+    SetUpWatch::ask_now();
     for (std::size_t k = 1; k < intervals; ++k)
       gap[k] = gap_between(EndShape(polynomials, i, k - 1, 1, length(k - 1)),
                            EndShape(polynomials, i, k, 0, length(k)),

@@ -34,6 +34,8 @@ class PointFunctions {
                   std::span<double> out) const;
   /// Throws InvalidValue where a family has numbers at the points of a mesh, and none between.
   const std::vector<Row>& rows() const;
+  /// Those that hold between points; such a family is left out.
+  const std::vector<Row>& known_rows() const { return rows_; }
   void row_values(double t, std::span<const double> x, std::span<const double> u,
                   std::span<double> out) const;
 

@@ -9,9 +9,11 @@
 
 #include "conflicts.hpp"
 #include "damping.hpp"
+#include "mesh_solves.hpp"
 #include "remesh.hpp"
+#include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
-#include "solved.hpp"
+#include "slalom/base/timer.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -38,112 +40,6 @@ void check(const std::string& problem, const RefineRules& rules,
                            "lgr, lgr_differential, lgr_flipped or lgl, which have degrees");
   }
 }
-
-/// One phase's solves.
-class Single {
- public:
-  using Answer = Solution;
-  Single(const Problem& problem, SolveSettings settings)
-      : problem_(problem), settings_(std::move(settings)) {}
-
-  const std::string& name() const { return problem_.name(); }
-  std::vector<PhasedTranscription::Grid> grids() const {
-    return {{settings_.mesh, settings_.scheme}};
-  }
-  Solution solve() const { return stated(ocp::solve(now(), settings_)); }
-  static std::vector<const Solution*> phases(const Solution& solution) { return {&solution}; }
-  /// Of the solves from now on; a weight of 0 ends it.
-  void damp(const Solution& earlier, const Chosen& chosen, double weight) {
-    damped_.reset();
-    if (weight > 0) add_damping(damped_.emplace(problem_), earlier, chosen[0], weight);
-  }
-  double damping_cost() const { return damping_cost_; }
-  const Problem& problem(std::size_t) const { return problem_; }
-  std::string phase_name(std::size_t) const { return ""; }
-  void next(std::vector<PhasedTranscription::Grid> grids, const Solution& previous) {
-    settings_.mesh = std::move(grids[0].mesh);
-    settings_.scheme = std::move(grids[0].schemes);
-    settings_.previous = &previous;
-  }
-  /// Without the last mesh's multipliers.
-  Solution solve_anew() const {
-    SolveSettings settings = settings_;
-    settings.guess = resampled(problem_, *settings.previous, {settings.mesh, settings.scheme});
-    settings.previous = nullptr;
-    return stated(ocp::solve(now(), settings));
-  }
-
- private:
-  const Problem& now() const { return damped_ ? *damped_ : problem_; }
-  Solution stated(Solution solution) const {
-    damping_cost_ = without_damping(solution);
-    return solution;
-  }
-
-  const Problem& problem_;
-  SolveSettings settings_;
-  std::optional<Problem> damped_;
-  mutable double damping_cost_ = 0;
-};
-
-/// Those of several phases.
-class Several {
- public:
-  using Answer = PhasedSolution;
-  Several(const PhasedProblem& problem, PhasedSettings settings)
-      : problem_(problem), settings_(std::move(settings)) {
-    if (settings_.grids.empty()) settings_.grids.resize(problem.phases().size());
-  }
-
-  const std::string& name() const { return problem_.name(); }
-  const std::vector<PhasedTranscription::Grid>& grids() const { return settings_.grids; }
-  PhasedSolution solve() const { return stated(ocp::solve(now(), settings_)); }
-  static std::vector<const Solution*> phases(const PhasedSolution& solution) {
-    std::vector<const Solution*> list;
-    for (const auto& phase : solution.phases) list.push_back(&phase);
-    return list;
-  }
-  const Problem& problem(std::size_t phase) const { return problem_.phases()[phase]; }
-  const std::string& phase_name(std::size_t phase) const { return problem_.phases()[phase].name(); }
-  void next(std::vector<PhasedTranscription::Grid> grids, const PhasedSolution& previous) {
-    settings_.grids = std::move(grids);
-    settings_.previous = &previous;
-  }
-  PhasedSolution solve_anew() const {
-    PhasedSettings settings = settings_;
-    settings.guesses.clear();
-    for (std::size_t p = 0; p < settings.grids.size(); ++p)
-      settings.guesses.push_back(
-          resampled(problem(p), settings.previous->phases[p], settings.grids[p]));
-    settings.previous = nullptr;
-    return stated(ocp::solve(now(), settings));
-  }
-  void damp(const PhasedSolution& earlier, const Chosen& chosen, double weight) {
-    damped_.reset();
-    if (!(weight > 0)) return;
-    damped_.emplace(problem_);
-    for (std::size_t p = 0; p < chosen.size(); ++p) {
-      Problem phase = problem(p);
-      add_damping(phase, earlier.phases[p], chosen[p], weight);
-      damped_->replace(p, std::move(phase));
-    }
-  }
-  double damping_cost() const { return damping_cost_; }
-
- private:
-  const PhasedProblem& now() const { return damped_ ? *damped_ : problem_; }
-  PhasedSolution stated(PhasedSolution solution) const {
-    damping_cost_ = 0;
-    for (Solution& phase : solution.phases) damping_cost_ += without_damping(phase);
-    solution.objective -= damping_cost_;
-    return solution;
-  }
-
-  const PhasedProblem& problem_;
-  PhasedSettings settings_;
-  std::optional<PhasedProblem> damped_;
-  mutable double damping_cost_ = 0;
-};
 
 template <class Solves>
 MeshRecord record_of(const typename Solves::Answer& answer) {
@@ -199,6 +95,13 @@ std::vector<Chatter> chatter_in(const typename Solves::Answer& answer, bool damp
   return list;
 }
 
+/// What is found of one mesh's answer.
+struct Findings {
+  std::vector<ErrorEstimate> errors;
+  std::vector<Chatter> chatter;
+  std::vector<std::vector<double>> unresolved;
+};
+
 /// One refinement, mesh after mesh.
 template <class Solves>
 class Refining {
@@ -208,38 +111,43 @@ class Refining {
       : solves_(std::move(solves)),
         rules_(rules),
         histories_(solves_.grids().size()),
-        damping_(rules.resolve_controls && rules.damp_chatter) {}
+        damping_(rules.resolve_controls && rules.damp_chatter),
+        limit_(solves_.options().time_limit) {}
 
   /// Fills `answer`, `errors` and `meshes`.
   RefineStatus run(Answer& answer, std::vector<ErrorEstimate>& errors,
                    std::vector<MeshRecord>& meshes) {
     for (int mesh = 1, damped = 0;;) {
       Answer now = solve(meshes.empty());
+      const bool first = meshes.empty();
       MeshRecord& record = meshes.emplace_back(record_of<Solves>(now));
       record.damping = damping_.weight();
       if (!now.solved()) {
-        if (meshes.size() == 1) answer = std::move(now);
-        return RefineStatus::not_solved;
+        const bool ended = stopped(now) && !first;
+        if (first) answer = std::move(now);
+        return ended ? RefineStatus::stopped : RefineStatus::not_solved;
       }
-      const auto chatter = chatter_in<Solves>(now, record.damping > 0);
-      auto judged = judge(solves_, now, record);
-      const auto unresolved = unresolved_by_phase(solves_, now, rules_, record);
-      const Shares shares(judged, rules_);
+      std::optional<Findings> found = find(now, record);
+      if (!found) {
+        if (first) answer = std::move(now);
+        return RefineStatus::stopped;
+      }
+      const Shares shares(found->errors, Solves::costs_beside(now), rules_);
       record.objective_error = shares.sum();
       if (record.damping == 0 && converged(record, shares)) {  // whatever it does between points
         answer = std::move(now);
-        errors = std::move(judged);
+        errors = std::move(found->errors);
         return RefineStatus::converged;
       }
-      const bool low = damping_.lowered(), raised = damping_.raised(chatter);
+      const bool low = damping_.lowered(), raised = damping_.raised(found->chatter);
       if (!(low && raised)) {  // else the answer with more weight is the better one
         answer = std::move(now);
-        errors = std::move(judged);
+        errors = std::move(found->errors);
         if (record.damping > 0 && converged(record, shares) && !raised)
           return RefineStatus::converged;
       }
-      Grids grids = !raised ? next_grids(answer, errors, shares, unresolved)
-                    : low   ? halved_grids(answer, chatter)
+      Grids grids = !raised ? next_grids(answer, errors, shares, found->unresolved)
+                    : low   ? halved_grids(answer, found->chatter)
                             : grids_of(answer);
       const bool same = count(grids) == count(grids_of(answer));
       if (same && !raised) damping_.lower();
@@ -259,10 +167,41 @@ class Refining {
   /// Times the tolerance: what damping may be estimated to leave.
   static constexpr double kDampedTolerance = 5;
 
-  Answer solve(bool first) const {
-    Answer now = solves_.solve();
-    if (!first && !now.solved()) now = solves_.solve_anew();
+  Answer solve(bool first) {
+    Answer now = in_time([&] { return solves_.solve(); });
+    if (!first && !now.solved() && !stopped(now))
+      now = in_time([&] { return solves_.solve_anew(); });
     return now;
+  }
+  /// A solve in what is left of the whole refinement's time.
+  template <class Solve>
+  Answer in_time(const Solve& solve) {
+    solves_.options().time_limit = left_s();
+    Answer answer = solve();
+    for (nlp::Options* options : Solves::options_of(answer)) options->time_limit = limit_;
+    return answer;
+  }
+  double left_s() const { return std::max(0.0, limit_ - timer_.wall()); }
+  static bool stopped(const Answer& answer) {
+    return answer.status == nlp::Status::time_limit || answer.status == nlp::Status::interrupted;
+  }
+  /// Nothing, and no errors in the record, where time is up or the options' callback says so.
+  std::optional<Findings> find(const Answer& now, MeshRecord& record) {
+    nlp::Options options = solves_.options();
+    options.time_limit = left_s();
+    const SetUpWatch watch(options);
+    const MeshRecord before = record;
+    try {
+      SetUpWatch::ask_now();
+      Findings found;
+      found.chatter = chatter_in<Solves>(now, record.damping > 0);
+      found.errors = judge(solves_, now, record);
+      found.unresolved = unresolved_by_phase(solves_, now, rules_, record);
+      return found;
+    } catch (const SetUpWatch::Stopped&) {
+      record = before;
+      return std::nullopt;
+    }
   }
   /// Fills the record's error of the objective too.
   bool converged(MeshRecord& record, const Shares& shares) {
@@ -313,6 +252,8 @@ class Refining {
   const RefineRules& rules_;
   std::vector<History> histories_;
   Damping damping_;
+  const double limit_;  ///< [s], of all together
+  const Timer timer_;
   double last_objective_ = kInfinity;
 };
 
@@ -335,6 +276,8 @@ const char* to_string(RefineStatus status) {
       return "size_limit";
     case RefineStatus::not_solved:
       return "not_solved";
+    case RefineStatus::stopped:
+      return "stopped";
   }
   return "unknown";
 }

@@ -72,8 +72,9 @@ void History::note(const Solution& solution, const ErrorEstimate& errors) {
     last_[{breaks[k], breaks[k + 1]}] = {points_of(solution.scheme.of(k)), errors.interval[k]};
 }
 
-Shares::Shares(const std::vector<ErrorEstimate>& phases, const RefineRules& rules)
-    : tolerance_(rules.tolerance) {
+Shares::Shares(const std::vector<ErrorEstimate>& phases, double costs_beside,
+               const RefineRules& rules)
+    : tolerance_(rules.tolerance), size_(costs_beside) {
   for (const auto& errors : phases) {
     size_ += errors.objective_size;
     for (const double share : errors.objective_share) sum_ += std::fabs(share);

@@ -36,7 +36,8 @@ class History {
 /// What all phases' intervals make of the objective.
 class Shares {
  public:
-  Shares(const std::vector<ErrorEstimate>& phases, const RefineRules& rules);
+  /// `costs_beside`: the size of cost terms that are no phase's.
+  Shares(const std::vector<ErrorEstimate>& phases, double costs_beside, const RefineRules& rules);
 
   double size() const { return size_; }
   /// Relative to that.
@@ -49,8 +50,8 @@ class Shares {
   double bound_excess(const ErrorEstimate& errors, std::size_t k) const;
 
  private:
-  double tolerance_, bounds_ = 0, touched_ = 0, size_ = 0, sum_ = 0, intervals_ = 0,
-                     largest_excess_ = 0;
+  double tolerance_, size_, bounds_ = 0, touched_ = 0, sum_ = 0, intervals_ = 0,
+                            largest_excess_ = 0;
 };
 
 /// The mesh after a solution's, by its errors and how much of its control is not resolved.

@@ -4,7 +4,10 @@
 
 #include "../../src/ocp/point_functions.hpp"
 #include "ocp/messages.hpp"
+#include "slalom/ocp/errors.hpp"
 #include "slalom/ocp/problem.hpp"
+#include "slalom/ocp/refine.hpp"
+#include "slalom/ocp/solve.hpp"
 #include "slalom/ocp/transcription.hpp"
 
 namespace slalom::ocp {
@@ -77,6 +80,19 @@ TEST(FamilyPoints, AreNotKnownBetweenPoints) {
   std::vector<double> rates(1);
   const std::vector<double> x{5}, u{0};
   PointFunctions(w.problem, at).rates(0.5, x, u, rates);  // which need none
+}
+
+TEST(FamilyPoints, DoNotHinderErrorEstimates) {
+  Walls w;
+  w.problem.set_members(w.walls, {"wall"}, {{1, 1, 2, 1, 1, 1}});
+  w.problem.path("low", w.x, Bounds::at_most(4));
+  w.problem.initial_bounds(w.x, Bounds::equal(1.8));
+  w.problem.lagrange("effort", square(w.u));
+  const SolveSettings start{.mesh = Mesh::uniform(2), .scheme = trapezoidal()};
+  const Solution solution = solve(w.problem, start);
+  ASSERT_TRUE(solution.solved());
+  EXPECT_EQ(estimate_errors(w.problem, solution).interval.size(), 2u);
+  EXPECT_EQ(refine(w.problem, start, {.max_meshes = 1}).status, RefineStatus::mesh_limit);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "ocp/closed_forms.hpp"
 #include "ocp/messages.hpp"
+#include "slalom/base/timer.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -101,6 +102,90 @@ TEST(Refinement, EndsAtItsLimitsAndSaysSo) {
   EXPECT_EQ(refined.status, RefineStatus::not_solved);
   EXPECT_EQ(refined.meshes.back().status, nlp::Status::iteration_limit);
   EXPECT_NE(refined.table().find("not_solved"), std::string::npos);
+}
+
+/// Whether more iterations were done than there may be.
+struct Count {
+  int done = 0, most = 0;
+  void put(nlp::Options& options) {
+    options.on_iteration = [](const nlp::IterationInfo&, void* data) {
+      ++static_cast<Count*>(data)->done;
+    };
+    options.stop = [](void* data) {
+      const auto& count = *static_cast<Count*>(data);
+      return count.done > count.most;
+    };
+    options.on_iteration_data = options.stop_data = this;
+  }
+};
+
+TEST(Refinement, KeepsTheLastAnswerWhereItIsStopped) {
+  const auto fall = brachistochrone();
+  SolveSettings start{.mesh = Mesh::uniform(5), .guess = fall.guess};
+  const Refined whole = refine(fall.problem, start);
+  ASSERT_GT(whole.meshes.size(), 1U);
+  Count count{.most = whole.meshes.front().iterations};
+  count.put(start.options);
+  const Refined refined = refine(fall.problem, start);
+  EXPECT_STREQ(to_string(refined.status), "stopped") << refined.table();
+  ASSERT_EQ(refined.meshes.size(), 2U);
+  EXPECT_EQ(refined.meshes.back().status, nlp::Status::interrupted);
+  EXPECT_LE(count.done, count.most + 1) << "it was not solved again";
+  EXPECT_TRUE(refined.solution.solved());
+  EXPECT_EQ(refined.solution.mesh.intervals(), 5U);
+  EXPECT_EQ(refined.errors.interval.size(), 5U);
+}
+
+TEST(Refinement, HasOneTimeLimitForAllMeshes) {
+  const auto fall = brachistochrone();
+  SolveSettings start{.mesh = Mesh::uniform(2), .scheme = lgr(2), .guess = fall.guess};
+  start.options.time_limit = 0.3;
+  const Timer timer;
+  const Refined refined =
+      refine(fall.problem, start, {.tolerance = 1e-15, .max_meshes = 1000, .max_size = 1000000});
+  EXPECT_STREQ(to_string(refined.status), "stopped") << refined.table();
+  EXPECT_LT(timer.wall(), 10);  // on a machine with much else to do
+  EXPECT_TRUE(refined.solution.solved());
+  EXPECT_EQ(refined.solution.options.time_limit, 0.3);
+  EXPECT_GT(refined.meshes.size(), 1U);
+}
+
+/// A warm start is the first mesh's alone, in a second try of a later mesh too.
+TEST(Refinement, ForgetsTheWarmStartAfterTheFirstMesh) {
+  const Problem problem = hyper_sensitive(100);
+  SolveSettings start{.mesh = Mesh::uniform(20), .scheme = lgr(3)};
+  start.warm_start = solve(problem, start).point;
+  start.options.max_iterations = solve(problem, start).iterations;
+  const Refined refined = refine(problem, start);
+  EXPECT_EQ(refined.status, RefineStatus::not_solved) << refined.table();
+  EXPECT_EQ(refined.meshes.size(), 2U);
+  EXPECT_EQ(refined.meshes.back().status, nlp::Status::iteration_limit);
+}
+
+TEST(Refinement, CountsCostTermsThatAreNoPhases) {
+  const auto record = [](bool beside) {
+    PhasedProblem both("there and back");
+    for (const double push : {1.0, -1.0}) {
+      Problem p(push > 0 ? "there" : "back");
+      const Expr v = p.state("v"), u = p.control("u", {push > 0 ? 0.1 : -1, push > 0 ? 1 : -0.1});
+      p.dynamics(v, u - v * v * v);
+      if (push > 0) p.initial_bounds(v, Bounds::equal(0));
+      if (push < 0) p.final_bounds(v, Bounds::equal(-0.8));
+      if (push < 0) p.initial_time({0, 10}, 1);
+      p.final_time({0.1, 20}, push > 0 ? 1 : 2);
+      if (push < 0 && !beside) p.mayer("arrival", 1e4 * p.final_time());
+      both.add(p);
+    }
+    both.connect(0, 1);
+    if (beside) both.mayer("arrival", 1e4 * both.phases()[1].final_time());
+    const PhasedSettings start{.grids = {2, {Mesh::uniform(4), trapezoidal()}}};
+    const PhasedRefined refined = refine(both, start, {.resolve_controls = false, .max_meshes = 1});
+    EXPECT_EQ(refined.status, RefineStatus::mesh_limit);
+    return refined.meshes.front();
+  };
+  const MeshRecord beside = record(true), inside = record(false);
+  ASSERT_GT(inside.objective_error, 1e-6);
+  EXPECT_NEAR(beside.objective_error / inside.objective_error, 1, 1e-3);
 }
 
 TEST(Refinement, RefusesSettingsThatCannotBe) {

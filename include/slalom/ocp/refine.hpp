@@ -41,6 +41,7 @@ enum class RefineStatus {
   mesh_limit,  ///< `max_meshes` were solved, or twice as many with controls damped
   size_limit,  ///< the next mesh would have more than `max_size` points
   not_solved,  ///< a mesh was not solved: see the last record's status
+  stopped,     ///< the time limit or the callback ended it once a mesh was solved
 };
 const char* to_string(RefineStatus status);
 
@@ -68,8 +69,8 @@ std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status);
 
 struct Refined {
   RefineStatus status = RefineStatus::not_solved;
-  Solution solution;  ///< of the last mesh that was solved; of the first if none was
-  ErrorEstimate errors;
+  Solution solution;     ///< of the last mesh that was solved and judged; else of the first
+  ErrorEstimate errors;  ///< empty if no mesh was judged
   std::vector<MeshRecord> meshes;
 
   /// The records as a table of plain text, with the status below.
@@ -88,8 +89,8 @@ struct PhasedRefined {
 
 /// Solves on one mesh after another, each from the last one's polynomials and multipliers, until
 /// the errors are within the tolerance. `start` has the first mesh, scheme and guess, and the
-/// options and back end for all meshes. Throws InvalidValue for rules out of range, and for hp with
-/// a scheme that has only one degree.
+/// options and back end for all meshes; its time limit is of all meshes together, by the clock.
+/// Throws InvalidValue for rules out of range, and for hp with a scheme that has only one degree.
 [[nodiscard]] Refined refine(const Problem& problem, const SolveSettings& start = {},
                              const RefineRules& rules = {});
 [[nodiscard]] PhasedRefined refine(const PhasedProblem& problem, const PhasedSettings& start = {},
