@@ -1,7 +1,9 @@
 #include "slalom/ocp/prepared.hpp"
 
+#include <limits>
 #include <utility>
 
+#include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/moments.hpp"
@@ -24,7 +26,8 @@ void copy_scales(const Problem& from, Problem& to) {
   to.set_scale(to.initial_time(), from.t0().scale);
   to.set_scale(to.final_time(), from.tf().scale);
   for (std::size_t i = 0; i < from.constraints().size(); ++i)
-    to.set_scale(ConstraintId{i}, from.constraints()[i].scale);
+    if (const double scale = from.constraints()[i].scale; scale != kAutomaticScale)
+      to.set_scale(ConstraintId{i}, scale);
 }
 
 }  // namespace
@@ -40,6 +43,7 @@ class Prepared::Impl {
   }
 
   void update(const Problem& problem) {
+    if (!transcription_) return transcribe(problem);
     try {
       Problem scaled = problem;
       copy_scales(problem_, scaled);
@@ -50,7 +54,8 @@ class Prepared::Impl {
     }
   }
 
-  Solution solve(const nlp::Start& start) {
+  Solution solve(const Beginning& beginning) {
+    const nlp::Start start = start_of(*transcription_, beginning);
     Solution solution;
     const auto point = run(*transcription_, *solver_, options_, start,
                            transcription_->regular_variables(), solution);
@@ -60,16 +65,35 @@ class Prepared::Impl {
 
   const Problem& problem() const { return problem_; }
   const PhasedTranscription::Grid& grid() const { return grid_; }
-  Transcription& transcription() { return *transcription_; }
   nlp::Options& options() { return options_; }
+  bool stopped() const { return !transcription_; }
+
+  /// The answer of a solve for which nothing is set up.
+  Solution not_begun(const Trajectory& guess) const {
+    Solution solution = ocp::not_begun(problem_, given_, guess, nullptr);
+    solution.status = nlp::Status::interrupted;
+    solution.objective = std::numeric_limits<double>::quiet_NaN();
+    solution.options = options_;
+    return solution;
+  }
 
  private:
+  /// The callback ends it. The time limit is of each solve, and this is done once for many.
   void transcribe(const Problem& problem) {
-    grid_ = with_moments(problem, given_);
-    Problem scaled = with_scales(problem, begin(problem, grid_, guess_, nullptr).guess);
-    transcription_ = std::make_unique<Transcription>(scaled, grid_.mesh, grid_.schemes);
-    tables_ = Tables(scaled);
-    problem_ = std::move(scaled);
+    nlp::Options options = options_;
+    options.time_limit = std::numeric_limits<double>::infinity();
+    const SetUpWatch watch(options);
+    try {
+      auto grid = with_moments(problem, given_);
+      Problem scaled = with_scales(problem, begin(problem, grid, guess_, nullptr).guess);
+      transcription_ = std::make_unique<Transcription>(scaled, grid.mesh, grid.schemes);
+      grid_ = std::move(grid);
+      tables_ = Tables(scaled);
+      problem_ = std::move(scaled);
+    } catch (const SetUpWatch::Stopped&) {
+      transcription_.reset();
+      problem_ = problem;
+    }
   }
 
   Problem problem_{""};
@@ -78,7 +102,7 @@ class Prepared::Impl {
   nlp::Options options_;
   Trajectory guess_;
   std::unique_ptr<nlp::Solver> solver_;
-  std::unique_ptr<Transcription> transcription_;
+  std::unique_ptr<Transcription> transcription_;  ///< null once its set-up was stopped
 };
 
 Prepared::Prepared(const Problem& problem, const SolveSettings& settings)
@@ -92,13 +116,14 @@ void Prepared::update(const Problem& problem) {
 }
 
 Solution Prepared::solve(const Trajectory& guess) {
-  const Beginning beginning = begin(impl_->problem(), impl_->grid(), guess, nullptr);
-  return impl_->solve(start_of(impl_->transcription(), beginning));
+  if (impl_->stopped()) return impl_->not_begun(guess);
+  return impl_->solve(begin(impl_->problem(), impl_->grid(), guess, nullptr));
 }
 
 Solution Prepared::solve(const Trajectory& guess, const Duals& duals) {
   check_guess(guess, impl_->problem());
-  return impl_->solve(start_of(impl_->transcription(), {guess, duals}));
+  if (impl_->stopped()) return impl_->not_begun(guess);
+  return impl_->solve({guess, duals});
 }
 
 const nlp::Options& Prepared::options() const {

@@ -30,6 +30,23 @@ TEST(PreparedProblems, FollowChangedNumbersWithOneTranscription) {
   }
 }
 
+/// Nothing that the guess tells gives the row a scale.
+TEST(PreparedProblems, FollowChangedNumbersBesideARowWithoutAScale) {
+  auto form = least_energy();
+  Problem& p = form.problem;
+  const Expr x = p.states()[0].symbol;
+  const Expr q = p.integral("q", square(x) / 1e6);
+  p.boundary("room", q - 1, Bounds::at_most(0));
+  p.final_bounds(x, Bounds::equal(7));
+  Prepared prepared(p, {.mesh = Mesh::uniform(10)});
+  const auto units = prepared.solve().state_units;
+  p.final_bounds(x, Bounds::equal(300));
+  prepared.update(p);
+  const Solution again = prepared.solve();
+  ASSERT_TRUE(again.solved());
+  EXPECT_EQ(again.state_units, units);
+}
+
 TEST(PreparedProblems, TranscribeAnewWhatAnUpdateCannotCarry) {
   Problem p = bryson_denham(1.0 / 9).problem;
   const auto wall = p.path("wall", p.states()[1].symbol, Bounds::at_least(-0.5));

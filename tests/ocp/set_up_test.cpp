@@ -5,6 +5,8 @@
 #include <string>
 
 #include "slalom/base/timer.hpp"
+#include "slalom/ocp/many.hpp"
+#include "slalom/ocp/prepared.hpp"
 #include "slalom/ocp/solve.hpp"
 #include "support/sanitized.hpp"
 
@@ -64,13 +66,40 @@ TEST(SetUp, OfPhasesIsHeldToIt) {
   EXPECT_EQ(solution.phases[1].trajectory.tau.size(), kSize);
 }
 
+/// Ends what has its options after kLimit.
+struct Clock {
+  Timer timer;
+  void put(nlp::Options& options) {
+    options.stop = [](void* data) { return static_cast<Clock*>(data)->timer.wall() > kLimit; };
+    options.stop_data = this;
+  }
+};
+
 TEST(SetUp, IsEndedByTheCallback) {
-  const Timer timer;
   SolveSettings settings{.mesh = kGrid.mesh, .scheme = kGrid.schemes};
-  settings.options.stop = [](void* data) { return static_cast<Timer*>(data)->wall() > kLimit; };
-  Timer clock;
-  settings.options.stop_data = &clock;
-  expect_ended(solve(large("large"), settings), nlp::Status::interrupted, timer);
+  Clock clock;
+  clock.put(settings.options);
+  expect_ended(solve(large("large"), settings), nlp::Status::interrupted, clock.timer);
+}
+
+TEST(SetUp, OfAPreparedProblemIsEndedByTheCallback) {
+  SolveSettings settings{.mesh = kGrid.mesh, .scheme = kGrid.schemes};
+  Clock clock;
+  clock.put(settings.options);
+  Prepared prepared(large("large"), settings);
+  const Solution solution = prepared.solve();
+  expect_ended(solution, nlp::Status::interrupted, clock.timer);
+  EXPECT_EQ(solution.trajectory.tau.size(), kSize) << "the guess at the points";
+}
+
+TEST(SetUp, OfManySolvesIsEndedByTheCallback) {
+  SolveSettings settings{.mesh = kGrid.mesh, .scheme = kGrid.schemes};
+  Clock clock;
+  clock.put(settings.options);
+  const auto answers = solve_many(large("large"), settings, {{"initial x0", {0, 0.1}}}, 2);
+  ASSERT_EQ(answers.size(), 2u);
+  for (const Solution& answer : answers)
+    expect_ended(answer, nlp::Status::interrupted, clock.timer);
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ struct Variation {
 /// those of the given problem. Each solve is tried once: after an infeasible end there is no new
 /// start from elsewhere, unlike solve().
 ///
-/// options.stop is called only on the calling thread. Once it returns true, running solves end, and
-/// the others are `interrupted`, without a trajectory. options.on_iteration is called on all
-/// threads.
+/// options.stop is called only on the calling thread. Once it returns true, set-up and running
+/// solves end, and the others are `interrupted`, without a trajectory. options.time_limit is of
+/// each solve, without the set-up. options.on_iteration is called on all threads.
 ///
 /// Throws InvalidValue for settings as solve() does, for a warm_start (use `previous`), for an
 /// unknown name, lists of different lengths, numbers that are not finite, and a negative `threads`.

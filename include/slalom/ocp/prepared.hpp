@@ -11,7 +11,9 @@ namespace slalom::ocp {
 
 /// A problem to be solved again and again with other numbers. It is transcribed once and solved by
 /// one solver, which keeps its memory and its knowledge of the structure. Not thread-safe; use one
-/// for each thread.
+/// for each thread. The options' callback ends a transcription too; the next solves are then
+/// `interrupted`, with the guess at the points, until an update. The options' time limit is of each
+/// solve, without the transcription.
 class Prepared {
  public:
   /// `settings` has mesh, scheme, options and back end of all solves. Its guess, or straight lines,

@@ -5,9 +5,9 @@
 
 namespace slalom::nlp::ipm {
 
-void Budget::begin(const Options& options) {
+void Budget::begin(const Options& options, const Timer& timer) {
   options_ = &options;
-  timer_ = Timer();
+  timer_ = timer;
   callback_s_ = longest_step_s_ = last_iteration_s_ = 0;
 }
 

@@ -12,8 +12,8 @@ namespace slalom::nlp::ipm {
 /// its time.
 class Budget final : public Deadline {
  public:
-  /// `options` outlive the solve.
-  void begin(const Options& options);
+  /// `options` outlive the solve; `timer` has run since its begin.
+  void begin(const Options& options, const Timer& timer);
   /// Asked before each iteration, of which there were so many: why it is not to be done, if so. One
   /// as long as the longest yet has to fit into the time limit.
   std::optional<Status> spent(int iterations);

@@ -56,8 +56,10 @@ class Run final : public Restoration::Watch {
            form_.fits(problem.limits());
   }
 
-  void solve(Problem& problem, const Start& start, const Options& options, Answer& answer) {
-    begin(problem, options);
+  /// `timer` has run since the solve's begin.
+  void solve(Problem& problem, const Start& start, const Options& options, const Timer& timer,
+             Answer& answer) {
+    begin(problem, options, timer);
     Status status = iterate(start);
     const Options monotone = with_monotone_barrier(options);
     if (barrier_too_low_) {
@@ -224,9 +226,9 @@ class Run final : public Restoration::Watch {
   }
 
   // --- begin and end -----------------------------------------------------------------------
-  void begin(Problem& problem, const Options& options) {
+  void begin(Problem& problem, const Options& options, const Timer& timer) {
     options_ = &options;
-    budget_.begin(options);
+    budget_.begin(options, timer);
     iterations_ = 0;
     end_.reset();
     no_interior_ = barrier_too_low_ = false;
@@ -314,13 +316,14 @@ class InteriorPoint final : public Solver {
   using Solver::solve;
   void solve(Problem& problem, const Start& start, const Options& options,
              Answer& answer) override {
+    const Timer timer;
     check_sizes(start, problem.structure(), options.warm_start);
     check(options, "solver options");
     for (auto& run : runs_)
-      if (run && run->fits(problem)) return run->solve(problem, start, options, answer);
+      if (run && run->fits(problem)) return run->solve(problem, start, options, timer, answer);
     auto& run = runs_[next_++ % std::size(runs_)];
     run = std::make_unique<Run>(problem);
-    run->solve(problem, start, options, answer);
+    run->solve(problem, start, options, timer, answer);
   }
 
  private:

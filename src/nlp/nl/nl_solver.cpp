@@ -106,6 +106,7 @@ class NlSolver final : public Solver {
  public:
   void solve(Problem& problem, const Start& start, const Options& options,
              Answer& answer) override {
+    const Timer timer;
     check_sizes(start, problem.structure(), options.warm_start);
     check(options, "solver options");
     const auto formulas = problem.formulas();
@@ -117,7 +118,6 @@ class NlSolver final : public Solver {
       throw InvalidValue("solver options: nl_solver", "'" + options.nl_solver + "'",
                          "an executable that reads .nl files, in PATH or as a path");
     const auto words = command_words(executable.filename().string(), options);
-    const Timer timer;
     const Start given = start;  // which may be the answer's own
     answer = {};
     answer.backend = "nl, " + executable.filename().string();
