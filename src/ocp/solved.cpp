@@ -51,9 +51,10 @@ void describe(const PhasedProblem& problem, const std::vector<PhasedTranscriptio
   for (std::size_t p = 0; p < problem.phases().size(); ++p) {
     Solution& part = solution.phases.emplace_back();
     const Problem& phase = problem.phases()[p];
+    part.status = solution.status;  // what there is to describe depends on it
+    part.fault = solution.fault;
     describe(phase, grids[p], Tables(phase), transcription.phase(p),
              transcription.part_of(p, point), part);
-    part.status = solution.status;
     part.residuals = solution.residuals;
     part.options = solution.options;
     part.backend = solution.backend;

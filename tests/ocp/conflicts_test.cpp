@@ -216,5 +216,19 @@ TEST(HighIndex, IsSaidOfWhatNoMeshRefines) {
   EXPECT_EQ(phased.solution.phases.at(0).high_index.size(), 1u);
 }
 
+TEST(HighIndex, IsNotSaidOfPhasesThatAreSolved) {
+  Problem p("follower");
+  const Expr x = p.state("x"), v = p.state("v"), u = p.control("u");
+  p.dynamics(x, v);
+  p.dynamics(v, u);
+  p.path("follow", x - sin(p.time()), Bounds::equal(0));
+  p.lagrange("effort", square(u));
+  PhasedProblem one("one phase");
+  one.add(p);
+  const PhasedSolution solution = solve(one, {.grids = {{Mesh::uniform(10), backward_euler()}}});
+  ASSERT_TRUE(solution.solved()) << solution.residuals.worst_constraint;
+  EXPECT_TRUE(solution.phases.at(0).high_index.empty());
+}
+
 }  // namespace
 }  // namespace slalom::ocp
