@@ -86,6 +86,32 @@ std::vector<Item> read_at_points(const JsonReader& reader) {
   return list;
 }
 
+Json conflicts_json(const std::vector<ocp::Conflict>& conflicts) {
+  Json json = Json::array();
+  for (const auto& each : conflicts)
+    json.push_back(Json{{"name", each.name}, {"change", json_number(each.change)}});
+  return json;
+}
+std::vector<ocp::Conflict> read_conflicts(const JsonReader& reader) {
+  std::vector<ocp::Conflict> list;
+  for (std::size_t i = 0; i < reader.size(); ++i)
+    list.push_back({reader.at(i).at("name").text(), reader.at(i).at("change").real()});
+  return list;
+}
+
+Json high_index_json(const std::vector<ocp::HighIndex>& equations) {
+  Json json = Json::array();
+  for (const auto& each : equations)
+    json.push_back(Json{{"name", each.name}, {"index", each.index}});
+  return json;
+}
+std::vector<ocp::HighIndex> read_high_index(const JsonReader& reader) {
+  std::vector<ocp::HighIndex> list;
+  for (std::size_t i = 0; i < reader.size(); ++i)
+    list.push_back({reader.at(i).at("name").text(), reader.at(i).at("index").whole()});
+  return list;
+}
+
 /// What solutions of one phase and of several both have.
 template <class S>
 void put_outcome(const S& solution, Json& json) {
@@ -98,6 +124,7 @@ void put_outcome(const S& solution, Json& json) {
   json["wall_s"] = json_number(solution.wall_s);
   json["residuals"] = residuals_json(solution.residuals);
   json["options"] = json_options(solution.options);
+  json["conflicts"] = conflicts_json(solution.conflicts);
   json["point"] = json_point(solution.point);
 }
 template <class S>
@@ -111,6 +138,8 @@ void read_outcome(const JsonReader& reader, S& solution) {
   solution.residuals = read_residuals(reader.at("residuals"));
   solution.options = reader.at("options").options();
   solution.point = reader.at("point").point();
+  // Lacking in files of versions before.
+  if (reader.has("conflicts")) solution.conflicts = read_conflicts(reader.at("conflicts"));
 }
 
 Json solution_json(const ocp::Solution& solution) {
@@ -131,6 +160,8 @@ Json solution_json(const ocp::Solution& solution) {
   json["multipliers"] = at_points_json(solution.multipliers);
   json["excesses"] = at_points_json(solution.excesses);
   json["beyond_tables"] = pairs_json(solution.beyond_tables);
+  json["scales"] = pairs_json(solution.scales);
+  json["high_index"] = high_index_json(solution.high_index);
   return json;
 }
 
@@ -181,6 +212,8 @@ ocp::Solution read_one(const JsonReader& reader) {
   solution.excesses = read_at_points<ocp::Excesses>(reader.at("excesses"));
   // Lacking in files of versions before.
   if (reader.has("beyond_tables")) solution.beyond_tables = read_pairs(reader.at("beyond_tables"));
+  if (reader.has("scales")) solution.scales = read_pairs(reader.at("scales"));
+  if (reader.has("high_index")) solution.high_index = read_high_index(reader.at("high_index"));
   return solution;
 }
 

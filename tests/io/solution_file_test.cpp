@@ -113,6 +113,22 @@ TEST_F(SolutionFile, IsReadBackToTheSameBits) {
   EXPECT_TRUE(same_bits(again.multiplier("slow").values, solution.multiplier("slow").values));
   EXPECT_EQ(again.scheme.of(1).points, ocp::lgr(4).points);
   EXPECT_TRUE(std::isinf(again.options.time_limit));
+  EXPECT_EQ(again.scales, solution.scales);
+  EXPECT_FALSE(again.scales.empty());
+}
+
+TEST_F(SolutionFile, KeepsWhatIsSaidOfAnAnswerThatIsNotSolved) {
+  ocp::Solution solution = solved();
+  solution.conflicts = {{"slow", -0.25}, {"there", 0.5}};
+  solution.high_index = {{"length", 3}};
+  save_solution(path("a.json"), solution);
+  const auto again = read_solution(path("a.json"));
+  ASSERT_EQ(again.conflicts.size(), 2u);
+  EXPECT_EQ(again.conflicts[1].name, "there");
+  EXPECT_EQ(again.conflicts[0].change, -0.25);
+  ASSERT_EQ(again.high_index.size(), 1u);
+  EXPECT_EQ(again.high_index[0].name, "length");
+  EXPECT_EQ(again.high_index[0].index, 3);
 }
 
 TEST_F(SolutionFile, StartsSolvesAsTheSolutionItselfDoes) {
