@@ -1,6 +1,8 @@
+#include <cstdint>
 #include <string>
 
 #include "binding.hpp"
+#include "settings.hpp"
 #include "slalom/ocp/errors.hpp"
 #include "solved.hpp"
 
@@ -9,6 +11,9 @@ namespace {
 
 using ocp::ErrorEstimate;
 using ocp::Violation;
+
+/// Of an interval.
+constexpr std::int64_t kMostSamples = 100'000;
 
 /// Runs `work` while other threads may run.
 template <class Work>
@@ -61,6 +66,7 @@ void bind_judge(nb::module_& module) {
       .def(
           "largest_violation",
           [](const Solved& s, int samples) {
+            check_at_most(samples, kMostSamples, s.problem->name() + ": samples");
             return unlocked([&] { return ocp::largest_violation(*s.problem, s.answer, samples); });
           },
           "samples"_a = 20, doc::ocp_largest_violation)

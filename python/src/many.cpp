@@ -77,6 +77,7 @@ ManySolved solve_many(const Problem& problem, const nb::dict& numbers, const Mes
                       const SchemeChoice& scheme, const PointsChoice& points,
                       const std::string& backend, const nb::object& guess, const Solved* warm_start,
                       int threads, const nb::kwargs& options) {
+  check_at_most(threads, kMostThreads, problem.name() + ": solve_many: threads");
   ManySolved many;
   many.variations = variations_of(problem, numbers);
   auto settings = settings_of(problem, {mesh, scheme, points}, backend, guess, warm_start, options,
@@ -180,10 +181,11 @@ void bind_solutions(nb::module_& module) {
       .def_prop_ro(
           "iterations",
           [](const ManySolved& many) {
-            return numbers(many, [](const Solution& answer) { return double(answer.iterations); })
-                .cast()
-                .attr("astype")("int64");
-          })
+            nb::list counts;
+            for (const auto& answer : many.answers) counts.append(answer.iterations);
+            return nb::module_::import_("numpy").attr("asarray")(counts, "dtype"_a = "int64");
+          },
+          "0 where a solve was not begun.")
       .def_prop_ro(
           "time",
           [](const ManySolved& many) {

@@ -7,6 +7,7 @@
 
 #include "binding.hpp"
 #include "scenario.hpp"
+#include "settings.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/planner/many.hpp"
 #include "slalom/vehicle/plant.hpp"
@@ -83,6 +84,7 @@ Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
 std::vector<Plan> plan_many(ScenarioPlanner& self, const std::vector<std::vector<double>>& states,
                             double t0, std::optional<double> tex, double time_limit,
                             double best_iterate_tol, int threads) {
+  check_at_most(threads, kMostThreads, "plan_many: threads");
   std::vector<planner::Request> requests;
   for (std::size_t i = 0; i < states.size(); ++i)
     requests.push_back(request_of(self, states[i], "plan_many: states[" + std::to_string(i) + "]",

@@ -41,15 +41,19 @@ class Ending {
   bool late_ = false;
 };
 
-/// Tells what ended it to an answer, to the solution in it, or to each of several.
+/// Tells what ended it to an answer and its parts, or to each of several.
 template <class Answer>
 void tell(const Ending& ending, Answer& answer) {
-  if constexpr (requires { answer.begin(); })
-    for (auto& each : answer) ending.tell(each.status);
-  else if constexpr (requires { answer.solution; })
-    ending.tell(answer.solution.status);
-  else
+  if constexpr (requires { answer.begin(); }) {
+    for (auto& each : answer) tell(ending, each);
+  } else if constexpr (requires { answer.solution; }) {
+    tell(ending, answer.solution);
+    for (auto& mesh : answer.meshes) ending.tell(mesh.status);
+  } else {
     ending.tell(answer.status);
+    if constexpr (requires { answer.phases; })
+      for (auto& phase : answer.phases) ending.tell(phase.status);
+  }
 }
 
 /// Calls `work` while other Python threads run; an interrupt stops the solver by `options`, and is

@@ -5,8 +5,9 @@ import pickle
 import stat
 import time
 
+import numpy as np
 import pytest
-from problems import decay, swing
+from problems import decay, swing, two_legs
 
 import slalom
 
@@ -28,8 +29,21 @@ def test_sizes_are_bounded_before_anything_is_made():
             problem.refine(**wrong)
     with pytest.raises(slalom.InvalidValue, match="at most"):
         problem.simulate({"x": 1}, {"u": 0}, tf=1, steps=10**9)
+    with pytest.raises(slalom.InvalidValue, match="threads.*at most"):
+        problem.solve_many({"initial x": [1.0] * 2000}, threads=50_000)
+    with pytest.raises(slalom.InvalidValue, match="samples.*at most"):
+        problem.solve(mesh=2).largest_violation(samples=10**9)
     assert time.monotonic() - begin < 2
     assert problem.solve(mesh=1, points=100, scheme="lgr").solved
+
+
+def test_options_may_be_numpy_numbers():
+    s = decay().solve(max_iterations=np.int64(200), tol=np.float32(1e-6), print_level=np.array(0))
+    assert s.solved
+    with pytest.raises(slalom.InvalidValue, match="max_iterations"):
+        decay().solve(max_iterations=10**30)
+    with pytest.raises(ValueError):
+        decay().solve(max_iterations=np.array([1, 2]))
 
 
 def test_time_limit_is_of_the_whole_call():
@@ -37,7 +51,17 @@ def test_time_limit_is_of_the_whole_call():
     s = decay().solve(mesh=20_000, time_limit=0.01)
     assert s.status == "time_limit"
     assert time.monotonic() - begin < 5
-    assert decay().refine(mesh=20_000, time_limit=0.01).solution.status == "time_limit"
+    refined = decay().refine(mesh=20_000, time_limit=0.01)
+    assert refined.solution.status == "time_limit" and refined.status == "not_solved"
+    assert [mesh.status for mesh in refined.meshes] == ["time_limit"] and refined.errors is None
+    phased = two_legs().solve(mesh=20_000, time_limit=0.01)
+    assert [part.status for part in (phased, *phased.phases)] == ["time_limit"] * 3
+
+
+def test_a_refinement_that_is_stopped_keeps_its_last_answer():
+    refined = swing().refine(mesh=2, tolerance=1e-30, max_meshes=1000, max_size=10**6, time_limit=0.5)
+    assert refined.status == "stopped" and len(refined.meshes) > 1
+    assert refined.solution.solved and refined.errors is not None
 
 
 def test_a_solver_that_sleeps_is_ended(tmp_path):

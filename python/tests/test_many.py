@@ -74,6 +74,7 @@ def test_a_time_limit_is_of_the_whole_call():
     many = pushed().solve_many({"gain": np.linspace(1, 2, 100000)}, mesh=100, time_limit=0.3)
     assert many.status[-1] == "time_limit" and not many.solved[-1]
     assert np.isnan(many.states["x"][-1]).all() and np.isnan(many.objective[-1])
+    assert many.iterations[-1] == 0 and (many.iterations >= 0).all()
     with pytest.raises(slalom.Error, match="not begun"):
         many[-1]
 

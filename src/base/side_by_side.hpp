@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -26,7 +28,8 @@ class SideBySide {
   using Worker = std::function<void(std::size_t)>;
   using MakeWorker = std::function<Worker()>;
 
-  /// `threads`: 0 for as many as there are processors; no more are used than there are pieces.
+  /// `threads`: 0 for as many as there are processors; no more are used than there are pieces, or
+  /// than the system gives.
   /// Throws InvalidValue for a negative number, with `where`. `poll`, which may be empty, says
   /// whether to end soon; it is called on this thread alone.
   SideBySide(const std::string& where, std::size_t count, int threads, std::function<bool()> poll)
@@ -41,9 +44,14 @@ class SideBySide {
   /// Until all pieces are done. What a piece or the making of a worker throws is thrown here, once
   /// all threads have ended: of several, the one of the lowest index. No piece is begun after that.
   void run(const MakeWorker& make) {
+    const std::size_t wanted = std::min(static_cast<std::size_t>(threads_), count_);
     std::vector<std::thread> others;
-    for (int i = 1; i < threads_ && static_cast<std::size_t>(i) < count_; ++i)
-      others.emplace_back([&] { work(make); });
+    others.reserve(wanted);
+    try {
+      while (others.size() + 1 < wanted) others.emplace_back([&] { work(make); });
+    } catch (const std::system_error&) {
+      // No more threads are to be had: those that there are do all pieces.
+    }
     working_ = others.size() + 1;
     work(make);
     wait();
