@@ -56,6 +56,30 @@ class Sizes {
   double state(std::size_t i) const { return known_[i] > 0 ? known_[i] : 1; }
   double control(std::size_t i) const { return known_[nx_ + i] > 0 ? known_[nx_ + i] : 1; }
 
+  /// The guess's, but no less than a part of that of the declaration's guess or bounds.
+  double static_parameter(std::size_t i) const {
+    const auto& each = problem_.static_parameters()[i];
+    return guessed(guess_.static_parameters, i,
+                   first_of({size_of(each.guess), size_of(each.bounds), 1}));
+  }
+  /// Its bounds', else the guess's, but no less than a part of what the integrand comes to.
+  double integral(std::size_t i) const {
+    const auto& each = problem_.integrals()[i];
+    if (const double size = size_of(each.bounds); size > 0) return size;
+    const std::vector<Expr> integrand{each.integrand};
+    const auto symbols = expr::symbols_of(integrand);
+    const expr::Function f({}, symbols, integrand);
+    double most = 0;
+    for (std::size_t point = 0; point < guess_.tau.size(); ++point) {
+      SetUpWatch::poll();
+      double value = 0;
+      f({}, numbers(symbols, point), {&value, 1});
+      most = std::max(most, size_of(value));
+    }
+    const double duration = std::max(guess_.tf - guess_.t0, 0.0);
+    return guessed(guess_.integrals, i, first_of({duration * most, 1}));
+  }
+
   /// Of a constraint: its bounds', else how much it changes when everything moves by half its size.
   double row(const Problem::Constraint& row) const {
     if (const double size = size_of(row.bounds); size > 0) return size;
@@ -79,6 +103,11 @@ class Sizes {
     for (const double each : candidates)
       if (each > 0) return each;
     return 0;
+  }
+  /// Of what the guess has in a list, else `otherwise`.
+  static double guessed(const std::vector<double>& list, std::size_t i, double otherwise) {
+    const double size = i < list.size() ? size_of(list[i]) : 0;
+    return size > 0 ? std::max(size, kLeastPart * otherwise) : otherwise;
   }
   bool all_known() const {
     return std::all_of(known_.begin(), known_.end(), [](double size) { return size > 0; });
@@ -241,8 +270,9 @@ class Sizes {
         return guess_.controls[point][i] + shift * control(i);
     for (const auto& each : problem_.parameters())
       if (symbol.same(each.symbol)) return each.value;
-    for (const auto& each : problem_.static_parameters())
-      if (symbol.same(each.symbol)) return each.guess;
+    for (std::size_t i = 0; i < problem_.static_parameters().size(); ++i)
+      if (const auto& each = problem_.static_parameters()[i]; symbol.same(each.symbol))
+        return i < guess_.static_parameters.size() ? guess_.static_parameters[i] : each.guess;
     return 1;
   }
 
@@ -266,9 +296,10 @@ Problem with_scales(Problem problem, const Trajectory& guess) {
     set(problem.states()[i], sizes.state(i));
   for (std::size_t i = 0; i < problem.controls().size(); ++i)
     set(problem.controls()[i], sizes.control(i));
-  for (const auto& each : problem.static_parameters())
-    set(each, each.guess != 0 ? size_of(each.guess) : size_of(each.bounds));
-  for (const auto& each : problem.integrals()) set(each, size_of(each.bounds));
+  for (std::size_t i = 0; i < problem.static_parameters().size(); ++i)
+    set(problem.static_parameters()[i], sizes.static_parameter(i));
+  for (std::size_t i = 0; i < problem.integrals().size(); ++i)
+    set(problem.integrals()[i], sizes.integral(i));
   for (const auto& each : problem.slacks())
     set(each, each.guess != 0 ? size_of(each.guess) : size_of(each.bounds));
   for (std::size_t c = 0; c < problem.constraints().size(); ++c) {

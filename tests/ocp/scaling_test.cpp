@@ -131,6 +131,26 @@ TEST(AutomaticScales, ComeFromTheGuessTheEndsTheBoundsAndTheDynamics) {
   EXPECT_EQ(scaled.tf().unit(), 2);
 }
 
+TEST(AutomaticScales, OfParametersAndIntegralsComeFromTheGuessToo) {
+  Problem p("sizes");
+  const Expr x = p.state("x"), k = p.static_parameter("k", {}, 3);
+  (void)p.static_parameter("untold", {}, 7);
+  (void)p.integral("way", 2 * k * x);
+  (void)p.integral("told", x);
+  (void)p.integral("bounded", x, Bounds::at_most(9));
+  p.dynamics(x, k);
+  Trajectory guess{0, 4, {0, 1}, {{0}, {5}}, {{}, {}}, {}, {}};
+  EXPECT_EQ(with_scales(p, guess).static_parameters()[0].unit(), 3);
+  guess.static_parameters = {500, 1e-12};
+  guess.integrals = {0, 11, 0};
+  const Problem scaled = with_scales(p, guess);
+  EXPECT_EQ(scaled.static_parameters()[0].unit(), 500);
+  EXPECT_NEAR(scaled.static_parameters()[1].unit(), 0.07, 1e-12) << "rounding is no size";
+  EXPECT_EQ(scaled.integrals()[0].unit(), 4 * 2 * 500 * 5);
+  EXPECT_EQ(scaled.integrals()[1].unit(), 11);
+  EXPECT_EQ(scaled.integrals()[2].unit(), 9);
+}
+
 TEST(AutomaticScales, LeaveWhatWasGivenByHand) {
   Problem p("by hand");
   const Expr x = p.state("x", {-3, 3});
