@@ -13,8 +13,11 @@ namespace slalom::ocp {
 /// variables' magnitudes, or the change that moves another state by that state's magnitude; 1. A
 /// magnitude in the guess counts for at least a hundredth of the magnitude that the fixed ends and
 /// the controls' bounds give through the dynamics, since a guess may contain only rounding errors.
-/// Times get the guess's duration. A constraint gets the magnitude of its bounds, or else its
-/// change when all variables move by half their magnitudes.
+/// Times get the guess's duration. A static parameter gets its magnitude in the guess, at least a
+/// hundredth of that of its declared guess or bounds; an integral that of its bounds, or else its
+/// magnitude in the guess, at least a hundredth of duration times largest integrand. A constraint
+/// gets the magnitude of its bounds, or else its change when all variables move by half their
+/// magnitudes.
 Problem with_scales(Problem problem, const Trajectory& guess);
 
 }  // namespace slalom::ocp
