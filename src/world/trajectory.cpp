@@ -38,6 +38,19 @@ std::vector<double> akima_slopes(const std::vector<double>& t, const std::vector
   return slope;
 }
 
+/// A body that is at one place in two rows stands there between them, where the slopes of what
+/// comes before and after would have it go back and forth; and so does a heading.
+void hold_what_stands(const std::vector<TrajectoryRow>& rows, std::vector<TrajectoryRow>& slopes) {
+  for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
+    const TrajectoryRow &here = rows[k], &next = rows[k + 1];
+    if (here.x != next.x || here.y != next.y) continue;
+    for (auto* slope : {&slopes[k], &slopes[k + 1]}) {
+      slope->x = slope->y = 0;
+      if (here.psi == next.psi) slope->psi = 0;
+    }
+  }
+}
+
 /// A cubic by values and slopes at both ends of an interval of `length`: value and slope at a
 /// share.
 struct Cubic {
@@ -100,6 +113,7 @@ TableTrajectory::TableTrajectory(std::vector<TrajectoryRow> rows, BeyondEnd befo
     const auto slope = akima_slopes(t, y);
     for (std::size_t k = 0; k < slope.size(); ++k) slopes_[k].*of = slope[k];
   }
+  hold_what_stands(rows_, slopes_);
   for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
     const auto x = cubic(rows_, slopes_, k, &TrajectoryRow::x);
     const auto yy = cubic(rows_, slopes_, k, &TrajectoryRow::y);

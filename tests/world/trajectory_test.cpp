@@ -86,6 +86,38 @@ TEST(TableTrajectory, DoesNotOvershootWhereItComesToRest) {
   EXPECT_EQ(t.fastest(2.5, 5).speed, 0);
 }
 
+void expect_still(const TableTrajectory& t, double begin, double end, double x) {
+  for (double at = begin; at <= end; at += (end - begin) / 16) {
+    EXPECT_NEAR(t.at(at).x, x, 1e-12) << at;
+    EXPECT_EQ(t.at(at).vx, 0) << at;
+    EXPECT_EQ(t.at(at).omega, 0) << at;
+  }
+  EXPECT_EQ(t.fastest(begin + 1e-6, end - 1e-6).speed, 0);
+  EXPECT_EQ(t.fastest(begin + 1e-6, end - 1e-6).omega, 0);
+}
+
+TEST(TableTrajectory, StandsBetweenTwoRowsAtOnePlace) {
+  const auto waits = table({{0, 0, 0, 0}, {10, 100, 0, 1}, {60, 100, 0, 1}, {70, 200, 0, 2}});
+  expect_still(waits, 10, 60, 100);
+  for (double at = 0; at < 70; at += 0.5) EXPECT_LE(waits.at(at).x, waits.at(at + 0.5).x + 1e-12);
+  const auto both = table({{0, 5, 0}, {10, 5, 0}, {20, 100, 0}, {30, 200, 0}, {40, 200, 0}},
+                          BeyondEnd::goes_on, BeyondEnd::goes_on);
+  expect_still(both, 0, 10, 5);
+  expect_still(both, 30, 40, 200);
+  EXPECT_EQ(both.at(-7).x, 5) << "what stands goes on standing";
+  EXPECT_EQ(both.at(60).x, 200);
+  EXPECT_EQ(both.fastest(41, 60).speed, 0);
+  expect_consistent(waits, -5, 80);
+}
+
+TEST(TableTrajectory, TurnsWhereItStands) {
+  const auto t = table({{0, 0, 0, 0}, {1, 5, 5, 0}, {3, 5, 5, 1}, {4, 9, 9, 1}});
+  EXPECT_NEAR(t.at(2).x, 5, 1e-12);
+  EXPECT_EQ(t.at(2).vy, 0);
+  EXPECT_GT(t.at(2).omega, 0.3);
+  expect_consistent(t, 0, 4);
+}
+
 TEST(TableTrajectory, AStraightOneAtConstantVelocityIsThat) {
   const auto t = table({{0, 1, 2, 0.5}, {1, 3, 1, 0.5}, {3, 7, -1, 0.5}}, BeyondEnd::goes_on);
   for (const double at : {-2., 0., 0.7, 1., 2.2, 3., 11.}) {

@@ -67,10 +67,10 @@ TEST_F(Street, ACarThatTurnsIsWhereItsTableSays) {
   // Comes along the left side, and stands across the way for a while when the vehicle would come.
   car.trajectory = std::make_shared<TableTrajectory>(std::vector<TrajectoryRow>{{0, -6, 80, -1.57},
                                                                                 {3, -6, 60, -1.57},
-                                                                                {5, 0, 52, 0},
-                                                                                {8, 0, 52, 0},
-                                                                                {10, 10, 52, 0},
-                                                                                {12, 30, 52, 0}},
+                                                                                {5.3, 0, 52, 0},
+                                                                                {8.3, 0, 52, 0},
+                                                                                {10.3, 10, 52, 0},
+                                                                                {12.3, 30, 52, 0}},
                                                      BeyondEnd::stands, BeyondEnd::absent, "car");
   environment.obstacles = {car};
   const auto way = find();

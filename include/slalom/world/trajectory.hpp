@@ -41,7 +41,8 @@ class Trajectory {
 /// The motion of a table, in order of time: place and heading are piecewise cubics whose slopes at
 /// the rows are Akima's as modified in MATLAB's "makima" (H. Akima, "A new method of interpolation
 /// and smooth curve fitting based on local procedures", J. ACM 17(4), 1970), which do not overshoot
-/// where a body comes to rest. Headings of neighbouring rows differ by less than a half turn.
+/// where a body comes to rest; and 0 where it is at one place in two rows. Headings of neighbouring
+/// rows differ by less than a half turn.
 class TableTrajectory final : public Trajectory {
  public:
   /// Throws InvalidValue, naming `where` and the row, for fewer than two rows, numbers that are not
