@@ -65,6 +65,17 @@ TEST(Ellipse, ThinOnesAndNeighbourhoodsOfTheAxesAreExact) {
       }
 }
 
+// Deep inside, where the nearest point is far from the axis that the point is all but on.
+TEST(Ellipse, JustOffTheLongAxisIsAsOnIt) {
+  for (const double x : {0., 0.1, 1.2, 1.49}) {
+    const double on = signed_distance_to_ellipse(x, 0, 2, 1);
+    for (const double y : {1e-320, 1e-300, 1e-20, 1e-17, 1e-15, 1e-12, 1e-8, 1e-5}) {
+      EXPECT_NEAR(signed_distance_to_ellipse(x, y, 2, 1), on, y + 1e-14) << x << ' ' << y;
+      EXPECT_NEAR(signed_distance_to_ellipse(-y, x, 1, 2), on, y + 1e-14) << x << ' ' << y;
+    }
+  }
+}
+
 TEST(Ellipse, NearlyACircleIsACircle) {
   EXPECT_NEAR(signed_distance_to_ellipse(1, 2, 2, 2 + 1e-12), std::sqrt(5.) - 2, 1e-11);
   EXPECT_NEAR(signed_distance_to_ellipse(.01, .02, 2, 2 + 1e-12), std::hypot(.01, .02) - 2, 1e-11);
