@@ -13,6 +13,9 @@ using vehicle::State;
 /// Nearer than this to what is to be kept a place is looked at itself, not the path's next [m]: so
 /// far a body's points are from each other there.
 constexpr double kNear = 0.3;
+/// After such a way from a start that is too near to an edge a body keeps from it what is to be
+/// kept [m]; it leaves the edge ever faster.
+constexpr double kComesBack = 8;
 /// A stop is looked at so often [s].
 constexpr double kStandLook = 0.25;
 
@@ -39,12 +42,15 @@ bool PathSpeeds::is_free(double along, std::int32_t look) {
   return known == Known::free;
 }
 
-/// Near to the start the body is as near to an edge as it was there.
+/// Near to the start the body is as near to an edge as it was there, and then comes back, which a
+/// body does that stands, too.
 bool PathSpeeds::on_road(std::size_t at) const {
-  const double here = RoadPath::kStep * static_cast<double>(at);
-  const bool first = here < question_->start[vehicle::UX] * kToComeBack;
-  const double edge =
-      first ? std::min(first_edge_, question_->search.edge) : question_->search.edge;
+  const double here = RoadPath::kStep * static_cast<double>(at), wanted = question_->search.edge;
+  double edge = wanted;
+  if (first_edge_ < wanted && here < question_->start[vehicle::UX] * kToComeBack)
+    edge = first_edge_;
+  else if (first_edge_ < wanted)
+    edge += (first_edge_ - wanted) * (1 - std::pow(std::min(1., here / kComesBack), 2));
   return footprint_.edge_distance(*environment_.road, state_of((*path_)[at], 0)) >= edge;
 }
 
@@ -68,9 +74,10 @@ double PathSpeeds::spare_at(const PathPlace& place, double t) const {
 /// Whether nothing stands there.
 bool PathSpeeds::stays_clear(std::size_t at) const {
   const State x = state_of((*path_)[at], 0);
+  const double t = question_->t_start;
   for (std::size_t k = 0; k < keeps_.size(); ++k) {
     const Obstacle& o = question_->obstacles[k];
-    if (!o.moves() && footprint_.distance(o, x, question_->t_start) < keeps_[k]) return false;
+    if (!o.moves() && footprint_.distance(o, x, t) < keeps_[k] + o.margin(t)) return false;
   }
   return true;
 }

@@ -212,7 +212,7 @@ std::optional<RoadWay> PathSpeeds::run(const RoadPath& path, const Question& que
                   within_.outside(state_of(path.at(place.s), place.v), time_at(place.looks),
                                   environment_.road.get()) <= 0;
     if (there) return way_of(at, true);
-    if (place.looks + looks_per_move_ <= most_looks_) go_on(at);
+    if (place.looks < most_looks_) go_on(at);  // the last move may end later
   }
   if (question.aim == Aim::arrive || latest_ <= 0) return std::nullopt;
   return way_of(latest_, false);
@@ -231,8 +231,10 @@ double PathSpeeds::rank_of(const Place& place) const {
   if (question_->aim == Aim::stand)
     return place.cost + kLook * place.looks + place.v / -vehicle_.ax_min_at(place.v);
   if (goal.kind() == GoalKind::time) {
+    // No farther than the path can be driven.
     const double left = std::max(0., goal.time - t);
-    return place.cost - (place.s + farthest(place.v, left)) / kProgressSpeed;
+    const double reach = std::min(place.s + farthest(place.v, left), usable_);
+    return place.cost - reach / kProgressSpeed;
   }
   const double arrival = t + left_to_goal(place);
   if (arrival >= goal.t_min) return place.cost + t + kGreed * (arrival - t);

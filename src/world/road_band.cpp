@@ -80,13 +80,13 @@ struct Problem {
 void set_bounds(Problem& problem, const std::vector<double>& n, const vehicle::Parameters& p,
                 const RoadBand& band) {
   const bool point = p.footprint == vehicle::FootprintKind::point;
-  const double half = (point ? 0 : p.width / 2) + band.spare, axles = p.la + p.lb;
+  const double half = point ? 0 : p.width / 2, axles = p.la + p.lb;
   const double inside = point ? 0 : axles * axles / 2;
   const double outside = point ? 0 : p.front_overhang * (axles + p.front_overhang / 2);
   for (std::size_t k = 0; k < n.size(); ++k) {
     const double bend = problem.bend(n, k), to_left = std::max(bend, 0.),
                  to_right = std::max(-bend, 0.);
-    double right = -problem.right[k], left = problem.left[k];
+    double right = band.spare - problem.right[k], left = problem.left[k] - band.spare;
     const double s = band.from + RoadBand::kStep * static_cast<double>(k);
     for (const Narrowing& narrow : band.narrowings) {
       if (s < narrow.from || s > narrow.to) continue;

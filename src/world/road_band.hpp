@@ -26,7 +26,7 @@ struct RoadBand {
   std::array<double, 3> first{};  ///< its first offsets, which are kept [m]
   double wanted = 0;              ///< the offset that it is drawn to [m]
   double over = 10;               ///< and within about what length it comes there [m]
-  double spare = 0.1;             ///< beside the vehicle's body to the edges [m]
+  double spare = 0.1;             ///< beside the vehicle's body to the road's edges [m]
   std::vector<Narrowing> narrowings{};
 };
 

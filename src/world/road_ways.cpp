@@ -26,11 +26,14 @@ constexpr double kSameOffset = 0.2, kSpare = 0.15;
 /// What a way costs for each metre that its path moves over [s].
 constexpr double kMovingOver = 0.05;
 /// Longest paths [m], and beyond the goal [m].
-constexpr double kLongest = 400, kBeyond = 30;
+constexpr double kLongest = 1000, kBeyond = 30;
 /// From the edges paths keep so much more than ways are to keep [m].
 constexpr double kBand = 0.06;
 /// Beside what stands paths keep so much more than ways are to keep [m].
 constexpr double kBeside = 0.1;
+/// A path that comes aside by at most twice this slope keeps the distance aside of what stands also
+/// before and behind it, if it keeps it for this share of it longer.
+constexpr double kSlant = 0.25;
 
 }  // namespace
 
@@ -49,14 +52,15 @@ class RoadWays::Impl {
     const PathSpeeds::Question question{aim,    start, t_start,  obstacles,
                                         search, to_go, to_leave, out_of_budget};
     std::vector<RoadWay> found;
-    const auto narrow = narrowings(obstacles, search.clearance + kBeside);
+    const double length = length_of(aim, v, t_start, to_go);
+    if (length > kLongest) return found;
+    const auto narrow = narrowings(question, on, search.clearance + kBeside);
     for (const double offset : offsets(on))
       for (const MoveOver& by : kMoves) {
         if (out_of_budget && out_of_budget()) return found;
         const double over = std::max(by.least, by.time * v);
-        const RoadPath path(
-            road, vehicle_, start, on,
-            {offset, over, search.edge + kBand, length_of(aim, v, t_start, to_go), narrow});
+        const RoadPath path(road, vehicle_, start, on,
+                            {offset, over, search.edge + kBand, length, narrow});
         if (auto way = speeds_.run(path, question)) {
           way->cost += kMovingOver * std::fabs(offset - on.n);
           found.push_back(std::move(*way));
@@ -79,18 +83,22 @@ class RoadWays::Impl {
     if (aim == PathSpeeds::Aim::stand || (!line && !goal.is_place())) return {0, kNowhere};
     const double half = goal_half();
     double ahead = (line ? goal.s : road.project({goal.x, goal.y}).s) - on.s;
-    if (road.closed() && ahead < -half) ahead += road.length();
+    // A place that lies behind is a lap ahead; the half of a lap that follows a line is beyond it.
+    if (road.closed())
+      ahead -=
+          road.length() * std::floor((ahead + (line ? road.length() / 2 : half)) / road.length());
     return {std::max(ahead - half, 0.), line ? kNowhere : ahead + half};
   }
 
+  /// Of the paths that are wanted [m]: as far as the vehicle may come.
   double length_of(PathSpeeds::Aim aim, double v, double t_start, double to_go) const {
     const Goal& goal = environment_.goal;
     const double stop = v * v / -vehicle_.ax_min_at(v) + v + kBeyond;
     if (aim == PathSpeeds::Aim::stand) return std::min(kLongest, 2 * stop);
-    if (goal.kind() != GoalKind::time)
-      return std::min(kLongest, to_go + 2 * goal_half() + stop + kBeyond);
+    if (goal.kind() != GoalKind::time) return to_go + 2 * goal_half() + stop + kBeyond;
     const double t = std::max(0., goal.time - t_start) + 2;
-    return std::min(kLongest, v * t + vehicle_.ax_max_at(v) * t * t / 2 + kBeyond);
+    const double fastest = std::max(v, vehicle_.ux_max) * t;
+    return std::min(fastest, v * t + vehicle_.ax_max_at(v) * t * t / 2) + kBeyond;
   }
 
   double goal_half() const {
@@ -99,8 +107,9 @@ class RoadWays::Impl {
     return goal.kind() == GoalKind::square ? goal.sigma : goal.length / 2;
   }
 
-  /// What stands on the road, to be passed where there is more room.
-  std::vector<Narrowing> narrowings(const std::vector<Obstacle>& obstacles,
+  /// What stands on the road ahead, to be passed where there is more room; of a closed road as
+  /// often as the longest path comes by.
+  std::vector<Narrowing> narrowings(const PathSpeeds::Question& question, const OnRoad& on,
                                     double clearance) const {
     const Road& road = *environment_.road;
     const Footprint footprint(vehicle_);
@@ -110,27 +119,51 @@ class RoadWays::Impl {
       behind = std::max(behind, -corner.x);
     }
     std::vector<Narrowing> result;
-    for (const Obstacle& o : obstacles) {
+    for (const Obstacle& o : question.obstacles) {
       if (o.moves()) continue;
-      auto corners = o.grown(clearance).corners_at(0);
-      if (corners.empty())
-        for (const double x : {-1., 1.})
-          for (const double y : {-1., 1.})
-            corners.push_back(
-                {o.x + x * (o.reach() + clearance), o.y + y * (o.reach() + clearance)});
-      OnRoad least{HUGE_VAL, HUGE_VAL}, most{-HUGE_VAL, -HUGE_VAL};
-      for (const Point& corner : corners) {
-        const OnRoad on = road.project(corner);
-        least = {std::min(least.s, on.s), std::min(least.n, on.n)};
-        most = {std::max(most.s, on.s), std::max(most.n, on.n)};
-      }
+      const auto [least, most] = taken(o, clearance + o.margin(question.t_start));
       const RoadPlace at = road.at((least.s + most.s) / 2);
       if (least.n > at.left || most.n < -at.right) continue;
       const bool on_the_left = least.n + at.right > at.left - most.n;
-      result.push_back(
-          {least.s - ahead, most.s + behind, on_the_left, on_the_left ? least.n : most.n});
+      const double edge = on_the_left ? least.n : most.n;
+      double from = least.s - ahead, to = most.s + behind;
+      if (road.closed()) {
+        const double passed = road.length() * std::ceil((on.s - to) / road.length());
+        from += passed;
+        to += passed;
+      }
+      do {
+        result.push_back({from, to, on_the_left, edge});
+        from += road.length();
+        to += road.length();
+      } while (road.closed() && from < on.s + kLongest);
     }
     return result;
+  }
+
+  /// What an obstacle takes of the road, larger by so much: its least and greatest n, and the s
+  /// between which paths are beside it. Of a closed road s is that of its first point or about it,
+  /// for the seam may lie between.
+  std::pair<OnRoad, OnRoad> taken(const Obstacle& obstacle, double larger) const {
+    const Road& road = *environment_.road;
+    const Obstacle large = obstacle.grown(larger);
+    // Where the road bends, a side's middle may be nearer to its line than both corners are. A
+    // polygon grows by its rounding: its corners stay where they are.
+    std::vector<Point> points = large.corners_at(0);
+    const std::size_t sides = points.size();
+    const double around = sides == 0 ? large.reach() : large.rounding;
+    for (std::size_t k = 0; k < sides; ++k)
+      points.push_back((points[k] + points[(k + 1) % sides]) * 0.5);
+    if (sides == 0) points.push_back({large.x, large.y});
+    OnRoad least{HUGE_VAL, HUGE_VAL}, most{-HUGE_VAL, -HUGE_VAL};
+    const double first = road.project(points[0]).s;
+    for (const Point& point : points) {
+      const auto [s, n] = road.project(point);
+      const double near = road.closed() ? first + std::remainder(s - first, road.length()) : s;
+      least = {std::min(least.s, near - kSlant * around), std::min(least.n, n - around)};
+      most = {std::max(most.s, near + kSlant * around), std::max(most.n, n + around)};
+    }
+    return {least, most};
   }
 
   /// Offsets from the line that paths come to: the goal's, that of the start, and across the road.

@@ -11,6 +11,7 @@
 
 #include "../../src/world/road_path.hpp"
 #include "box.hpp"
+#include "ring.hpp"
 #include "slalom/vehicle/agility.hpp"
 #include "slalom/world/footprint.hpp"
 
@@ -132,6 +133,63 @@ TEST_F(Ways, PassesWhatStandsWhereThereIsRoom) {
   EXPECT_GT(distance(stops[0].way, parked), search.clearance - 0.03);
 }
 
+// One is to be passed on each side: only a path that swings between them keeps off both.
+TEST_F(Ways, KeepsAsFarFromBoxesAsItIsTo) {
+  environment.road = straight(2, 4.2);
+  to_line(120);
+  for (const double margin : {0., 0.4}) {
+    Obstacle first = test::box(40, -0.6, 5, 2, 0), second = test::box(75, 2.4, 5, 2, 0);
+    first.margin_start = second.margin_start = margin;
+    search.clearance = 0.5 - margin;
+    const auto ways = to_goal({first, second});
+    ASSERT_FALSE(ways.empty()) << margin;
+    EXPECT_GE(std::min(distance(ways[0].way, first), distance(ways[0].way, second)), 0.47);
+    EXPECT_GE(edge(ways[0].way), search.edge - 0.03);
+  }
+}
+
+TEST_F(Ways, FitsThroughWhereTheBodyAndWhatItKeepsFit) {
+  environment.road = straight(2, 2);
+  to_line(150);
+  // 2.4 m between them and the edge: the body, what it keeps on both sides, and 20 cm.
+  search.clearance = 0.5;
+  const Obstacle first = test::box(40, -1.3, 5, 1.8, 0), second = test::box(80, 1.3, 5, 1.8, 0);
+  const Obstacle round{"round", 115, -1.3, 0.9, 0.9};
+  const auto ways = to_goal({first, second, round});
+  ASSERT_FALSE(ways.empty());
+  for (const Obstacle& o : {first, second, round}) EXPECT_GE(distance(ways[0].way, o), 0.47);
+}
+
+TEST_F(Ways, OnAClosedRoadSeesWhatStandsBeyondTheSeam) {
+  environment.road = test::ring(60, 3.1);
+  const double lap = environment.road->length();
+  const auto at = [&](double s, double n) {
+    const RoadPlace place = environment.road->at(s);
+    const Point p = place.point() + place.aside() * n;
+    return test::box(p.x, p.y, 5, 2, place.psi);
+  };
+  to_line(85);
+  search.clearance = 0.5;
+  const RoadPlace begin = environment.road->at(lap - 40);
+  start = {begin.x, begin.y, 0, 0, begin.psi, 0, 10, 0};
+  // On the seam, and beyond it on the other side.
+  const Obstacle first = at(0, -1.7), second = at(37, 1.7);
+  const auto ways = to_goal({first, second});
+  ASSERT_FALSE(ways.empty());
+  EXPECT_GE(std::min(distance(ways[0].way, first), distance(ways[0].way, second)), 0.47);
+}
+
+TEST_F(Ways, OnAClosedRoadHasArrivedBeyondALine) {
+  environment.road = test::ring(60, 3.1);
+  to_line(30);
+  environment.goal.ux_max = 6;
+  const RoadPlace begin = environment.road->at(32);
+  start = {begin.x, begin.y, 0, 0, begin.psi, 0, 10, 0};
+  const auto ways = to_goal();
+  ASSERT_FALSE(ways.empty());
+  EXPECT_LT(ways[0].end, 3) << "no lap more";
+}
+
 TEST_F(Ways, WaitsForWhatCrosses) {
   environment.road = straight(2, 2);
   const double soonest = to_goal()[0].end;
@@ -155,6 +213,72 @@ TEST_F(Ways, ComesInItsWindowOfTime) {
   environment.goal.t_min = 0;
   environment.goal.t_max = 2;
   EXPECT_TRUE(to_goal().empty()) << "55 m in 2 s";
+}
+
+// Whatever of its last move a time leaves.
+TEST_F(Ways, ComesAsFarAsItCanByEachTime) {
+  vehicle.ux_max = 12;
+  environment.goal = {};
+  environment.goal.time = 20;
+  environment.goal = placed(environment.goal, environment.road.get());
+  RoadWays ways(environment, vehicle);
+  for (const double begin : {0.05, 0.3, 0.7, 1., 1.2}) {
+    const auto found = ways.to_goal(start, begin, {}, search);
+    ASSERT_FALSE(found.empty()) << begin;
+    EXPECT_NEAR(found[0].end, 20, 0.101) << begin;
+    const auto there = std::find_if(found[0].way.begin(), found[0].way.end(),
+                                    [](const WayPoint& p) { return p.t >= 20; });
+    EXPECT_GT(there->x, 10.5 * (20 - begin)) << begin;
+  }
+}
+
+TEST_F(Ways, AGoalMayBeFarAndNoFartherThanPathsAre) {
+  const auto by_time = [&](double time) {
+    environment.goal = {};
+    environment.goal.time = time;
+    environment.goal = placed(environment.goal, environment.road.get());
+  };
+  by_time(30);
+  const auto ways = to_goal();
+  ASSERT_FALSE(ways.empty());
+  EXPECT_NEAR(ways[0].end, 30, 0.101);
+  EXPECT_GT(ways[0].way.back().x, 700);
+  by_time(60);
+  EXPECT_TRUE(to_goal().empty());
+  environment.road = road_of({{-20, 0, 2, 5}, {1500, 0, 2, 5}});
+  to_line(650);
+  EXPECT_FALSE(to_goal().empty());
+  to_line(1200);
+  EXPECT_TRUE(to_goal().empty());
+}
+
+// What stands there ends the path: the best by a time is to come before it.
+TEST_F(Ways, ByATimeItComesAsFarAsWhatStands) {
+  environment.road = straight(2, 2);
+  environment.goal = {};
+  environment.goal.time = 9;
+  environment.goal = placed(environment.goal, environment.road.get());
+  const Obstacle parked = test::box(60, 0, 5, 3, 0);
+  const auto ways = to_goal({parked});
+  ASSERT_FALSE(ways.empty());
+  EXPECT_NEAR(ways[0].end, 9, 0.101);
+  EXPECT_GT(ways[0].way.back().x, 45);
+}
+
+TEST_F(Ways, AVehicleAtRestBesideTheEdgeDrivesOff) {
+  search.edge = 0.2;
+  for (const double psi : {0., -0.02, 0.01}) {
+    start = {0, -1.13, 0, 0, psi, 0, 0, 0};
+    const double begin = Footprint(vehicle).edge_distance(*environment.road, start);
+    ASSERT_LT(begin, 0.1);
+    const auto ways = to_goal();
+    ASSERT_FALSE(ways.empty()) << psi;
+    EXPECT_GE(edge(ways[0].way), begin - 0.04);
+    for (const auto& at : ways[0].way)
+      if (at.x > 8.5)
+        EXPECT_GE(Footprint(vehicle).edge_distance(*environment.road, state_of(at)), 0.19) << at.x;
+    EXPECT_FALSE(to_stand().empty());
+  }
 }
 
 // It begins in a long goal whose time comes late: it has to be slow enough not to leave it before.

@@ -48,7 +48,8 @@ class RoadWays {
   RoadWays& operator=(RoadWays&&) noexcept;
 
   /// Ways from `start` at absolute time t_start [s] that arrive at the goal, the best first. An
-  /// obstacle or an edge that the start is nearer to than the search keeps is kept that far from.
+  /// obstacle that the start is nearer to than the search keeps is kept that far from. So is an
+  /// edge, for a few metres within which the way comes back to what is kept.
   std::vector<RoadWay> to_goal(const vehicle::State& start, double t_start,
                                const std::vector<Obstacle>& obstacles, const RoadWaySearch& search,
                                const std::function<bool()>& out_of_budget = {});
