@@ -124,7 +124,7 @@ bool PlaceSearch::arrived(const Place& place) const {
     case GoalKind::rectangle:
       return inside(goal_.length / 2, goal_.width / 2);
     case GoalKind::line:
-      return frame_.u(x, y) >= kBeyondLine && way_left(x, y) <= 0;
+      return frame_.u(x, y) >= kBeyondLine && way_left(place) <= 0;
     case GoalKind::time:
       return t_start_ + place.moves * p_.dt >= goal_.time;
     case GoalKind::laps:
@@ -142,6 +142,8 @@ void PlaceSearch::place_start(const Place& start) {
                  kAcross * (square ? goal_.sigma : goal_.width / 2), region_, obstacles_);
     return;
   }
+  const double s = road_->along(goal_.x + x, goal_.y + y);
+  goal_s_ = s + of_lap(to_go_ - s);
   edge_ = disc_radius_ + p_.edge;
   const auto heading = static_cast<double>(start.heading);
   for (const double ahead : ahead_)
@@ -154,13 +156,41 @@ bool PlaceSearch::on_road(double x, double y) const {
   return road_ == nullptr || road_->edge_distance(goal_.x + x, goal_.y + y) >= edge_;
 }
 
-/// To the goal, along the road or around what stands [m].
-double PlaceSearch::way_left(double x, double y) const {
-  if (road_ == nullptr) return field_(frame_.u(x, y), frame_.w(x, y));
-  return std::max(0., to_go_ - road_->along(goal_.x + x, goal_.y + y));
+/// So far [m] to the goal, on a closed road by the lap that it is: the half of one that follows a
+/// line is beyond it, and a place that lies behind is a lap ahead.
+double PlaceSearch::of_lap(double left) const {
+  const double lap = road_->lap();
+  if (lap == 0) return left;
+  double behind = 0;
+  if (goal_.kind() == GoalKind::line) behind = lap / 2;
+  if (goal_.kind() == GoalKind::square) behind = goal_.sigma;
+  if (goal_.kind() == GoalKind::rectangle) behind = goal_.length / 2;
+  return left - lap * std::floor((left + behind) / lap);
 }
 
-void PlaceSearch::add(const Place& place) {
+/// Place::s, by that of where the place was come to from.
+double PlaceSearch::along(const Place& place) const {
+  const double s =
+      road_->along(goal_.x + static_cast<double>(place.x), goal_.y + static_cast<double>(place.y));
+  const double lap = road_->lap();
+  if (lap == 0 || place.parent < 0) return s;
+  const auto before = static_cast<double>(places_[static_cast<std::size_t>(place.parent)].s);
+  return before + std::remainder(s - before, lap);
+}
+
+/// To the goal, along the road or around what stands [m]; of a time along the road what is beyond
+/// its length counts less.
+double PlaceSearch::way_left(const Place& place) const {
+  if (road_ == nullptr) {
+    const auto x = static_cast<double>(place.x), y = static_cast<double>(place.y);
+    return field_(frame_.u(x, y), frame_.w(x, y));
+  }
+  const double left = goal_s_ - static_cast<double>(place.s);
+  if (goal_.kind() == GoalKind::time) return left;
+  return std::max(0., goal_.is_place() ? of_lap(left) : left);
+}
+
+void PlaceSearch::add(Place place) {
   const auto x = static_cast<double>(place.x), y = static_cast<double>(place.y);
   const auto v = static_cast<double>(place.v);
   const double u = frame_.u(x, y), w = frame_.w(x, y), t = place.moves * p_.dt;
@@ -177,9 +207,10 @@ void PlaceSearch::add(const Place& place) {
   mix(static_cast<double>(place.kappa) / most_curvature(v), p_.cell_curvature, 6);
   mix(t, p_.cell_time, 10);
   if (!cells_.insert(key)) return;
+  if (road_ != nullptr) place.s = static_cast<float>(along(place));
   places_.push_back(place);
   open_.push_back(
-      {t + p_.greed * way_left(x, y) / p_.v_max, static_cast<std::int32_t>(places_.size() - 1)});
+      {t + p_.greed * way_left(place) / p_.v_max, static_cast<std::int32_t>(places_.size() - 1)});
   std::push_heap(open_.begin(), open_.end());
 }
 
@@ -286,7 +317,7 @@ void PlaceSearch::go_on(std::int32_t index) {
       Motion at = here;
       if (!move(at, a, rate, v_least, v_most)) continue;
       add({static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.heading),
-           static_cast<float>(at.v), static_cast<float>(at.kappa), static_cast<float>(a),
+           static_cast<float>(at.v), static_cast<float>(at.kappa), static_cast<float>(a), 0,
            from.moves + 1, index});
     }
 }

@@ -17,9 +17,10 @@ namespace slalom::world {
 /// The search of WayFinder in coordinates relative to the goal, and in time from the start on.
 class PlaceSearch {
  public:
-  /// A node: where a move led, after how many, with which acceleration, and from where.
+  /// A node: where a move led, after how many, with which acceleration, and from where. Along a
+  /// road it is `s` [m] from the road's start; of a closed road s goes on rising beyond its length.
   struct Place {
-    float x = 0, y = 0, heading = 0, v = 0, kappa = 0, a = 0;
+    float x = 0, y = 0, heading = 0, v = 0, kappa = 0, a = 0, s = 0;
     std::int32_t moves = 0, parent = -1;
   };
 
@@ -62,7 +63,7 @@ class PlaceSearch {
   };
 
   double most_curvature(double v) const;
-  void add(const Place& place);
+  void add(Place place);
   void go_on(std::int32_t from);
   void find_near(const Place& from);
   bool move(Motion& at, double a, double kappa_rate, double v_least, double v_most) const;
@@ -74,7 +75,9 @@ class PlaceSearch {
   bool meets_conditions(const Place& place) const;
   bool in_time(double t) const;
   bool on_road(double x, double y) const;
-  double way_left(double x, double y) const;
+  double way_left(const Place& place) const;
+  double along(const Place& place) const;
+  double of_lap(double left) const;
   void place_start(const Place& start);
 
   const Goal goal_;
@@ -84,6 +87,7 @@ class PlaceSearch {
   double body_reach_ = 0;      ///< how far their centres are from it [m]
   const RoadField* road_;
   const double to_go_;
+  double goal_s_ = 0;       ///< where the goal lies, in the terms of Place::s [m]
   double disc_radius_ = 0;  ///< of the body's [m]
   double edge_ = 0;         ///< kept by the discs' centres from the road's edges [m]
   double t_start_ = 0;      ///< [s]

@@ -3,27 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace slalom::world {
 namespace {
 
-/// Blocks within this of the corridor have a grid [m]; its line is looked at this often.
-constexpr double kBeyond = 2, kStep = 2;
+/// Blocks within this of the corridor have a grid [m]; its line is looked at this often, and of an
+/// open road so far beyond its ends.
+constexpr double kBeyond = 2, kStep = 2, kBeyondEnds = 30;
 
 }  // namespace
 
-RoadField::RoadField(const Road& road) {
-  place(road);
-  fill(road);
+RoadField::RoadField(std::shared_ptr<const Road> road) : road_(std::move(road)) {
+  place();
+  fill();
 }
 
 /// The blocks that the corridor touches.
-void RoadField::place(const Road& road) {
+void RoadField::place() {
   constexpr double side = kSide * kCell;
   std::vector<Point> places;
-  const double parts = std::ceil(road.length() / kStep);
+  const double from = road_->closed() ? 0 : -kBeyondEnds, length = road_->length() - 2 * from;
+  const double parts = std::ceil(length / kStep);
   for (double k = 0; k <= parts; ++k) {
-    const RoadPlace at = road.at(road.length() * k / parts);
+    const RoadPlace at = road_->at(from + length * k / parts);
     for (double n = -at.right - kBeyond; n < at.left + kBeyond + kStep; n += kStep)
       places.push_back(at.point() + at.aside() * n);
   }
@@ -49,7 +52,7 @@ void RoadField::place(const Road& road) {
       }
 }
 
-void RoadField::fill(const Road& road) {
+void RoadField::fill() {
   constexpr std::size_t points = std::size_t{kPoints} * std::size_t{kPoints};
   const auto blocks = static_cast<std::size_t>(
       std::count_if(block_.begin(), block_.end(), [](auto b) { return b >= 0; }));
@@ -64,8 +67,8 @@ void RoadField::fill(const Road& road) {
       for (std::size_t i = 0; i < kPoints; ++i, ++to) {
         const Point p{x0_ + kCell * static_cast<double>(column * kSide + i),
                       y0_ + kCell * static_cast<double>(row * kSide + j)};
-        edge_[to] = static_cast<float>(road.edge_distance(p));
-        along_[to] = static_cast<float>(road.project(p).s);
+        edge_[to] = static_cast<float>(road_->edge_distance(p));
+        along_[to] = static_cast<float>(road_->project(p).s);
       }
   }
 }
@@ -83,7 +86,7 @@ RoadField::Spot RoadField::spot(double x, double y) const {
 
 double RoadField::edge_distance(double x, double y) const {
   const Spot at = spot(x, y);
-  if (at.block == nullptr) return static_cast<double>(kOff);
+  if (at.block == nullptr) return road_->edge_distance({x, y});
   const auto i = static_cast<std::ptrdiff_t>(at.i), j = static_cast<std::ptrdiff_t>(at.j);
   const double u = at.i - static_cast<double>(i), v = at.j - static_cast<double>(j);
   const float *low = at.block + j * kPoints + i, *high = low + kPoints;
@@ -95,7 +98,7 @@ double RoadField::edge_distance(double x, double y) const {
 
 double RoadField::along(double x, double y) const {
   const Spot at = spot(x, y);
-  if (at.block == nullptr) return 0;
+  if (at.block == nullptr) return road_->project({x, y}).s;
   const std::ptrdiff_t i = std::lround(at.i), j = std::lround(at.j);
   return static_cast<double>(
       along_[static_cast<std::size_t>(at.block - edge_.data() + j * kPoints + i)]);

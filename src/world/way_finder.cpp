@@ -93,7 +93,7 @@ class WayFinder::Impl {
         vehicle_(vehicle),
         cover_excess_(cover_excess),
         body_(Footprint(vehicle).covering_discs(cover_excess)),
-        road_(environment.road ? std::make_unique<RoadField>(*environment.road) : nullptr),
+        road_(environment.road ? std::make_unique<RoadField>(environment.road) : nullptr),
         search_(environment.goal, vehicle, body_, road_.get(), to_go(environment)) {}
 
   std::optional<Way> find(const State& start, double t_start,

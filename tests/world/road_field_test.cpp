@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 namespace slalom::world {
@@ -12,7 +13,7 @@ TEST(RoadField, IsTheRoadOnTheCorridor) {
   std::vector<RoadPoint> line;
   for (double x = 0; x <= 200; x += 8) line.push_back({x, 15 * std::sin(x / 25), 3, 4});
   const Road road(line, false, {}, "winding");
-  const RoadField field(road);
+  const RoadField field(std::make_shared<Road>(road));
   std::mt19937 random(5);
   std::uniform_real_distribution<double> s(0, road.length()), n(-4.5, 5.5);
   for (int k = 0; k < 2000; ++k) {
@@ -25,10 +26,17 @@ TEST(RoadField, IsTheRoadOnTheCorridor) {
   }
 }
 
-TEST(RoadField, FarFromTheRoadIsFarOutside) {
-  const RoadField field(Road({{0, 0, 3, 3}, {100, 0, 3, 3}}, false, {}, "straight"));
-  EXPECT_LT(field.edge_distance(50, 60), -100);
-  EXPECT_LT(field.edge_distance(-1e6, 1e6), -100);
+TEST(RoadField, IsTheRoadWhereThereIsNoGrid) {
+  const RoadField field(std::make_shared<Road>(std::vector<RoadPoint>{{0, 0, 3, 3}, {100, 0, 3, 3}},
+                                               false, std::vector<std::vector<Point>>{},
+                                               "straight"));
+  EXPECT_NEAR(field.edge_distance(50, 60), -57, 1e-9);
+  EXPECT_LT(field.edge_distance(-1e6, 1e6), -9e5);
+  // An open road goes on straight, near beyond its ends and far.
+  for (const double x : {-200., -45., -20., -3., 110., 190.}) {
+    EXPECT_NEAR(field.edge_distance(x, 1), 2, 1e-5) << x;
+    EXPECT_NEAR(field.along(x, 1), x, 0.3) << x;
+  }
 }
 
 }  // namespace

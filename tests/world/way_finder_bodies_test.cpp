@@ -11,6 +11,7 @@
 #include "slalom/world/way_finder.hpp"
 #include "slalom/world/way_signature.hpp"
 #include "world/box.hpp"
+#include "world/ring.hpp"
 
 namespace slalom::world {
 namespace {
@@ -103,6 +104,102 @@ TEST_F(Street, WhatIsAbsentIsNotPassed) {
   environment.obstacles = {wall};
   EXPECT_FALSE(WayFinder(environment, vehicle)
                    .find(start, 0, environment.obstacles, {.t_max = 20, .max_places = 20000}));
+}
+
+/// On a closed road round a circle.
+struct Ring : Street {
+  const double lap;
+
+  Ring() : lap(test::ring(60, 3.5)->length()) {
+    environment = {};
+    environment.road = test::ring(60, 3.5);
+  }
+  void begin_at(double s) {
+    const RoadPlace at = environment.road->at(s);
+    start = {at.x, at.y, 0, 0, at.psi, 0, 10, 0};
+  }
+  void to_line(double s) {
+    environment.goal = {};
+    environment.goal.s = s;
+    environment.goal = placed(environment.goal, environment.road.get());
+  }
+  void to_place(double s) {
+    const RoadPlace at = environment.road->at(s);
+    environment.goal = {at.x, at.y, at.psi, 4};
+  }
+  std::optional<Way> find_soon() const {
+    return WayFinder(environment, vehicle).find(start, 0, {}, {.max_places = 20000});
+  }
+  double seconds() const {
+    const auto way = find_soon();
+    return way ? way->back().t : HUGE_VAL;
+  }
+};
+
+TEST_F(Ring, GoalsBeyondTheSeamAreAhead) {
+  begin_at(lap - 60);
+  to_line(lap);
+  EXPECT_LT(seconds(), 8);
+  to_line(40);
+  EXPECT_LT(seconds(), 12);
+  to_place(40);
+  EXPECT_LT(seconds(), 12);
+  begin_at(100);
+  to_line(160);
+  EXPECT_LT(seconds(), 8);
+}
+
+TEST_F(Ring, APlaceThatLiesBehindIsALapAhead) {
+  begin_at(100);
+  to_place(60);
+  EXPECT_LT(seconds(), 45);
+  EXPECT_GT(seconds(), 15);
+}
+
+TEST_F(Ring, BeyondALineItHasArrived) {
+  begin_at(43);
+  to_line(40);
+  environment.goal.ux_max = 8;
+  EXPECT_LT(seconds(), 5);
+}
+
+TEST_F(Ring, ByATimeItComesAsFarAcrossTheSeamAsElsewhere) {
+  environment.goal = {};
+  environment.goal.time = 8;
+  environment.goal = placed(environment.goal, environment.road.get());
+  const auto driven = [&](double s) {
+    begin_at(s);
+    const auto way = find_soon();
+    if (!way) return -1.;
+    return environment.road->project({way->back().x, way->back().y}).s - s;
+  };
+  const double elsewhere = driven(100);
+  EXPECT_GT(elsewhere, 80);
+  EXPECT_NEAR(driven(lap - 60) + lap, elsewhere, 5);
+}
+
+TEST_F(Street, ARoadKeepsItWhereItBeginsBeforeIt) {
+  std::vector<RoadPoint> line;
+  for (double x = 0; x < 60; x += 10) line.push_back({x, 0, 3, 3});
+  for (double angle = -1.5; angle < 1.6; angle += 0.3)
+    line.push_back({60 + 20 * std::cos(angle), 20 + 20 * std::sin(angle), 3, 3});
+  for (double x = 50; x >= 0; x -= 10) line.push_back({x, 40, 3, 3});
+  environment = {};
+  environment.road =
+      std::make_shared<Road>(line, false, std::vector<std::vector<Point>>{}, "hairpin");
+  environment.goal.s = environment.road->length();
+  environment.goal = placed(environment.goal, environment.road.get());
+  for (const double x : {-15., -50.}) {
+    start = {x, 0, 0, 0, 0, 0, 10, 0};
+    const auto way = WayFinder(environment, vehicle).find(start, 0, {}, {.max_places = 50000});
+    ASSERT_TRUE(way) << x;
+    const Footprint footprint(vehicle);
+    for (const WayPoint& p : *way) {
+      const double axis = p.heading - (vehicle.la + vehicle.lb) * p.kappa;
+      EXPECT_GT(footprint.edge_distance(*environment.road, {p.x, p.y, 0, 0, axis, 0, p.v, 0}), 0)
+          << p.t;
+    }
+  }
 }
 
 }  // namespace
