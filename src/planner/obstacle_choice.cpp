@@ -157,6 +157,17 @@ world::Obstacle covering_ellipse(const std::vector<world::Obstacle>& members) {
   return cover;
 }
 
+namespace {
+
+/// One ellipse has one velocity and one margin.
+bool alike(const world::Obstacle& p, const world::Obstacle& q) {
+  return p.is_plain() && q.is_plain() && p.vx == q.vx && p.vy == q.vy &&
+         p.margin_start == q.margin_start && p.margin_rate == q.margin_rate &&
+         p.predicted_at == q.predicted_at;
+}
+
+}  // namespace
+
 std::vector<world::Obstacle> group_obstacles(const Settings& settings,
                                              const std::vector<world::Obstacle>& obstacles) {
   if (settings.obstacle_group_gap == 0) return obstacles;
@@ -167,9 +178,7 @@ std::vector<world::Obstacle> group_obstacles(const Settings& settings,
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
       const auto &p = obstacles[i], &q = obstacles[j];
-      if (!p.is_plain() || !q.is_plain() || p.vx != q.vx || p.vy != q.vy ||
-          gap(p, q) >= settings.obstacle_group_gap)
-        continue;
+      if (!alike(p, q) || gap(p, q) >= settings.obstacle_group_gap) continue;
       const auto keep = std::min(group[i], group[j]), drop = std::max(group[i], group[j]);
       std::replace(group.begin(), group.end(), drop, keep);
     }

@@ -8,16 +8,16 @@
 
 namespace slalom::planner {
 
-/// The obstacles with those of one velocity and less than obstacle_group_gap between their edges
-/// replaced by one ellipse that covers them, in the order of the first of each group. A chain of
-/// near ones is one group. Gaps are measured along the line of centres: exact for circles. Those
-/// that are not plain stay on their own.
+/// The obstacles with those of one velocity, one margin and less than obstacle_group_gap between
+/// their edges replaced by one ellipse that covers them, in the order of the first of each group. A
+/// chain of near ones is one group. Gaps are measured along the line of centres: exact for circles.
+/// Those that are not plain stay on their own.
 std::vector<world::Obstacle> group_obstacles(const Settings& settings,
                                              const std::vector<world::Obstacle>& obstacles);
 
 /// The axis-aligned ellipse about the middle of the members' common box, with the box's ratio of
 /// axes, scaled down as far as it covers every member: at most sqrt(2) times the half box. All have
-/// one velocity; positions are those at t = 0.
+/// one velocity and one margin; positions are those at t = 0.
 world::Obstacle covering_ellipse(const std::vector<world::Obstacle>& members);
 
 /// Whether one of them stays so far beyond what a plan for `request` can reach that its numbers

@@ -54,9 +54,10 @@ void add_what_tells_planners_apart(Table& table) {
               "docs/measured/obstacle-choice.md.")
       .integer("obstacle_count", &S::obstacle_count, Range::closed(1, 1000), "1",
                "How many obstacles `nearest` keeps.")
-      .real("obstacle_group_gap", &S::obstacle_group_gap, Range::non_negative(), "m",
-            "Obstacles of one velocity with less between their edges than this become one ellipse "
-            "that covers them; 0: each stays on its own.")
+      .real(
+          "obstacle_group_gap", &S::obstacle_group_gap, Range::non_negative(), "m",
+          "Obstacles of one velocity and margin with less between their edges than this become one "
+          "ellipse that covers them; 0: each stays on its own.")
       .choice(
           "obstacle_constraint", &S::obstacle_constraint, {"hard", "soft"},
           "hard: a plan stays off its obstacles (paper Eqn. 7); soft: it pays w_obstacle for how "

@@ -78,6 +78,19 @@ TEST(Groups, ChainsOfOneVelocityBecomeOneEllipse) {
   EXPECT_EQ(two[0].vy, 5);
 }
 
+TEST(Groups, HaveOneMargin) {
+  Settings s;
+  s.obstacle_group_gap = 4;
+  std::vector<world::Obstacle> row = {{"p", 0, 0}, {"q", 0, 3}, {"r", 0, 6}, {"s", 0, 9}};
+  row[1].margin_start = row[2].margin_start = 0.5;
+  row[2].margin_rate = 0.3;
+  EXPECT_EQ(names(group_obstacles(s, row)), (Names{"p", "q", "r", "s"}));
+  row[1].margin_rate = 0.3;
+  const auto groups = group_obstacles(s, row);
+  ASSERT_EQ(names(groups), (Names{"p", "q+1", "s"}));
+  EXPECT_DOUBLE_EQ(groups[1].margin(2), 1.1);
+}
+
 TEST(Groups, TheEllipseCoversItsMembersAndLittleElse) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-20, 20), size(0.2, 6);
