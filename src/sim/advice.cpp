@@ -110,8 +110,7 @@ void narrow_gaps(const Scenario& s, std::vector<std::string>& found) {
 void no_way(const Scenario& s, std::vector<std::string>& found) {
   if (s.road || s.goal.kind() != world::GoalKind::square) return;  // not what it searches
   world::PathSearch search;
-  search.clearance =
-      (verifies(s) ? s.planner.verified_clearance : s.planner.sm_start) + body_width(s) / 2;
+  search.clearance = verifies(s) ? s.planner.verified_clearance : s.planner.sm_start;
   search.v_max = std::min(search.v_max, s.vehicle.ux_max);
   search.t_max = s.loop.timeout;
   if (world::path_exists(s, s.vehicle, s.start, search)) return;

@@ -67,6 +67,7 @@ class Search {
   }
 
   bool run(const vehicle::State& X) {
+    hold_discs(X);
     add({X[vehicle::X], X[vehicle::Y], X[vehicle::PSI],
          std::clamp(X[vehicle::UX], p_.v_min, p_.v_max), 0, 0});
     for (int looked_at = 0; !open_.empty() && looked_at < p_.max_places; ++looked_at) {
@@ -89,6 +90,19 @@ class Search {
     state[vehicle::UX] = p.v;
     return goal_.reached(state, p.t, nullptr);
   }
+  /// The region for the centres of the body's discs. They stick out of the body: a start beside a
+  /// side of the region may be as near to it as they are there.
+  void hold_discs(const vehicle::State& X) {
+    const double radius = body_.front().radius;
+    region_ = {region_.x_min + radius, region_.x_max - radius, region_.y_min + radius,
+               region_.y_max - radius};
+    const double c = std::cos(X[vehicle::PSI]), s = std::sin(X[vehicle::PSI]);
+    for (const Disc& disc : body_) {
+      const double x = X[vehicle::X] + disc.ahead * c, y = X[vehicle::Y] + disc.ahead * s;
+      region_ = {std::min(region_.x_min, x), std::max(region_.x_max, x), std::min(region_.y_min, y),
+                 std::max(region_.y_max, y)};
+    }
+  }
   void add_track(const Obstacle& disc, double radius) {
     const double h = p_.dt / kParts;
     Track track{radius, {}};
@@ -99,13 +113,15 @@ class Search {
   }
 
   bool free(const Place& p) const {
-    if (!region_.contains(p.x, p.y)) return false;
-    if (body_.size() == 1 && body_[0].ahead == 0) return clear(p.x, p.y, p.t);
+    if (body_.size() == 1 && body_[0].ahead == 0) return free_disc(p.x, p.y, p.t);
     // The front wheels roll where the way leads; the body's axis is off that by their steering.
     const double psi = p.psi - wheelbase_ * p.kappa, c = std::cos(psi), s = std::sin(psi);
     return std::all_of(body_.begin(), body_.end(), [&](const Disc& disc) {
-      return clear(p.x + disc.ahead * c, p.y + disc.ahead * s, p.t);
+      return free_disc(p.x + disc.ahead * c, p.y + disc.ahead * s, p.t);
     });
+  }
+  bool free_disc(double x, double y, double t) const {
+    return region_.contains(x, y) && clear(x, y, t);
   }
 
   bool clear(double x, double y, double t) const {
@@ -165,7 +181,7 @@ class Search {
   }
 
   const Goal goal_;
-  const Region region_;
+  Region region_;  ///< for the centres of the body's discs, once there is a start
   const double wheelbase_;
   const std::vector<Disc> body_;  ///< of one radius
   const PathSearch p_;

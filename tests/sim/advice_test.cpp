@@ -96,6 +96,18 @@ TEST(Advice, AGoalWithoutAWay) {
   EXPECT_TRUE(says(s, "no way from start to goal")) << all(s);
 }
 
+// Of a vehicle with a body the margins are beside it, not beside its middle.
+TEST(Advice, AWayThatTheBodyFitsIsOne) {
+  auto s = field();
+  s.vehicle.footprint = vehicle::FootprintKind::rectangle;  // 2 m wide
+  s.planner.sm_start = s.planner.sm_end = 0.5;
+  s.region = {-10, 10, -20, 300};
+  s.obstacles = {circle("left", -7, 60, 5), circle("right", 7, 60, 5)};  // 4 m apart
+  EXPECT_EQ(all(s), "");
+  s.obstacles[1].x = 6;
+  EXPECT_TRUE(says(s, "no way from start to goal was found that keeps 0.5 m")) << all(s);
+}
+
 TEST(Advice, LoadsThatAreNotTheWeight) {
   auto s = field();
   s.vehicle.m = 1350;

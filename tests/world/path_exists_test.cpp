@@ -61,6 +61,20 @@ TEST(PathExists, StaysInTheRegionAndReachesTheGoalInTime) {
   EXPECT_TRUE(path_exists(s, kVehicle, kStart, {.t_max = 6}));
 }
 
+TEST(PathExists, KeepsTheVehiclesBodyInTheRegion) {
+  auto s = open_way();
+  s.obstacles = {{"wall", -1.4, 50, 9.6, 1, 0, 0}};  // 1.8 m are left in the east
+  auto body = kVehicle;
+  body.footprint = vehicle::FootprintKind::rectangle;  // 2 m wide
+  EXPECT_TRUE(path_exists(s, kVehicle, kStart, {.clearance = 0}));
+  EXPECT_FALSE(path_exists(s, body, kStart, {.clearance = 0}));
+  s.obstacles[0].x = -3;
+  EXPECT_TRUE(path_exists(s, body, kStart, {.clearance = 0}));
+  auto beside = kStart;
+  beside[vehicle::X] = 8.95;  // 5 cm of the region beside it
+  EXPECT_TRUE(path_exists(s, body, beside, {.clearance = 0}));
+}
+
 TEST(PathExists, BetweenBoxesAsFarAsTheVehiclesBodyFits) {
   auto s = open_way();
   const double right = std::numbers::pi / 2;
