@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "road_way.hpp"
 #include "slalom/vehicle/state.hpp"
 
 namespace slalom::planner {
@@ -21,21 +22,21 @@ constexpr double kSteepest = 0.35;
 /// offset and of its change.
 constexpr double kMissing = 20, kSlope = 1, kBend = 4;
 
-/// A stage of the lattice: a point of the guess.
+/// A stage of the lattice: a point of the guess. Of a closed road s goes on rising beyond its
+/// length.
 struct Stage {
   std::size_t point;
   double s, t;
 };
 
 std::vector<Stage> stages_of(const ocp::Trajectory& guess, const world::Road& road) {
+  std::vector<world::Point> places;
+  for (const auto& state : guess.states) places.push_back({state[X], state[Y]});
+  const auto along = follow(road, road.project(places[0]).s, places);
   std::vector<Stage> stages;
-  double s = 0;
-  for (std::size_t k = 0; k < guess.tau.size(); ++k) {
-    const world::Point p{guess.states[k][X], guess.states[k][Y]};
-    s = k == 0 ? road.project(p).s : road.project(p, s).s;
-    if (k == 0 || s - stages.back().s >= kStage || k + 1 == guess.tau.size())
-      stages.push_back({k, s, guess.time(k)});
-  }
+  for (std::size_t k = 0; k < along.size(); ++k)
+    if (k == 0 || along[k] - stages.back().s >= kStage || k + 1 == along.size())
+      stages.push_back({k, along[k], guess.time(k)});
   return stages;
 }
 

@@ -23,7 +23,16 @@ double unwrapped(const world::Road& road, double s, double near) {
   return road.closed() ? near + std::remainder(s - near, road.length()) : s;
 }
 
-/// How far ahead the goal lies on the line, by no more than half a lap of a closed road.
+/// How far a plan that comes to the goal goes at the least: as far as it must in the shortest
+/// horizon, and over a line.
+double least_way(const Task& task, const Request& request) {
+  const double least = task.goal.is_place() ? task.planner.tf_min
+                                            : std::max(request.t_start - request.t0, kLeastTime);
+  return std::max(request.X0p[UX], 0.) * least;
+}
+
+}  // namespace
+
 double goal_ahead(const Task& task, double s) {
   const world::Goal& goal = task.goal;
   const world::Road& road = *task.road;
@@ -38,16 +47,6 @@ double goal_ahead(const Task& task, double s) {
   const double left = road.closed() ? 0 : road.length() - s;
   return std::max(left, kFarRanges * task.planner.L_range);
 }
-
-/// How far a plan that comes to the goal goes at the least: as far as it must in the shortest
-/// horizon, and over a line.
-double least_way(const Task& task, const Request& request) {
-  const double least = task.goal.is_place() ? task.planner.tf_min
-                                            : std::max(request.t_start - request.t0, kLeastTime);
-  return std::max(request.X0p[UX], 0.) * least;
-}
-
-}  // namespace
 
 std::optional<double> goal_offset(const Task& task) {
   if (!task.goal.is_place()) return std::nullopt;

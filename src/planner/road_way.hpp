@@ -23,6 +23,11 @@ struct WayAhead {
 /// range. The task has a road.
 WayAhead way_ahead(const Task& task, const Request& request, std::optional<double> hint);
 
+/// How far ahead of s the goal lies along the line [m]: by no more than half a lap of a closed
+/// road, where a place that lies behind is ahead by the rest of the lap. What has no end is far
+/// ahead.
+double goal_ahead(const Task& task, double s);
+
 /// s of places that follow each other along the road [m], the first of which lies about `s`; of a
 /// closed road they go on rising beyond its length.
 std::vector<double> follow(const world::Road& road, double s,

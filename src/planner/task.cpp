@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "road_way.hpp"
+
 namespace slalom::planner {
 
 bool goal_in_range(const Task& task, const vehicle::State& X0p) {
@@ -22,11 +24,9 @@ double way_left(const Task& task, const vehicle::State& state) {
   const world::Goal& goal = task.goal;
   if (!task.road) return std::hypot(state[vehicle::X] - goal.x, state[vehicle::Y] - goal.y);
   const double s = task.road->project({state[vehicle::X], state[vehicle::Y]}).s;
-  double left = task.road->length() - s;
-  if (goal.kind() == world::GoalKind::line) left = goal.s - s;
-  if (goal.is_place()) left = task.road->project({goal.x, goal.y}).s - s;
-  if (task.road->closed() && left < 0) left += task.road->length();
-  return std::fabs(left);
+  if (goal.is_place() || goal.kind() == world::GoalKind::line)
+    return std::fabs(goal_ahead(task, s));
+  return task.road->length() - s;
 }
 
 }  // namespace slalom::planner

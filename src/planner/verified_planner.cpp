@@ -7,6 +7,7 @@
 
 #include "obstacle_view.hpp"
 #include "references.hpp"
+#include "road_way.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -20,6 +21,8 @@ constexpr double kRemembered = 5;
 /// Where nothing is good, the search for ways to the goal has this share of the time that is left
 /// before stops elsewhere are tried, for those take longer than a short cycle.
 constexpr double kBeforeMoreStops = 0.6;
+/// Of a motion's states every so many are looked for along the road.
+constexpr std::size_t kFollowed = 20;
 /// Standing costs so much more than arriving, and each metre to the goal this; not the time at
 /// which the vehicle stands, for the later it brakes the better.
 constexpr double kStandingCost = 1e6, kMetreCost = 10;
@@ -46,7 +49,7 @@ void VerifiedPlanner::reset() {
   last_ = before_ = {};
   errors_.clear();
   proposals_.forget();
-  last_improved_ = wait_ = expected_work_ = 0;
+  last_improved_ = wait_ = expected_work_ = along_ = 0;
 }
 
 void VerifiedPlanner::record(const Recorder& recorder) {
@@ -76,6 +79,10 @@ Request VerifiedPlanner::possible(Request request) const {
 Plan VerifiedPlanner::plan(const Request& as_told) {
   const Request request = possible(as_told);
   if (request.last_was_late) last_ = before_;
+  if (task_.road && task_.road->closed()) {
+    const double s = task_.road->project({request.X0p[X], request.X0p[Y]}).s;
+    along_ += std::remainder(s - along_, task_.road->length());
+  }
   Cycle cycle{
       .request = request, .obstacles = known(request), .verification = task_.planner.verification};
   if (task_.planner.fallback) {
@@ -126,15 +133,29 @@ Need VerifiedPlanner::need(const Cycle& cycle) const {
   return need;
 }
 
+/// What a motion leaves of the way to the goal at t [m]. By a goal's time on a closed road it
+/// counts the laps since the drive began, so that what has crossed the seam is farther and not a
+/// lap back.
+double VerifiedPlanner::left_after(const Motion& motion, double t) const {
+  const world::Road* road = task_.road.get();
+  const State end = t < motion.end() ? motion.state_at(t) : motion.states.back();
+  if (task_.goal.kind() != world::GoalKind::time || !road->closed()) return way_left(task_, end);
+  std::vector<world::Point> places;
+  for (std::size_t k = 0; k < motion.size() && motion.t[k] < t; k += kFollowed)
+    places.push_back({motion.states[k][X], motion.states[k][Y]});
+  places.push_back({end[X], end[Y]});
+  const double s = road->project(places[0]).s;
+  const double begin = along_ + std::remainder(s - along_, road->length());
+  return road->length() - planner::follow(*road, begin, places).back();
+}
+
 double VerifiedPlanner::cost_of(const Motion& motion, const Verdict& verdict) const {
   const Settings& s = task_.planner;
   const bool arrives = verdict.end == MotionEnd::arrives;
-  const State& last = motion.states.back();
-  if (!arrives) return kStandingCost + kMetreCost * way_left(task_, last);
+  if (!arrives) return kStandingCost + kMetreCost * left_after(motion, motion.end());
   double end = verdict.arrival;
   // As far as possible: what is left counts as time.
-  if (task_.goal.kind() == world::GoalKind::time)
-    end += way_left(task_, motion.state_at(end)) / kProgressSpeed;
+  if (task_.goal.kind() == world::GoalKind::time) end += left_after(motion, end) / kProgressSpeed;
   double cost = s.w_t * end;
   for (std::size_t k = 0; k + 1 < motion.size() && motion.t[k] < verdict.arrival; ++k)
     cost +=

@@ -147,6 +147,7 @@ class VerifiedPlanner final : public PlanningMethod {
   void follow(Cycle& cycle, const Proposal& proposal);
   bool stop_late(Cycle& cycle, const Proposal& proposal);
   bool stop_along(Cycle& cycle, const Stop& stop, double deceleration, const Course& course);
+  double left_after(const Motion& motion, double t) const;
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   const Option* chosen(Cycle& cycle, Rung& rung);
   Plan choose(Cycle& cycle);
@@ -171,8 +172,9 @@ class VerifiedPlanner final : public PlanningMethod {
   std::deque<std::pair<double, double>> errors_;  ///< of belief: when [s], and how great [m]
   double last_improved_ = 0;                      ///< when a better plan was looked for [s]
   double wait_ = 0;                               ///< until the next time [s]
-  double work_before_ = 0;            ///< of the turns before what is under way [places]
-  double expected_work_ = 0;          ///< that the last thing looked for took [places]
+  double work_before_ = 0;    ///< of the turns before what is under way [places]
+  double along_ = 0;          ///< where the last plan began along a closed road, with its laps [m]
+  double expected_work_ = 0;  ///< that the last thing looked for took [places]
   double longest_adoption_s_ = 0;     ///< thread time of adopting what was found
   bool asked_while_leading_ = false;  ///< what is under way is to improve on what leads to the goal
 };

@@ -9,6 +9,7 @@
 
 #include "../../src/planner/free_way.hpp"
 #include "slalom/vehicle/state.hpp"
+#include "world/ring.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -76,6 +77,26 @@ TEST(FreeWay, LooksWhereObstaclesAreWhenItIsThere) {
   const auto guess = free_way(along(0), straight(), body(), 3, {walls, 0.3, 0});
   EXPECT_GT(least_distance(guess, walls), 0.1);
   EXPECT_GT(guess.states[30][Y], 1.5);
+}
+
+TEST(FreeWay, GoesOnAcrossTheSeamOfAClosedRoad) {
+  const auto road = world::test::ring(40, 5);
+  ocp::Trajectory guess;
+  guess.tf = 5;
+  for (int k = 0; k <= 50; ++k) {
+    const auto at = road->at(road->length() - 20 + k);
+    guess.tau.push_back(k / 50.);
+    guess.states.push_back({at.x, at.y, 0, 0, at.psi, 0, 10, 0});
+    guess.controls.push_back({0, 0});
+  }
+  const std::vector<world::Obstacle> walls = {wall(12, -1)};
+  ASSERT_LT(least_distance(guess, walls), 0);
+  const auto moved = free_way(guess, *road, body(), 3, {walls, 0.3, 0});
+  EXPECT_GT(least_distance(moved, walls), 0.1);
+  for (std::size_t k = 1; k < moved.tau.size(); ++k) {
+    const auto &a = moved.states[k - 1], &b = moved.states[k];
+    EXPECT_NEAR(std::hypot(b[X] - a[X], b[Y] - a[Y]), 1, 0.3) << k;
+  }
 }
 
 TEST(FreeWay, NothingInTheWayLeavesTheGuess) {

@@ -12,6 +12,7 @@
 #include "planner/edge_distance.hpp"
 #include "slalom/planner/planner.hpp"
 #include "slalom/world/trajectory.hpp"
+#include "world/ring.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -73,6 +74,26 @@ TEST(RoadPlanner, ComesAsFarAsItCanInATime) {
   const State& end = plan.states[static_cast<std::size_t>(at)];
   EXPECT_GT(task.road->project({end[X], end[Y]}).s - 20, 58);  // some 11 m/s in the bend
   EXPECT_GE(least_edge_distance(task, plan), task.planner.edge_clearance);
+}
+
+// What has crossed the seam of a closed road has come farther than what has not.
+TEST(RoadPlanner, ByATimeTheSeamCostsNothing) {
+  Task task = on_bend();
+  task.road = world::test::ring(150, 4);
+  task.goal = {};
+  task.goal.time = 6;
+  task.goal = world::placed(task.goal, task.road.get());
+  const auto at = task.road->at(task.road->length() - 78);
+  Request request = first();
+  request.X0p = {at.x, at.y, 0, 0, at.psi, 0, 12, 0};
+  // As fast as it can it comes some 6 m beyond the seam at least; at 12 m/s 6 m before it.
+  const auto cost = [&](double fastest) {
+    task.vehicle.ux_max = fastest;
+    const Plan plan = Planner(task).plan(request);
+    EXPECT_TRUE(plan.certificate.verified && plan.goal_in_range) << plan.certificate.refused;
+    return plan.report.cost / task.planner.w_t;
+  };
+  EXPECT_LT(cost(29), cost(13) - 0.5);
 }
 
 TEST(RoadPlanner, MeetsWhatIsAskedOnArrival) {

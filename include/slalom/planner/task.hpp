@@ -21,8 +21,8 @@ bool goal_in_range(const Task& task, const vehicle::State& X0p);
 /// (Settings::between_nodes). Plain ellipses and a point vehicle have no shape.
 bool refines(const Task& task);
 
-/// The distance from a state to the goal [m]: along the road (to its end if the goal is a time), or
-/// straight if there is no road.
+/// The distance from a state to the goal [m]: along the road (to its end if the goal is a time,
+/// negative beyond it), or straight if there is no road.
 double way_left(const Task& task, const vehicle::State& state);
 
 }  // namespace slalom::planner
