@@ -44,9 +44,16 @@ ocp::Trajectory& Guess::operator()(const Request& request, const WayAhead& way,
   return guess_;
 }
 
+/// How far a plan goes [m]: to the goal, or where that is out of range or passed, as far as it
+/// sees.
+double Guess::length_of(const WayAhead& way) const {
+  return way.in_range ? std::max(std::min(settings_.L_range, way.aim - way.s), 1.)
+                      : settings_.L_range;
+}
+
 /// The slowest that the road's bends allow before a plan ends [m/s].
 double Guess::slowest_ahead(const WayAhead& way) const {
-  const double length = std::min(settings_.L_range, way.aim - way.s);
+  const double length = length_of(way);
   double slowest = profile_->at(way.s + length);
   for (double s = 0; s < length; ++s) slowest = std::min(slowest, profile_->at(way.s + s));
   return std::max(slowest, kLeastSpeed);
@@ -55,7 +62,7 @@ double Guess::slowest_ahead(const WayAhead& way) const {
 /// Along the road at the offset that X0p has, evenly faster or slower until the end.
 void Guess::along_road(const Request& request, const WayAhead& way) {
   State X0p = request.X0p;
-  const double length = std::max(std::min(settings_.L_range, way.aim - way.s), 1.);
+  const double length = length_of(way);
   const double u = std::max(X0p[UX], 0.), slowest = slowest_ahead(way);
   const double able = u < kSlow ? kShare * vehicle_.ax_max_at(kSlow) : 0;
   const double end = std::min(std::sqrt(u * u + 2 * able * length), slowest);

@@ -33,6 +33,7 @@ class Guess {
 
  private:
   void along_road(const Request& request, const WayAhead& way);
+  double length_of(const WayAhead& way) const;
   double slowest_ahead(const WayAhead& way) const;
   void straight_on(const Request& request);
   void speeding_up(const Request& request);

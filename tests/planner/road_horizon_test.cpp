@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "../../src/planner/drivable_speed.hpp"
+#include "../../src/planner/guess.hpp"
 #include "../../src/planner/road_terms.hpp"
 #include "../../src/planner/road_way.hpp"
 #include "../../src/planner/trajectory_problem.hpp"
@@ -163,6 +164,18 @@ TEST(RoadHorizon, GoalsOfEachKindHaveTheirPlaceAlongIt) {
   task.goal = {};
   task.goal.time = 5;
   EXPECT_FALSE(way_ahead(task, at(-30, 30, kPi, 10), std::nullopt).in_range);
+}
+
+TEST(RoadHorizon, AGuessBeyondAPassedGoalGoesAsFarAsItSees) {
+  Task task = on(road_of({{-20, 0, 4, 4}, {300, 0, 4, 4}}), 100);
+  task.goal = {50, 0, 0, 3};
+  Guess guess(task);
+  const auto length = [&](double x) {
+    const Request request = at(x, 0, 0, 10);
+    return guess(request, way_ahead(task, request, {}), nullptr).states.back()[X] - x;
+  };
+  EXPECT_NEAR(length(20), 30, 2);
+  EXPECT_NEAR(length(80), task.planner.L_range, 2);
 }
 
 TEST(RoadHorizon, AClosedRoadGoesOnWhereItBegins) {
