@@ -27,6 +27,8 @@ constexpr double kEndSpeed = 1;
 constexpr double kEndCourse = 0.1;
 /// What is not solved is tried again farther from all limits, at so many times the barrier floor.
 constexpr double kCalmFloor = 20;
+/// Plans begin no slower than at so many times the least speed.
+constexpr double kRoom = 1.2;
 /// Between the points of a guess [m].
 constexpr double kStep = 2;
 /// A guess accelerates so [m/s^2].
@@ -76,6 +78,15 @@ LinePlanner::LinePlanner(const Task& task)
   for (int k = 0; k < settings_.N; ++k)
     lengths.push_back(std::pow(kGrowth, k / std::max(1., settings_.N - 1.)));
   transcription_.emplace(problem, mesh_of(lengths), ocp::hermite_simpson());
+}
+
+/// Where a plan begins. One from rest, or slower than the problem knows, begins a little faster
+/// than the least speed that it knows, at which there would be no room to solve it: the next plans
+/// correct by how much that makes the vehicle farther.
+LineProblem::LineState LinePlanner::first(double start, const State& X0p) const {
+  auto x0 = line_.to_line(start, X0p);
+  x0[LineProblem::SPEED] = std::max(x0[LineProblem::SPEED], kRoom * line_.slowest());
+  return x0;
 }
 
 void LinePlanner::update(double start, const LineProblem::LineState& x0) {
@@ -145,7 +156,7 @@ void LinePlanner::record(const Recorder& recorder) {
 
 ocp::Transcription& LinePlanner::posed(const State& X0p) {
   const double start = task_.road->project({X0p[X], X0p[Y]}).s;
-  update(start, line_.to_line(start, X0p));
+  update(start, first(start, X0p));
   return *transcription_;
 }
 
@@ -158,7 +169,7 @@ Plan LinePlanner::plan(const Request& request) {
   s_ = start;
   t_ = request.t_start;
   totals_ = {};
-  auto x0 = line_.to_line(start, request.X0p);
+  const auto x0 = first(start, request.X0p);
   update(start, x0);
   // The road's s goes around with each lap.
   if (last_ && task_.road->closed() && start < last_->start - task_.road->length() / 2)

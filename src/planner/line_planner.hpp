@@ -44,6 +44,7 @@ class LinePlanner final : public PlanningMethod {
     double floor_times;
   };
 
+  LineProblem::LineState first(double start, const vehicle::State& X0p) const;
   void update(double start, const LineProblem::LineState& x0);
   ocp::Trajectory guess(double start, const LineProblem::LineState& x0) const;
   ocp::Trajectory shifted(double start, const LineProblem::LineState& x0) const;

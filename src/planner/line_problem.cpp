@@ -57,6 +57,7 @@ LineProblem::LineProblem(const world::Road& road, const Parameters& vehicle, dou
     : road_(road),
       vehicle_(vehicle),
       length_(length),
+      slowest_(std::max(vehicle.ux_min, kSlowest)),
       settings_(settings),
       problem_("along a line") {
   if (!(road.narrowest() > vehicle.width + 2 * settings.margin))
@@ -98,7 +99,7 @@ void LineProblem::add_motion() {
   const Parameters& p = vehicle_;
   std::array<Bounds, kStates> bounds;
   bounds[SA] = {-p.sa_max(), p.sa_max()};
-  bounds[UX] = {std::max(p.ux_min, kSlowest), p.ux_max};
+  bounds[UX] = {slowest_, p.ux_max};
   x_[N] = problem_.state("n", {-widest_, widest_});
   x_[XI] = problem_.state("xi", {-kMostXi, kMostXi});
   X_[X] = X_[Y] = 0;

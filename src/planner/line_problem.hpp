@@ -49,6 +49,8 @@ class LineProblem {
   ocp::Problem& problem() { return problem_; }
   const ocp::Problem& problem() const { return problem_; }
   double length() const { return length_; }
+  /// The least speed of its states [m/s].
+  double slowest() const { return slowest_; }
   /// The states' symbols.
   const std::array<ocp::Expr, kLineStates>& states() const { return x_; }
   const ocp::Expr& start() const { return start_; }
@@ -85,7 +87,7 @@ class LineProblem {
 
   const world::Road& road_;
   const vehicle::Parameters vehicle_;
-  const double length_;
+  const double length_, slowest_;
   const LineSettings settings_;
   ocp::Problem problem_;
   ocp::Expr start_, s_, kappa_, s_dot_;

@@ -101,7 +101,8 @@ TEST(LinePlanner, WantsARoad) {
   EXPECT_THROW(Planner{task}, InvalidValue);
 }
 
-TEST(LinePlanner, DrivesALapInClosedLoopNearlyAsFastAndOnTheRoad) {
+/// Round an oval by P_L.
+Task round_oval() {
   Task task;
   task.road = oval(110, 55, 5);
   task.vehicle = body();
@@ -109,6 +110,29 @@ TEST(LinePlanner, DrivesALapInClosedLoopNearlyAsFastAndOnTheRoad) {
   task.planner.N = 40;
   task.planner.L_range = 150;
   task.planner.floor = 0.03;
+  return task;
+}
+
+TEST(LinePlanner, DrivesOffFromRest) {
+  const Task task = round_oval();
+  Planner planner(task);
+  const Plant plant(task.vehicle, 1e-9, 0.02);
+  const auto place = task.road->at(0);
+  State x{place.x, place.y, 0, 0, place.psi, 0, 0, 0};
+  for (double t = 0; t < 2; t += 0.1) {
+    Request request;
+    request.X0p = x;
+    request.t0 = t - 0.1;
+    request.t_start = t;
+    const Plan plan = planner.plan(request);
+    ASSERT_TRUE(plan.report.solved) << plan.report.status_text() << " at " << t;
+    x = plant.predict(x, control_signal(plan), t, t + 0.1);
+  }
+  EXPECT_GT(x[UX], 2);
+}
+
+TEST(LinePlanner, DrivesALapInClosedLoopNearlyAsFastAndOnTheRoad) {
+  const Task task = round_oval();
   Planner planner(task);
   const Plant plant(task.vehicle, 1e-9, 0.02);
   const world::Footprint footprint(task.vehicle);
