@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-import shapely
 
 import scenes
 import slalom
 from slalom import importing
 
 pytest.importorskip("commonroad", reason="needs the extra slalom[commonroad]")
+shapely = pytest.importorskip("shapely")
 
 SEMI = ("<semiTrailerTruckShape><truckShape><truckDims><length>5</length><width>2.5</width><wheelbase>3.6</wheelbase>"
         "<distFromRearToRearAxle>0.5</distFromRearToRearAxle><cabinLength>2.5</cabinLength>"

@@ -170,6 +170,16 @@ class Tries {
       }
   }
 
+  /// With a barrier that falls monotonely, where the adaptive one went wrong ways: slower, it keeps
+  /// off the bounds for longer.
+  void by_monotone_barrier(const Settings& settings, Answer& answer) {
+    if (settings.options.barrier_rule == nlp::BarrierRule::monotone) return;
+    Settings again = settings;
+    again.options.barrier_rule = nlp::BarrierRule::monotone;
+    std::optional<Answer> found = solve(std::move(again));
+    if (found && found->solved()) answer = std::move(*found);
+  }
+
   bool interrupted() const { return interrupted_; }
   int iterations() const { return iterations_; }
   double wall_s() const { return wall_s_; }
@@ -193,15 +203,17 @@ Answer solve_with_tries(const Problem& problem, const Settings& given) {
   Answer answer = *tries.solve(settings);
   if (fails_at_once(answer) && without_guess(settings)) {
     Settings again = held(problem, settings);
-    Answer other = *tries.solve(again);
-    if (!fails_at_once(other)) {
+    std::optional<Answer> other = tries.solve(again);
+    if (other && !fails_at_once(*other)) {
       settings = std::move(again);
-      answer = std::move(other);
+      answer = std::move(*other);
     }
   }
   if (lost_its_way(answer, settings)) tries.by_coarse_meshes(settings, answer);
   if (!tries.interrupted() && without_guess(given) && lost_its_way(answer, settings))
     tries.from_simulations(settings, answer);
+  if (!tries.interrupted() && lost_its_way(answer, settings))
+    tries.by_monotone_barrier(settings, answer);
   if (!tries.interrupted()) tries.from_elsewhere(settings, answer);
   answer.options = settings.options;
   answer.iterations = tries.iterations();

@@ -22,7 +22,7 @@ FILES = {
     "cut between keys": (E_C[:E_C.index("goal:")], ["my.yaml:1:1", "without 'goal'"]),
     "alias bomb": (alias_bomb(), ["my.yaml:2:8: found a YAML alias"]),
     "deep": ("a: " + "[" * 5000 + "]" * 5000, ["my.yaml:1:", "nesting"]),
-    "huge": ("#" * (2 << 20), ["my.yaml: found a file of more than 1048576 bytes"]),
+    "huge": ("#" * (13 << 20), ["my.yaml: found a file of more than 12582912 bytes"]),
     "no map": ("- 1\n", ["my.yaml:1:1: found a list, expected a scenario"]),
     "unknown key": (GOOD + "planner: {base: P_D, wt: 3}\n",
                     ["my.yaml:3:22: found unknown key 'wt' of planner", "did you mean 'w_t'?"]),

@@ -35,6 +35,7 @@ constexpr double kNoViolation = 1e-2;         ///< of the tolerance: nothing is 
 /// it handed back before, for where the search has got stuck with that, it takes a better point.
 constexpr double kSufficient = 0.9, kStricter = 0.01;
 constexpr std::size_t kLongestReason = 64;
+constexpr const char* kBadStart = "a function is not finite at the start: try another guess";
 
 /// The workspace of one problem structure, and a solve on it.
 class Run final : public Restoration::Watch {
@@ -258,7 +259,7 @@ class Run final : public Restoration::Watch {
     answer.backend = "interior_point/";
     answer.backend += descent_.newton().backend().name();
     answer.message.reserve(kLongestReason);
-    answer.message = reason(status);
+    answer.message = status == Status::invalid_number && best_.empty() ? kBadStart : reason(status);
     answer.fault = {};
     if (status == Status::invalid_number)
       answer.fault = form_.fault() ? form_.fault() : descent_.last().fault;
