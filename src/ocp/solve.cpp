@@ -170,14 +170,16 @@ class Tries {
       }
   }
 
-  /// With a barrier that falls monotonely, where the adaptive one went wrong ways: slower, it keeps
-  /// off the bounds for longer.
+  /// All that with a barrier that falls monotonely, where the adaptive one went wrong ways: slower,
+  /// it keeps off the bounds for longer.
   void by_monotone_barrier(const Settings& settings, Answer& answer) {
     if (settings.options.barrier_rule == nlp::BarrierRule::monotone) return;
     Settings again = settings;
     again.options.barrier_rule = nlp::BarrierRule::monotone;
-    std::optional<Answer> found = solve(std::move(again));
-    if (found && found->solved()) answer = std::move(*found);
+    std::optional<Answer> found = solve(again);
+    if (!found || interrupted_) return;
+    if (lost_its_way(*found, again)) by_coarse_meshes(again, *found);
+    if (found->solved()) answer = std::move(*found);
   }
 
   bool interrupted() const { return interrupted_; }

@@ -76,6 +76,50 @@ TEST(HardStarts, ManyControlsAreEliminatedByThemselves) {
   }
 }
 
+/// A chain of length 4 hanging between two points, which an integral says and not a state. Its
+/// potential energy is convex along chains of that length alone, which the row at the end says.
+TEST(HardStarts, ALengthMayBeAnIntegral) {
+  Problem p("chain");
+  const Expr x = p.state("x"), u = p.control("u"), length = sqrt(1 + square(u));
+  p.dynamics(x, u);
+  p.fix(x, 1, 3);
+  p.integral("length", length, Bounds::equal(4));
+  p.lagrange("energy", x * length);
+  const Guess sag = Guess(p)
+                        .function("x", [](double t) { return 1 - 6 * t + 8 * t * t; })
+                        .function("u", [](double t) { return -6 + 16 * t; });
+  const Solution solution =
+      solve(p, {.mesh = Mesh::uniform(40), .scheme = trapezoidal(), .guess = sag});
+  EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+  EXPECT_NEAR(solution.objective, 5.0737792, 1e-6);  // of this mesh; the catenary has 5.0684805
+  EXPECT_LE(solution.iterations, 20);
+}
+
+/// Penicillin in a fed batch (J. E. Cuthrell and L. T. Biegler, Comput. Chem. Eng. 13(1-2), 1989;
+/// 87.948 by R. Luus, Iterative Dynamic Programming, 2000): the adaptive rule ends in corners.
+TEST(HardStarts, AMonotoneBarrierIsTriedLast) {
+  Problem p("penicillin");
+  const Expr X = p.state("X", {0, 40}), P = p.state("P", {0, 50}), S = p.state("S", {0, 25});
+  const Expr V = p.state("V", {0, 10}), u = p.control("u", {0, 50});
+  const Expr grown = 0.11 * S / (0.006 * X + S), made = 0.0055 * S / (0.0001 + S * (1 + 10 * S));
+  p.dynamics(X, grown * X - u * X / 500 / V);
+  p.dynamics(P, made * X - 0.01 * P - u * P / 500 / V);
+  p.dynamics(
+      S, -grown * X / 0.47 - made * X / 1.2 - X * 0.029 * S / (0.0001 + S) + u / V * (1 - S / 500));
+  p.dynamics(V, u / 500);
+  p.initial_bounds(X, Bounds::equal(1.5));
+  p.initial_bounds(P, Bounds::equal(0));
+  p.initial_bounds(S, Bounds::equal(0));
+  p.initial_bounds(V, Bounds::equal(7));
+  p.final_time({72, 200}, 136);
+  p.mayer("yield", -p.final(P) * p.final(V));
+  for (const int intervals : {20, 40, 80}) {
+    const Solution solution = solve(p, {.mesh = Mesh::uniform(intervals), .scheme = lgr(4)});
+    EXPECT_TRUE(solution.solved()) << intervals << nlp::to_string(solution.status);
+    EXPECT_NEAR(solution.objective, -87.9, 0.3) << intervals;
+  }
+}
+
 /// Two stages of a rocket straight up, the second's mass bounded by what it begins with: the link
 /// that says so leaves that bound no interior.
 PhasedProblem two_stages() {
