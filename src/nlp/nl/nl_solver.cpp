@@ -118,14 +118,14 @@ class NlSolver final : public Solver {
       throw InvalidValue("solver options: nl_solver", "'" + options.nl_solver + "'",
                          "an executable that reads .nl files, in PATH or as a path");
     const auto words = command_words(executable.filename().string(), options);
-    const Start given = start;  // which may be the answer's own
+    const NlFile file = nl_file(*formulas, problem.limits(), start, options.warm_start);
+    Start point = start;  // which may be the answer's own
     answer = {};
     answer.backend = "nl, " + executable.filename().string();
-    answer.point = given;
+    answer.point = std::move(point);
     answer.point.y.assign(problem.structure().rows, 0.0);
     answer.point.zl.assign(problem.structure().variables, 0.0);
     answer.point.zu.assign(problem.structure().variables, 0.0);
-    const NlFile file = nl_file(*formulas, problem.limits(), given, options.warm_start);
     const TemporaryFolder folder;
     write_text(folder.path() / "problem.nl", file.text);
     std::vector<std::string> command{executable.string(), "problem.nl", "-AMPL"};
