@@ -168,9 +168,13 @@ function(slalom_test_program target libraries label)
   slalom_precompile(${target} test_support <gtest/gtest.h>)
   add_dependencies(${label}_tests ${target})
   if(SLALOM_SANITIZE)
-    # Whole, for with sanitizers the start of a program takes longer than most tests.
-    add_test(NAME ${target} COMMAND ${target} --gtest_brief=1)
-    set_tests_properties(${target} PROPERTIES LABELS ${label} TIMEOUT 1800)
+    # In halves, for with sanitizers the start of a program takes longer than most tests, and one
+    # whole program longer than several others.
+    foreach(half 0 1)
+      add_test(NAME ${target}_${half} COMMAND ${target} --gtest_brief=1)
+      set_tests_properties(${target}_${half} PROPERTIES LABELS ${label} TIMEOUT 1800
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${half}")
+    endforeach()
     return()
   endif()
   # Listed when ctest runs, so that a build of the unit tests alone needs no slow test.
