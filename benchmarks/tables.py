@@ -86,6 +86,30 @@ def environment_markdown(name, part):
     return "\n\n".join(parts)
 
 
+def functions_markdown(functions):
+    parts = []
+    for place, by_quantity in functions.items():
+        names = list(next(iter(by_quantity.values())))
+        rows = []
+        for quantity, row in by_quantity.items():
+            ours = min(row[n]["median"] for n in names if n.startswith("slalom"))
+            best = min(row[n]["median"] for n in names if not n.startswith("slalom"))
+            rows.append([QUANTITIES[quantity], *(f"{number(row[n]['median'])} / "
+                                                 f"{number(row[n]['p95'])}" for n in names),
+                         ratio(best, ours)])  # fmt: skip
+        parts.append(f"{PLACES[place].capitalize()}, microseconds, median / p95:\n\n" +
+                     table(["one evaluation of", *names, "best CasADi / ours"], rows))  # fmt: skip
+    return "\n\n".join(parts) or "Not measured in this run."
+
+
+def levels_markdown():
+    return table(["level", "floor", "tolerance asked", "violation", "stationarity",
+                  "complementarity"],
+                 [[AT[k], number(v.floor), f"{v.tol:.0e}" if not v.floor else "–",
+                   f"{v.violation:.0e}", f"{v.stationarity:.0e}", f"{v.complementarity:.0e}"]
+                  for k, v in LEVELS.items()])  # fmt: skip
+
+
 def markdown(summary, program):
     about = summary["about"]
     machine = about["machine"] | {
