@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "slalom/nlp/solver.hpp"
@@ -32,6 +33,14 @@ class JsonReader {
   JsonReader at(const std::string& key) const;
   JsonReader at(std::size_t index) const;
   std::size_t size() const;  ///< of a list
+
+  /// What `read` makes of each item of a list.
+  template <class Read>
+  auto each(Read read) const {
+    std::vector<std::invoke_result_t<Read, JsonReader>> list;
+    for (std::size_t i = 0; i < size(); ++i) list.push_back(read(at(i)));
+    return list;
+  }
 
   double real() const;
   int whole() const;

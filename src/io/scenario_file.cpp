@@ -237,9 +237,10 @@ class Loader {
     read_file_of(section, named->path);
     const auto file = std::exchange(scenario_.planner, stated);
     places_ = places;
+    const planner::Settings plain;
     for (const auto& setting : planner::setting_options().entries())
       if (setting.get(stated) == setting.get(file))
-        setting.set(scenario_.planner, setting.get(planner::Settings{}));
+        setting.set(scenario_.planner, setting.get(plain));
   }
 
   void read_obstacles(const Value& list) {

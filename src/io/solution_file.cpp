@@ -78,12 +78,9 @@ Json at_points_json(const List& list) {
 }
 template <class Item>
 std::vector<Item> read_at_points(const JsonReader& reader) {
-  std::vector<Item> list;
-  for (std::size_t i = 0; i < reader.size(); ++i) {
-    const JsonReader item = reader.at(i);
-    list.push_back({item.at("name").text(), item.at("points").counts(), item.at("values").list()});
-  }
-  return list;
+  return reader.each([](const JsonReader& item) {
+    return Item{item.at("name").text(), item.at("points").counts(), item.at("values").list()};
+  });
 }
 
 Json conflicts_json(const std::vector<ocp::Conflict>& conflicts) {
@@ -93,10 +90,9 @@ Json conflicts_json(const std::vector<ocp::Conflict>& conflicts) {
   return json;
 }
 std::vector<ocp::Conflict> read_conflicts(const JsonReader& reader) {
-  std::vector<ocp::Conflict> list;
-  for (std::size_t i = 0; i < reader.size(); ++i)
-    list.push_back({reader.at(i).at("name").text(), reader.at(i).at("change").real()});
-  return list;
+  return reader.each([](const JsonReader& item) {
+    return ocp::Conflict{item.at("name").text(), item.at("change").real()};
+  });
 }
 
 Json high_index_json(const std::vector<ocp::HighIndex>& equations) {
@@ -106,10 +102,9 @@ Json high_index_json(const std::vector<ocp::HighIndex>& equations) {
   return json;
 }
 std::vector<ocp::HighIndex> read_high_index(const JsonReader& reader) {
-  std::vector<ocp::HighIndex> list;
-  for (std::size_t i = 0; i < reader.size(); ++i)
-    list.push_back({reader.at(i).at("name").text(), reader.at(i).at("index").whole()});
-  return list;
+  return reader.each([](const JsonReader& item) {
+    return ocp::HighIndex{item.at("name").text(), item.at("index").whole()};
+  });
 }
 
 /// What solutions of one phase and of several both have.

@@ -112,10 +112,9 @@ Json pairs_json(const std::vector<std::pair<std::string, double>>& pairs) {
   return json;
 }
 std::vector<std::pair<std::string, double>> read_pairs(const JsonReader& reader) {
-  std::vector<std::pair<std::string, double>> pairs;
-  for (std::size_t i = 0; i < reader.size(); ++i)
-    pairs.emplace_back(reader.at(i).at("name").text(), reader.at(i).at("value").real());
-  return pairs;
+  return reader.each([](const JsonReader& item) {
+    return std::pair(item.at("name").text(), item.at("value").real());
+  });
 }
 
 }  // namespace slalom::io

@@ -36,8 +36,8 @@ OptionTable<Options> make_table() {
       .real("time_limit", &O::time_limit, Range::non_negative(), "s",
             "Deadline in this thread's processor time, callbacks not counted: the operating "
             "system's share and the user's code are not the solver's. solve() and refine() of "
-            "optimal "
-            "control count by the clock, over set-up and all their solves. Infinite by default.")
+            "optimal control count by the clock, over set-up and all their solves. Infinite by "
+            "default.")
       .boolean("warm_start", &O::warm_start,
                "The start's multipliers are used. Off by default, for a guess has none.")
       .choice(

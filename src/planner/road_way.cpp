@@ -18,11 +18,6 @@ constexpr double kBeyondLine = 1, kLeastTime = 0.5;
 /// What has no end lies so many ranges ahead.
 constexpr double kFarRanges = 2;
 
-/// s, by as many lengths of a closed road as bring it nearest to `near`.
-double unwrapped(const world::Road& road, double s, double near) {
-  return road.closed() ? near + std::remainder(s - near, road.length()) : s;
-}
-
 /// How far a plan that comes to the goal goes at the least: as far as it must in the shortest
 /// horizon, and over a line.
 double least_way(const Task& task, const Request& request) {
@@ -36,9 +31,9 @@ double least_way(const Task& task, const Request& request) {
 double goal_ahead(const Task& task, double s) {
   const world::Goal& goal = task.goal;
   const world::Road& road = *task.road;
-  if (goal.kind() == GoalKind::line) return unwrapped(road, goal.s, s) - s;
+  if (goal.kind() == GoalKind::line) return road.unwrapped(goal.s, s) - s;
   if (goal.is_place()) {
-    const double ahead = unwrapped(road, road.project({goal.x, goal.y}).s, s) - s;
+    const double ahead = road.unwrapped(road.project({goal.x, goal.y}).s, s) - s;
     // What lies behind on a closed road lies ahead of the rest of it, but where one is there.
     const double there =
         goal.kind() == GoalKind::square ? goal.sigma : std::hypot(goal.length, goal.width) / 2;
@@ -72,7 +67,7 @@ std::vector<double> follow(const world::Road& road, double s, const std::vector<
   std::vector<double> along;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double hint = k == 0 ? s : s + (places[k] - places[k - 1]).norm();
-    s = unwrapped(road, road.project(places[k], hint).s, hint);
+    s = road.unwrapped(road.project(places[k], hint).s, hint);
     along.push_back(s);
   }
   return along;

@@ -79,10 +79,8 @@ Request VerifiedPlanner::possible(Request request) const {
 Plan VerifiedPlanner::plan(const Request& as_told) {
   const Request request = possible(as_told);
   if (request.last_was_late) last_ = before_;
-  if (task_.road && task_.road->closed()) {
-    const double s = task_.road->project({request.X0p[X], request.X0p[Y]}).s;
-    along_ += std::remainder(s - along_, task_.road->length());
-  }
+  if (counts_laps())
+    along_ = task_.road->unwrapped(task_.road->project({request.X0p[X], request.X0p[Y]}).s, along_);
   Cycle cycle{
       .request = request, .obstacles = known(request), .verification = task_.planner.verification};
   if (task_.planner.fallback) {
@@ -133,19 +131,22 @@ Need VerifiedPlanner::need(const Cycle& cycle) const {
   return need;
 }
 
-/// What a motion leaves of the way to the goal at t [m]. By a goal's time on a closed road it
-/// counts the laps since the drive began, so that what has crossed the seam is farther and not a
-/// lap back.
+/// By a goal's time what has crossed the seam is farther and not a lap back.
+bool VerifiedPlanner::counts_laps() const {
+  return task_.goal.kind() == world::GoalKind::time && task_.road->closed();
+}
+
+/// What a motion leaves of the way to the goal at t [m]; where laps count, with those since the
+/// drive began.
 double VerifiedPlanner::left_after(const Motion& motion, double t) const {
   const world::Road* road = task_.road.get();
   const State end = t < motion.end() ? motion.state_at(t) : motion.states.back();
-  if (task_.goal.kind() != world::GoalKind::time || !road->closed()) return way_left(task_, end);
+  if (!counts_laps()) return way_left(task_, end);
   std::vector<world::Point> places;
   for (std::size_t k = 0; k < motion.size() && motion.t[k] < t; k += kFollowed)
     places.push_back({motion.states[k][X], motion.states[k][Y]});
   places.push_back({end[X], end[Y]});
-  const double s = road->project(places[0]).s;
-  const double begin = along_ + std::remainder(s - along_, road->length());
+  const double begin = road->unwrapped(road->project(places[0]).s, along_);
   return road->length() - planner::follow(*road, begin, places).back();
 }
 

@@ -147,6 +147,7 @@ class VerifiedPlanner final : public PlanningMethod {
   void follow(Cycle& cycle, const Proposal& proposal);
   bool stop_late(Cycle& cycle, const Proposal& proposal);
   bool stop_along(Cycle& cycle, const Stop& stop, double deceleration, const Course& course);
+  bool counts_laps() const;
   double left_after(const Motion& motion, double t) const;
   double cost_of(const Motion& motion, const Verdict& verdict) const;
   const Option* chosen(Cycle& cycle, Rung& rung);

@@ -69,6 +69,13 @@ Goal placed(Goal goal, const Road* road) {
   return goal;
 }
 
+double by_the_lap(const Goal& goal, const Road& road, double ahead) {
+  if (!road.closed()) return ahead;
+  const double lap = road.length();
+  const double behind = goal.kind() == GoalKind::line ? lap / 2 : goal.half_length();
+  return ahead - lap * std::floor((ahead + behind) / lap);
+}
+
 void check(const Goal& goal, const Road* road, const std::string& where) {
   const Goal absent;
   std::set<std::string> given;

@@ -143,7 +143,7 @@ void PlaceSearch::place_start(const Place& start) {
     return;
   }
   const double s = road_->along(goal_.x + x, goal_.y + y);
-  goal_s_ = s + of_lap(to_go_ - s);
+  goal_s_ = s + by_the_lap(goal_, road_->road(), to_go_ - s);
   edge_ = disc_radius_ + p_.edge;
   const auto heading = static_cast<double>(start.heading);
   for (const double ahead : ahead_)
@@ -156,26 +156,13 @@ bool PlaceSearch::on_road(double x, double y) const {
   return road_ == nullptr || road_->edge_distance(goal_.x + x, goal_.y + y) >= edge_;
 }
 
-/// So far [m] to the goal, on a closed road by the lap that it is: the half of one that follows a
-/// line is beyond it, and a place that lies behind is a lap ahead.
-double PlaceSearch::of_lap(double left) const {
-  const double lap = road_->lap();
-  if (lap == 0) return left;
-  double behind = 0;
-  if (goal_.kind() == GoalKind::line) behind = lap / 2;
-  if (goal_.kind() == GoalKind::square) behind = goal_.sigma;
-  if (goal_.kind() == GoalKind::rectangle) behind = goal_.length / 2;
-  return left - lap * std::floor((left + behind) / lap);
-}
-
 /// Place::s, by that of where the place was come to from.
 double PlaceSearch::along(const Place& place) const {
   const double s =
       road_->along(goal_.x + static_cast<double>(place.x), goal_.y + static_cast<double>(place.y));
-  const double lap = road_->lap();
-  if (lap == 0 || place.parent < 0) return s;
+  if (place.parent < 0) return s;
   const auto before = static_cast<double>(places_[static_cast<std::size_t>(place.parent)].s);
-  return before + std::remainder(s - before, lap);
+  return road_->road().unwrapped(s, before);
 }
 
 /// To the goal, along the road or around what stands [m]; of a time along the road what is beyond
@@ -187,7 +174,7 @@ double PlaceSearch::way_left(const Place& place) const {
   }
   const double left = goal_s_ - static_cast<double>(place.s);
   if (goal_.kind() == GoalKind::time) return left;
-  return std::max(0., goal_.is_place() ? of_lap(left) : left);
+  return std::max(0., goal_.is_place() ? by_the_lap(goal_, road_->road(), left) : left);
 }
 
 void PlaceSearch::add(Place place) {

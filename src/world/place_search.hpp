@@ -77,7 +77,6 @@ class PlaceSearch {
   bool on_road(double x, double y) const;
   double way_left(const Place& place) const;
   double along(const Place& place) const;
-  double of_lap(double left) const;
   void place_start(const Place& start);
 
   const Goal goal_;

@@ -21,8 +21,7 @@ class RoadField {
   double edge_distance(double x, double y) const;
   /// Along the road [m], by the nearest point of the grid; of a place on the road.
   double along(double x, double y) const;
-  /// The length after which the same places come again [m]; 0 where the road is open.
-  double lap() const { return road_->closed() ? road_->length() : 0; }
+  const Road& road() const { return *road_; }
 
   static constexpr double kCell = 0.5;  ///< [m]
 

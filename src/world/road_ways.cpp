@@ -81,12 +81,9 @@ class RoadWays::Impl {
     const Goal& goal = environment_.goal;
     const bool line = goal.kind() == GoalKind::line;
     if (aim == PathSpeeds::Aim::stand || (!line && !goal.is_place())) return {0, kNowhere};
-    const double half = goal_half();
-    double ahead = (line ? goal.s : road.project({goal.x, goal.y}).s) - on.s;
-    // A place that lies behind is a lap ahead; the half of a lap that follows a line is beyond it.
-    if (road.closed())
-      ahead -=
-          road.length() * std::floor((ahead + (line ? road.length() / 2 : half)) / road.length());
+    const double half = goal.half_length();
+    const double ahead =
+        by_the_lap(goal, road, (line ? goal.s : road.project({goal.x, goal.y}).s) - on.s);
     return {std::max(ahead - half, 0.), line ? kNowhere : ahead + half};
   }
 
@@ -95,16 +92,10 @@ class RoadWays::Impl {
     const Goal& goal = environment_.goal;
     const double stop = v * v / -vehicle_.ax_min_at(v) + v + kBeyond;
     if (aim == PathSpeeds::Aim::stand) return std::min(kLongest, 2 * stop);
-    if (goal.kind() != GoalKind::time) return to_go + 2 * goal_half() + stop + kBeyond;
+    if (goal.kind() != GoalKind::time) return to_go + 2 * goal.half_length() + stop + kBeyond;
     const double t = std::max(0., goal.time - t_start) + 2;
     const double fastest = std::max(v, vehicle_.ux_max) * t;
     return std::min(fastest, v * t + vehicle_.ax_max_at(v) * t * t / 2) + kBeyond;
-  }
-
-  double goal_half() const {
-    const Goal& goal = environment_.goal;
-    if (!goal.is_place()) return 0;
-    return goal.kind() == GoalKind::square ? goal.sigma : goal.length / 2;
   }
 
   /// What stands on the road ahead, to be passed where there is more room; of a closed road as
@@ -159,7 +150,7 @@ class RoadWays::Impl {
     const double first = road.project(points[0]).s;
     for (const Point& point : points) {
       const auto [s, n] = road.project(point);
-      const double near = road.closed() ? first + std::remainder(s - first, road.length()) : s;
+      const double near = road.unwrapped(s, first);
       least = {std::min(least.s, near - kSlant * around), std::min(least.n, n - around)};
       most = {std::max(most.s, near + kSlant * around), std::max(most.n, n + around)};
     }

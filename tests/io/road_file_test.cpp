@@ -60,15 +60,20 @@ TEST(RoadFile, RefusesWhatSaysNothingOfAGoalOfTheRoad) {
     EXPECT_NE(message("{s: 90, " + std::string(key) + "}").find(" beside s"), std::string::npos);
 }
 
-TEST(RoadFile, RefusesMoreThanAResolvedFileCanHold) {
+/// On a straight road to x = `last` [m], with a row of its table each metre.
+sim::Scenario on_a_long_road(int last) {
   test::TemporaryFolder folder;
   std::string rows = "# x_m,y_m,w_tr_right_m,w_tr_left_m\n";
-  for (int k = -20; k < 75000; ++k) rows += std::to_string(k) + ",0,4,4\n";
+  for (int k = -20; k < last; ++k) rows += std::to_string(k) + ",0,4,4\n";
   test::write(folder / "track.csv", rows);
   test::write(folder / "my.yaml",
               "start: {x: 0, y: 0, psi: 0}\ngoal: {s: 90}\nroad: {file: track.csv}\n");
+  return load_scenario({folder / "my.yaml", {}, {}, {}});
+}
+
+TEST(RoadFile, RefusesMoreThanAResolvedFileCanHold) {
   try {
-    load_scenario({folder / "my.yaml", {}, {}, {}});
+    on_a_long_road(75000);
     ADD_FAILURE() << "not refused";
   } catch (const InvalidValue& error) {
     EXPECT_NE(std::string(error.what()).find("tables of 375100 numbers"), std::string::npos)
@@ -77,13 +82,7 @@ TEST(RoadFile, RefusesMoreThanAResolvedFileCanHold) {
 }
 
 TEST(RoadFile, AResolvedFileOfALongRoadIsReadAgain) {
-  test::TemporaryFolder folder;
-  std::string rows = "# x_m,y_m,w_tr_right_m,w_tr_left_m\n";
-  for (int k = -20; k < 30000; ++k) rows += std::to_string(k) + ",0,4,4\n";
-  test::write(folder / "track.csv", rows);
-  test::write(folder / "my.yaml",
-              "start: {x: 0, y: 0, psi: 0}\ngoal: {s: 90}\nroad: {file: track.csv}\n");
-  const auto scenario = load_scenario({folder / "my.yaml", {}, {}, {}});
+  const auto scenario = on_a_long_road(30000);
   EXPECT_EQ(parse_scenario(to_yaml(scenario), "resolved.yaml").road->length(),
             scenario.road->length());
 }

@@ -179,14 +179,8 @@ TEST_F(Ring, ByATimeItComesAsFarAcrossTheSeamAsElsewhere) {
 }
 
 TEST_F(Street, ARoadKeepsItWhereItBeginsBeforeIt) {
-  std::vector<RoadPoint> line;
-  for (double x = 0; x < 60; x += 10) line.push_back({x, 0, 3, 3});
-  for (double angle = -1.5; angle < 1.6; angle += 0.3)
-    line.push_back({60 + 20 * std::cos(angle), 20 + 20 * std::sin(angle), 3, 3});
-  for (double x = 50; x >= 0; x -= 10) line.push_back({x, 40, 3, 3});
   environment = {};
-  environment.road =
-      std::make_shared<Road>(line, false, std::vector<std::vector<Point>>{}, "hairpin");
+  environment.road = test::hairpin();
   environment.goal.s = environment.road->length();
   environment.goal = placed(environment.goal, environment.road.get());
   for (const double x : {-15., -50.}) {

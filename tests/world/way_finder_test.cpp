@@ -12,6 +12,7 @@
 #include "slalom/world/footprint.hpp"
 #include "slalom/world/way_signature.hpp"
 #include "support/allocation_count.hpp"
+#include "world/ring.hpp"
 
 namespace slalom::world {
 namespace {
@@ -347,14 +348,8 @@ TEST(WayFinder, TheSearchFollowsFromTheVehicle) {
 }
 
 TEST(WayFinder, KeepsTheBodyOnTheRoadThroughABendThatGoesBack) {
-  std::vector<RoadPoint> line;
-  for (double x = 0; x < 60; x += 10) line.push_back({x, 0, 3, 3});
-  for (double angle = -1.5; angle < 1.6; angle += 0.3)
-    line.push_back({60 + 20 * std::cos(angle), 20 + 20 * std::sin(angle), 3, 3});
-  for (double x = 50; x >= 0; x -= 10) line.push_back({x, 40, 3, 3});
   Environment environment;
-  environment.road =
-      std::make_shared<Road>(line, false, std::vector<std::vector<Point>>{}, "hairpin");
+  environment.road = test::hairpin();
   environment.goal.s = environment.road->length() - 10;
   environment.goal = placed(environment.goal, environment.road.get());
   vehicle::Parameters car;

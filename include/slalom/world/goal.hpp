@@ -42,6 +42,12 @@ struct Goal {
   /// Whether it is a place of its own; others are of the road.
   bool is_place() const { return kind() == GoalKind::square || kind() == GoalKind::rectangle; }
 
+  /// Of a place along it, from its middle [m]; 0 of what is none.
+  double half_length() const {
+    if (!is_place()) return 0;
+    return kind() == GoalKind::square ? sigma : length / 2;
+  }
+
   /// How far a vehicle in this state at t [s] is from having reached it; at most 0 where it has. Of
   /// a place in metres, in the norm whose ball the place is; of a line in metres along the road; of
   /// a time, and of what else is asked, in the unit of what is missing most. Goals of the road need
@@ -55,6 +61,10 @@ struct Goal {
 /// The goal with x, y and psi where it lies: those of the line across the road, and for a time or
 /// laps of the road's end. A place stays what it is.
 Goal placed(Goal goal, const Road* road);
+
+/// `ahead` [m] along the road to the goal, on a closed road by the lap that it is: the half of one
+/// that follows a line is beyond it, and a place that lies behind is a lap ahead.
+double by_the_lap(const Goal& goal, const Road& road, double ahead);
 
 /// Throws InvalidValue, naming `where`, for a value that is there and outside its range, for a line
 /// off the road, a time without a road, laps that are no whole number or of no closed road, and

@@ -60,6 +60,10 @@ class Road {
   OnRoad project(Point p) const;
   OnRoad project(Point p, double hint) const;
   static constexpr double kWindow = 30;  ///< [m]
+  /// s, on a closed road by as many laps more or less as bring it nearest to `near` [m].
+  double unwrapped(double s, double near) const {
+    return closed_ ? near + std::remainder(s - near, length_) : s;
+  }
 
   /// How far a place is from the nearer edge [m], negative off the road. Exact where widths are
   /// constant; where they change, up to 1 - 1 / hypot(1, steepest) of it too little, never too

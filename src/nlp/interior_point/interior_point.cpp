@@ -110,7 +110,7 @@ class Run final : public Restoration::Watch {
     if (floor > 0)
       return descent_.barrier().at_least() && s.dual <= options_->dual_tol &&
              s.primal <= options_->constraint_tol && s.off_centre(floor) <= options_->floor_tol &&
-             meets_users_units();
+             meets_rows() && descent_.dual_in_users_units() <= options_->dual_tol;
     const double unit = form_.objective_scale();  // the checker's terms
     return s.error(0) <= options_->tol && s.dual <= options_->dual_tol * unit &&
            s.complementarity(0) <= options_->dual_tol * unit &&
@@ -119,12 +119,6 @@ class Run final : public Restoration::Watch {
                    kMostGap * std::max(unit, std::fabs(descent_.point().functions().objective)),
                    2 * kLeastGap * s.bounds) &&
            meets_rows();
-  }
-
-  /// At a floor, what the checker asks of a problem whose units the NLP has scaled.
-  bool meets_users_units() {
-    return !form_.in_other_units() ||
-           (meets_rows() && descent_.dual_in_users_units() <= options_->dual_tol);
   }
 
   /// To the tolerance, or as well as the rounding of the rows' own terms lets them be met.

@@ -68,10 +68,6 @@ void SlackForm::refresh(Problem& problem) {
   ++revision_.functions;
   problem_ = &problem;
   shape_ = &problem.structure();
-  const auto scaled = [](double scale) { return scale != 1; };
-  in_other_units_ =
-      std::any_of(shape_->row_scale.begin(), shape_->row_scale.end(), scaled) ||
-      std::any_of(shape_->variable_scale.begin(), shape_->variable_scale.end(), scaled);
   const Limits& limits = problem.limits();
   const std::size_t n = variables();
   std::copy(limits.xl.begin(), limits.xl.end(), lower_.begin());

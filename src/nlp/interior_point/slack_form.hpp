@@ -97,8 +97,6 @@ class SlackForm {
   /// Whether every row is met to `tolerance` in the user's unit, or to the rounding of the row's
   /// own terms at w, below which no tolerance can be asked for.
   bool met_to_rounding(const Evaluation& e, std::span<const double> w, double tolerance);
-  /// Whether the problem's rows or variables have scales: then the user's units are others.
-  bool in_other_units() const { return in_other_units_; }
   /// How many sides of variables and slacks have a bound.
   double bounds() const;
 
@@ -127,7 +125,7 @@ class SlackForm {
   std::vector<double> row_scale_, users_unit_;  ///< by row; users_unit_: user's value / e.rows
   std::vector<double> entry_scale_;             ///< by entry of the Jacobian: that of its row
   std::vector<double> scaled_y_, row_size_;
-  bool scaled_ = false, in_other_units_ = false;
+  bool scaled_ = false;
   Fault fault_;
   Revision revision_;
 };
