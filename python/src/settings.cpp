@@ -73,7 +73,8 @@ void check_at_most(std::int64_t value, std::int64_t most, const std::string& whe
 
 namespace {
 
-/// What is set up cannot be interrupted, so that its size is bounded.
+/// A mistyped size shall not take all memory. Nothing interrupts the making of the schemes'
+/// matrices, which comes before the set-up.
 constexpr int kMostIntervals = 200'000, kMostPoints = 100;
 constexpr double kMostEntries = 4e6;  ///< of all intervals' differentiation matrices together
 
