@@ -46,8 +46,7 @@ int compare(const CompareOptions& options) {
 
 void add_compare(CLI::App& app, Command& run) {
   auto options = std::make_shared<CompareOptions>();
-  auto* command =
-      app.add_subcommand("compare", "Make one page on which two drives play side by side");
+  auto* command = app.add_subcommand("compare", "Make one page that plays two drives together");
   const char* folder = "Folder of results of 'slalom simulate'";
   command->add_option("A", options->first, folder)->required()->type_name("DIR");
   command->add_option("B", options->second, folder)->required()->type_name("DIR");

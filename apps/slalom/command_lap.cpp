@@ -101,15 +101,19 @@ void add_lap(CLI::App& app, Command& run) {
   auto* command = app.add_subcommand("lap", "Find the fastest flying lap of a scenario's road");
   add_scenario(*command, options->common);
   add_overrides(*command, options->common, true);
-  command->add_option("--interval", options->interval, "Of the first mesh along the road [m]")
+  command
+      ->add_option("--interval", options->interval,
+                   "Length of the first mesh's intervals along the road [m]")
       ->check(no_nan())
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--margin", options->margin, "Kept from the road's edges [m]")
+  command->add_option("--margin", options->margin, "Margin to the road's edges [m]")
       ->check(no_nan())
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--meshes", options->max_meshes, "Solved one after another, at the most")
+  command
+      ->add_option("--meshes", options->max_meshes,
+                   "Greatest number of meshes, solved one after another")
       ->check(CLI::Range(1, 15))
       ->capture_default_str();
   add_output(*command, options->common);
@@ -118,7 +122,7 @@ void add_lap(CLI::App& app, Command& run) {
   command->footer(
       std::string("The vehicle's own model along the road, offline, without obstacles. Columns of\n"
                   "lap.csv in the folder that --out names are SI units and radians.\n"
-                  "Example: slalom lap oval --vehicle bmw_320i --out laps/bmw\n\n") +
+                  "Example: slalom lap circuit --vehicle bmw_320i --out laps/bmw\n\n") +
       kExitCodeHelp);
   command->callback([options, &run] { run = [options] { return lap(*options); }; });
 }

@@ -153,13 +153,16 @@ void add_problems(CLI::App& app, Command& run) {
   auto* name = command->add_option("NAME", options->name, "Problem to solve; none lists them");
   command->add_flag("--all", options->all, "Solve all, by two schemes")->excludes(name);
   command->add_option("--scheme", options->settings.scheme, "Collocation scheme");
-  command->add_option("--points", options->settings.points, "Points an interval (lgr, lgl)")
+  command
+      ->add_option("--points", options->settings.points,
+                   "Points in each interval (lgr, lgr_differential, lgr_flipped, lgl)")
       ->check(CLI::Range(1, 100));
   command->add_option("--intervals", options->settings.intervals, "Intervals of the first mesh")
       ->check(CLI::Range(1, 100000));
   command
-      ->add_option("--tolerance", options->settings.tolerance,
-                   "Of the refinement [1]; by default the problem's own, 1e-6")
+      ->add_option(
+          "--tolerance", options->settings.tolerance,
+          "Relative tolerance of the refinement; by default the problem's own, mostly 1e-6")
       ->check(no_nan())
       ->check(CLI::Range(1e-14, 0.1));
   command->add_flag("--fixed-mesh", options->fixed_mesh, "Solve on the first mesh alone");

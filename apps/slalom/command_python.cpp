@@ -77,22 +77,26 @@ void add_import(CLI::App& app, Command& run) {
                    "commonroad (XML of version 2018b or 2020a) or track (CSV of a race track)")
       ->required();
   command->add_option("FILE", "The file to read")->required();
-  command->add_option("--out", "The scenario file; by default named as FILE, here")
+  command
+      ->add_option("--out",
+                   "The scenario file; by default in the current folder, with the name of FILE")
       ->type_name("FILE");
   command->add_option("--vehicle", "Built-in vehicle or a file; by default bmw_320i")
       ->type_name("NAME");
   command
-      ->add_option("--oncoming",
-                   "Of commonroad: whether lanes of the other way beside the way are road: never, "
-                   "always, or needed, where something stands in the way (the default)")
+      ->add_option(
+          "--oncoming",
+          "Of commonroad: whether adjacent lanes of oncoming traffic are part of the road: "
+          "never, always, or needed (the default), only where something stands in the way")
       ->type_name("WHEN");
   command->add_option("--speed", "Of track: speed at the start [m/s]; by default 15")
       ->type_name("U");
-  command->add_option("--time", "Of track: as far as possible in so long [s]; by default 60")
+  command
+      ->add_option("--time", "Of track: drive as far as possible in this time [s]; by default 60")
       ->type_name("S");
-  command->add_option("--laps", "Of track: so many laps instead")->type_name("N");
+  command->add_option("--laps", "Of track: number of laps to drive instead")->type_name("N");
   command->footer(
-      std::string("By the Python package, which SLALOM_PYTHON or python3 has.\n"
+      std::string("Done by the Python package of python3, or of $SLALOM_PYTHON if it is set.\n"
                   "Example: slalom import commonroad DEU_Test-1_1_T-1.xml --out test.yaml\n\n") +
       kExitCodeHelp);
 }
@@ -113,9 +117,10 @@ void add_export(CLI::App& app, Command& run) {
   command
       ->add_option("--cost", "Of commonroad: the cost function it is entered for; by default JB1")
       ->type_name("NAME");
-  command->footer(std::string("By the Python package, which SLALOM_PYTHON or python3 has.\n"
-                              "Example: slalom export mcap drives/E_C\n\n") +
-                  kExitCodeHelp);
+  command->footer(
+      std::string("Done by the Python package of python3, or of $SLALOM_PYTHON if it is set.\n"
+                  "Example: slalom export mcap drives/E_C\n\n") +
+      kExitCodeHelp);
 }
 
 }  // namespace slalom::app

@@ -159,15 +159,16 @@ void add_reproduce(CLI::App& app, Command& run) {
                    "'paper': exit with 1 unless every drive ends as the paper's")
       ->type_name("paper");
   command
-      ->add_option("--sweep", options->sweeps,
-                   "Judge the paper's claims about its sweep by this sweep of E_C, too; several of "
-                   "them: by each")
+      ->add_option(
+          "--sweep", options->sweeps,
+          "Also judge the paper's claims about its sweep by this sweep of E_C; may be given "
+          "several times")
       ->type_name("DIR");
   command->add_flag("--besides", options->besides,
-                    "Drive also what only claims look at; it is not written");
+                    "Also run the drives that are used only to judge claims; they are not written");
   command
       ->add_option("--repeats", options->repeats,
-                   "Drive each so often, and judge solve times by each cycle's median")
+                   "Run each drive N times, and judge solve times by each cycle's median")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   command->footer(std::string("Leaves DIR/SCENARIO/PLANNER/ and DIR/cases/LETTER/ for each drive,\n"

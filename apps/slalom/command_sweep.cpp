@@ -146,7 +146,8 @@ void add_sweep(CLI::App& app, Command& run) {
       ->check([](const std::string& text) {
         return text.empty() ? std::string("found '', expected a folder") : std::string();
       });
-  command->add_option("--jobs", options->jobs, "Worker processes; one a processor by default")
+  command
+      ->add_option("--jobs", options->jobs, "Worker processes; by default one for each processor")
       ->check(CLI::Range(1, 1024));
   command->add_option("--limit", options->limit, "Run at most so many trials now")
       ->check(CLI::NonNegativeNumber)
@@ -173,8 +174,8 @@ void add_sweep(CLI::App& app, Command& run) {
   command->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
   command->footer(
       std::string("Trials that DIR holds already are not run again. A trial whose process dies or\n"
-                  "hangs is tried again and at last recorded as failed; one whose process others\n"
-                  "kill is left to the next run.\n"
+                  "hangs is tried again and at last recorded as failed; a trial whose process\n"
+                  "something else kills is left to the next run.\n"
                   "Example: slalom sweep paper --out sweeps/paper\n\n") +
       kExitCodeHelp);
   command->callback([options, &run] { run = [options] { return sweep(*options); }; });

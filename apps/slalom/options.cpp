@@ -33,7 +33,7 @@ void add_overrides(CLI::App& command, CommonOptions& options, bool with_files) {
   command
       .add_option("--set", options.request.overrides,
                   "Set any key, e.g. --set planner.w_t=50 --set obstacles.O2.vy=-20; may be given "
-                  "again and again")
+                  "several times")
       ->allow_extra_args(false)
       ->type_name("KEY.PATH=VALUE");
 }

@@ -24,7 +24,10 @@ def parser(program: str) -> argparse.ArgumentParser:
     )
     made.add_argument("file", type=pathlib.Path)
     made.add_argument(
-        "--out", type=pathlib.Path, metavar="FILE", help="the scenario file; by default named as FILE, here"
+        "--out",
+        type=pathlib.Path,
+        metavar="FILE",
+        help="the scenario file; by default in the current folder, with the name of FILE",
     )
     made.add_argument("--force", action="store_true", help="replace a file that stands there already")
     made.add_argument("--quiet", action="store_true", help="print nothing but errors")
@@ -36,14 +39,14 @@ def parser(program: str) -> argparse.ArgumentParser:
         "--oncoming",
         choices=("never", "needed", "always"),
         default="needed",
-        help="of commonroad: whether lanes of the other way beside the way are road; needed: where something "
-        "stands in the way",
+        help="of commonroad: whether adjacent lanes of oncoming traffic are part of the road; needed: only where "
+        "something stands in the way",
     )
     made.add_argument("--speed", type=float, default=15.0, metavar="U", help="of track: speed at the start [m/s]")
     made.add_argument(
-        "--time", type=float, default=60.0, metavar="S", help="of track: as far as possible in so long [s]"
+        "--time", type=float, default=60.0, metavar="S", help="of track: drive as far as possible in this time [s]"
     )
-    made.add_argument("--laps", type=int, metavar="N", help="of track: so many laps instead")
+    made.add_argument("--laps", type=int, metavar="N", help="of track: number of laps to drive instead")
     return made
 
 
