@@ -1,7 +1,7 @@
 # The module structure: one static library a folder of src/, all of them gathered into the one
 # library that is installed.
 
-# -Wrestrict of g++ 12 warns of std::string's own code (GCC bug 105651).
+# -Wrestrict of g++ 12 warns falsely of std::string's own code.
 set(SLALOM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   list(APPEND SLALOM_WARNINGS -Wno-restrict)
