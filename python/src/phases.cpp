@@ -169,7 +169,7 @@ void bind_problem_of_phases(nb::module_& module) {
   static const std::string connect_doc =
       std::string(doc::ocp_PhasedProblem_connect) +
       "\n\n`without` has names of states (or \"time\") that are left alone; `jumps` by state how "
-      "much higher it\nis at the begin of the later phase, such as {\"m\": -1000} of a mass that "
+      "much higher it\nis at the start of the later phase, such as {\"m\": -1000} of a mass that "
       "is dropped.";
   nb::class_<Phases>(module, "PhasedProblem", doc::ocp_PhasedProblem)
       .def(nb::init<std::string>(), "name"_a)

@@ -14,7 +14,7 @@ inline void forget_stop(nlp::Options& options) {
   options.stop_data = nullptr;
 }
 
-/// What ends a solve from outside: Ctrl-C, or the clock, which counts from the call's begin on.
+/// What ends a solve from outside: Ctrl-C, or the clock, which counts from the call's start on.
 class Ending {
  public:
   explicit Ending(nlp::Options& options) : limit_(options.time_limit) {

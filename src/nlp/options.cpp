@@ -49,7 +49,7 @@ OptionTable<Options> make_table() {
                "Detail of the back end's log on standard output; 0: none.")
       .text("nl_solver", &O::nl_solver,
             "Of back end nl: the solver's executable, a path or a name looked for in PATH. Ipopt, "
-            "KNITRO and ripopt, known by the begin of the name, are told the options above in "
+            "KNITRO and ripopt, known by how the name begins, are told the options above in "
             "their own words; others take nl_options alone.")
       .text("nl_options", &O::nl_options,
             "Of back end nl: words for the solver's command line, such as `max_iter=100 "

@@ -131,7 +131,7 @@ const OptionTable<MpcSettings>& mpc_options() {
                    "Cycles that are planned at most.", "NLOptControl")
           .choice("planning", &S::planning, {"predicted", "measured", "instant"},
                   "From where a cycle plans: the state predicted for its end, where the plan takes "
-                  "effect; the state at its begin, for a plan that takes effect at its end; or "
+                  "effect; the state at its start, for a plan that takes effect at its end; or "
                   "that, at once.")
           .choice("horizon", &S::horizon, {"moving", "shrinking"},
                   "The bounds of tf move along, or stand still.")

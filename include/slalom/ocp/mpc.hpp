@@ -83,7 +83,7 @@ struct MpcSettings {
   double tolerance = 1e-9;  ///< of the integrator, as SimulateSettings::tolerance
   int samples = 10;         ///< of the plant's record in each cycle
   bool keep_cycles = true;  ///< all cycles are kept; otherwise only the last
-  std::vector<StateGoal> goal = {};  ///< all must hold at once, at a cycle's begin; none: no goal
+  std::vector<StateGoal> goal = {};  ///< all must hold at once, at a cycle's start; none: no goal
   std::vector<double> first_controls = {};  ///< until the first plan takes effect; empty: 0
   /// For each state, how far the plan's initial state may be from x0; 0 for states left out.
   std::map<std::string, double> start_tolerance = {};

@@ -10,7 +10,7 @@ class Latency {
   /// Throws InvalidValue naming `loop.solve_times` when the rule is `recorded` and there are none.
   explicit Latency(const LoopSettings& settings);
 
-  /// Time [s] from the begin of cycle `index` >= 1 until its plan is there; `measured` [s] is what
+  /// Time [s] from the start of cycle `index` >= 1 until its plan is there; `measured` [s] is what
   /// planning took by the wall clock. Zero by the rules `instant` and `paper`, by which no plan is
   /// late. By `recorded` and `model` it depends on `index` alone.
   double charge(int index, double measured) const;
