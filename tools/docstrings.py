@@ -1,21 +1,39 @@
 #!/usr/bin/env python3
 """Takes the `///` comments of public headers and writes them as C++ constants.
 
-The comment of slalom::ocp::Problem::state becomes `doc::ocp_Problem_state`; overloads of one name
-join theirs. What has no comment gets no constant, so that a binding that asks for it does not
-compile.
+The comment of slalom::ocp::Problem::state becomes `doc::ocp_Problem_state`, in the words of Python;
+overloads of one name join theirs. What has no comment gets no constant, so that a binding that asks
+for it does not compile.
 
 usage: docstrings.py --out FILE FOLDER
 """
 
 import argparse
 import pathlib
+import re
 
 import headers
+
+# What Python says in other words, replaced in this order.
+IN_PYTHON = (
+    (r"\bThrows\b", "Raises"), (r"\bthrows\b", "raises"), (r"\bThrown\b", "Raised"), (r"\bthrown\b", "raised"),
+    (r"\s\(nlp::[^)]*\)", ""),  # the library below has no Python
+    (r"\bBounds::equal\b", "`equal`"), (r"\bOptions::(\w+)", r"option \1"), (r"\bSettings::(\w+)", r"planner.\1"),
+    (r"`gaps`", "`without` and `jumps`"), (r"`(from|to)`", r"`\1_phase`"),  # arguments
+    (r"\b(solved|plan_end)\(\)", r"\1"), (r"\binitial_time\(\)", "t0"), (r"\bfinal_time\(\)", "tf"),  # properties
+    (r"\b(?:base|expr|io|kkt|nlp|ocp|planner|problems|report|sim|sweep|vehicle|world)::", ""),
+    (r"\b::\b", "."),
+)  # fmt: skip
 
 
 def identifier(name):
     return "_".join("::".join(name).split("::")).removeprefix("slalom_")
+
+
+def in_python(text):
+    for pattern, words in IN_PYTHON:
+        text = re.sub(pattern, words, text)
+    return text
 
 
 def collect(folder):
@@ -27,7 +45,7 @@ def collect(folder):
                 texts = docs.setdefault(identifier((*entry.scope, name)), [])
                 if text not in texts:
                     texts.append(text)
-    return {name: "\n".join(texts) for name, texts in docs.items()}
+    return {name: in_python("\n".join(texts)) for name, texts in docs.items()}
 
 
 def main():

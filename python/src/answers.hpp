@@ -37,7 +37,8 @@ void bind_verdict(nb::class_<Type>& type) {
           "objective", [](const Type& s) { return s.answer.objective; },
           "The sum of the cost terms.")
       .def_prop_ro(
-          "iterations", [](const Type& s) { return s.answer.iterations; }, "Of the solver.")
+          "iterations", [](const Type& s) { return s.answer.iterations; },
+          "The solver's iterations.")
       .def_prop_ro(
           "backend", [](const Type& s) { return s.answer.backend; }, doc::ocp_Solution_backend)
       .def_prop_ro(

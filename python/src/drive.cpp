@@ -104,7 +104,7 @@ void bind_outcome(nb::class_<Driven>& type) {
             for (const auto& cycle : d.drive.cycles) plans.push_back(cycle.plan);
             return plans;
           },
-          "Their plans.")
+          "The plans of `cycles`.")
       .def("__repr__", [](const Driven& d) { return "<Drive: " + d.drive.message + ">"; });
 }
 

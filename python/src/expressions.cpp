@@ -195,7 +195,7 @@ void bind_expressions(nb::module_& module) {
       .def_static("symbol", &Expr::symbol, "name"_a, doc::expr_Expr_symbol)
       .def("__repr__", &text)
       .def("evaluate", &evaluate, "values"_a,
-           "The number it comes to, given pairs (symbol, number). Throws Error for a symbol left "
+           "The number it comes to, given pairs (symbol, number). Raises Error for a symbol left "
            "out.")
       .def(nb::self + nb::self)
       .def(nb::self - nb::self)

@@ -191,20 +191,21 @@ void bind_solutions(nb::module_& module) {
           [](const ManySolved& many) {
             return rows(many, [](const Solution& answer) { return answer.time(); });
           },
-          nb::rv_policy::move, "Of each point, [solve, point].")
+          nb::rv_policy::move, "The time of each point, [solve, point].")
       .def_prop_ro(
           "states",
           [](const ManySolved& many) {
             return variables(many, many.problem->states(), &Solution::state);
           },
-          "By name, [solve, point].")
+          "Values by name, [solve, point].")
       .def_prop_ro(
           "controls",
           [](const ManySolved& many) {
             return variables(many, many.problem->controls(), &Solution::control);
           },
-          "By name, [solve, point].")
-      .def_prop_ro("static_parameters", &static_parameters, "By name, one number a solve.")
+          "Values by name, [solve, point].")
+      .def_prop_ro("static_parameters", &static_parameters,
+                   "Values by name, one number for each solve.")
       .def_ro("elapsed_s", &ManySolved::elapsed_s, "Seconds by the clock that all took together.")
       .def("__repr__", [](const ManySolved& many) {
         std::size_t solved = 0;

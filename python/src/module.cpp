@@ -41,7 +41,7 @@ void bind_errors(nb::module_& module) {
   nb::dict members;
   members["__str__"] = error.attr("__str__");
   static PyObject* unknown =
-      exception(module, "UnknownName", "A name that an answer or a scenario has not.",
+      exception(module, "UnknownName", "A name that an answer or a scenario does not have.",
                 nb::make_tuple(nb::borrow(invalid), nb::borrow(PyExc_KeyError)), members);
   nb::register_exception_translator(
       [](const std::exception_ptr& thrown, void*) {

@@ -224,17 +224,17 @@ void bind_result(nb::module_& module) {
               list.push_back({cycle, problem_of(r.problems, cycle.index)});
             return list;
           },
-          "One record a cycle.")
+          "One record for each cycle.")
       .def_prop_ro(
           "t", [](const Run& r) { return to_numpy(r.result.t); }, nb::rv_policy::move,
           doc::ocp_MpcResult_t)
       .def_prop_ro(
           "states", [](const Run& r) { return columns(r.result.plant_states, r.result.states); },
-          "The plant's, by name, one number a sample.")
+          "The plant's states by name, one number for each sample.")
       .def_prop_ro(
           "controls",
           [](const Run& r) { return columns(r.result.plant_controls, r.result.controls); },
-          "The plant's, by name, one number a sample.")
+          "The plant's controls by name, one number for each sample.")
       .def("__repr__", [](const Run& r) {
         return "<MpcResult: " + std::string(ocp::to_string(r.result.status)) + " after " +
                std::to_string(r.result.cycles.size()) + " cycles>";
@@ -284,7 +284,7 @@ void bind_mpc(nb::module_& module) {
           doc::ocp_MpcStatus)
       .def_prop_ro(
           "message", [](const Loop& l) { return l.mpc().message(); }, doc::ocp_Mpc_message)
-      .def_prop_ro("cycles", &Loop::cycles, "One record a cycle.");
+      .def_prop_ro("cycles", &Loop::cycles, "One record for each cycle.");
 }
 
 }  // namespace slalom::python

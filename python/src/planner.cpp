@@ -110,7 +110,8 @@ void bind_report(nb::class_<Plan>& type) {
           "backend", [](const Plan& p) { return p.report.backend; },
           doc::planner_SolveReport_backend)
       .def_prop_ro(
-          "iterations", [](const Plan& p) { return p.report.iterations; }, "Of the solver.")
+          "iterations", [](const Plan& p) { return p.report.iterations; },
+          "The solver's iterations.")
       .def_prop_ro(
           "cost", [](const Plan& p) { return p.report.cost; }, "The sum of the cost terms.")
       .def_prop_ro(

@@ -122,7 +122,7 @@ nb::class_<Type> bind_refined(nb::module_& module, const char* name, const char*
       .def_ro("solution", &Type::solution, doc::ocp_Refined_solution)
       .def_prop_ro(
           "meshes", [](const Type& r) { return r.answer.meshes; },
-          "One record a mesh that was solved.")
+          "One record for each mesh that was solved.")
       .def(
           "table", [](const Type& r) { return r.answer.table(); },
           "The records as a table of plain text.")

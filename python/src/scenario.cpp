@@ -186,10 +186,11 @@ void bind_class(nb::module_& module) {
       .def_ro("goal", &Scenario::goal)
       .def_ro("region", &Scenario::region)
       .def_prop_ro(
-          "obstacles", [](const Scenario& s) { return s.obstacles; }, "In the file's order.")
+          "obstacles", [](const Scenario& s) { return s.obstacles; },
+          "The obstacles, in the file's order.")
       .def_prop_ro(
           "road", [](const Scenario& s) { return s.road.get(); }, nb::rv_policy::reference_internal,
-          nb::sig("def road(self) -> Road | None"), "To stay on; None without one.")
+          nb::sig("def road(self) -> Road | None"), "The road to stay on; None without one.")
       .def("keys", &keys, "Keys of all values, as `set=` takes them.")
       .def("__getitem__", &value, "key"_a,
            "A value by its key, such as \"planner.w_t\", \"start.ux\" or \"obstacles.lorry.b\".")

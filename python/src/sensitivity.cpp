@@ -67,57 +67,59 @@ ByName<nb::any> multipliers(const Sensitivity& s) {
 
 void bind_rates(nb::class_<Sensitivity>& type) {
   type.def_prop_ro(
-          "t0", [](const Sensitivity& s) { return s.trajectory.t0; }, "Of the initial time.")
-      .def_prop_ro("tf", &Sensitivity::tf, "Of the final time.")
+          "t0", [](const Sensitivity& s) { return s.trajectory.t0; },
+          "The derivative of the initial time.")
+      .def_prop_ro("tf", &Sensitivity::tf, "The derivative of the final time.")
       .def(
           "state",
           [](const Sensitivity& s, const std::string& n) {
             return to_numpy(named([&] { return s.state(n); }));
           },
-          "name"_a, "Of a state, one number a point of the solution's `t`.")
+          "name"_a, "The derivative of a state, one number for each point of the solution's `t`.")
       .def(
           "control",
           [](const Sensitivity& s, const std::string& n) {
             return to_numpy(named([&] { return s.control(n); }));
           },
-          "name"_a, "Of a control, one number a point of the solution's `t`.")
+          "name"_a, "The derivative of a control, one number for each point of the solution's `t`.")
       .def(
           "static_parameter",
           [](const Sensitivity& s, const std::string& n) {
             return named([&] { return s.static_parameter(n); });
           },
-          "name"_a, "Of a static parameter.")
+          "name"_a, "The derivative of a static parameter.")
       .def(
           "slack",
           [](const Sensitivity& s, const std::string& n) {
             return named([&] { return s.slack(n); });
           },
-          "name"_a, "Of a slack.")
+          "name"_a, "The derivative of a slack.")
       .def(
           "integral",
           [](const Sensitivity& s, const std::string& n) {
             return named([&] { return s.integral(n); });
           },
-          "name"_a, "Of an integral.")
+          "name"_a, "The derivative of an integral.")
       .def(
           "multiplier",
           [](const Sensitivity& s, const std::string& n) {
             return multiplier(s, named([&] { return s.multiplier(n); }));
           },
-          "name"_a, "Of what Solution.multiplier gives by that name.")
+          "name"_a, "The derivative of what Solution.multiplier gives by that name.")
       .def_prop_ro(
           "states",
           [](const Sensitivity& s) {
             return columns(s.state_names, [&](const auto& n) { return s.state(n); });
           },
-          "Of all states by name.")
+          "The derivatives of all states, by name.")
       .def_prop_ro(
           "controls",
           [](const Sensitivity& s) {
             return columns(s.control_names, [&](const auto& n) { return s.control(n); });
           },
-          "Of all controls by name.")
-      .def_prop_ro("multipliers", &multipliers, "Of those of all constraints and bounds by name.");
+          "The derivatives of all controls, by name.")
+      .def_prop_ro("multipliers", &multipliers,
+                   "The derivatives of the multipliers of all constraints and bounds, by name.");
 }
 
 void bind_one_phase(nb::module_& module) {
@@ -154,7 +156,7 @@ void bind_several_phases(nb::module_& module) {
       .def_prop_ro(
           "link_multipliers",
           [](const PhasedSensitivity& s) { return by_name<double>(s.link_multipliers); },
-          "Of the solution's link_multipliers.")
+          "The derivatives of the solution's link_multipliers.")
       .def("__repr__",
            [](const PhasedSensitivity& s) { return "<PhasedSensitivity to " + s.number + ">"; });
   nb::borrow<nb::class_<PhasedSolved>>(module.attr("PhasedSolution"))

@@ -129,7 +129,7 @@ void bind_simulation(nb::module_& module) {
               times.push_back(s.answer.trajectory.time(k));
             return to_numpy(times);
           },
-          nb::rv_policy::move, "Times of its points.")
+          nb::rv_policy::move, "The times of the points.")
       .def_prop_ro(
           "states",
           [](const Simulated& s) {

@@ -141,7 +141,7 @@ void bind_outcome(nb::class_<Solved>& type) {
   bind_verdict(type);
   type.def("__repr__", &text)
       .def_prop_ro(
-          "name", [](const Solved& s) { return s.problem->name(); }, "Of its problem.")
+          "name", [](const Solved& s) { return s.problem->name(); }, "The problem's name.")
       .def_prop_ro(
           "cost_terms", [](const Solved& s) { return by_name<double>(s.answer.cost_terms); },
           doc::ocp_Solution_cost_terms);

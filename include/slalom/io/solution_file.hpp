@@ -16,7 +16,7 @@ std::string to_json(const ocp::PhasedSolution& solution);
 /// Numbers have the fewest digits that read back to the same bits.
 std::string to_csv(const ocp::Solution& solution);
 
-/// Writes the JSON above into `file`, whole or not at all. Throws Error.
+/// Writes an answer as JSON into `file`, whole or not at all. Throws Error.
 void save_solution(const std::string& file, const ocp::Solution& solution);
 void save_solution(const std::string& file, const ocp::PhasedSolution& solution);
 

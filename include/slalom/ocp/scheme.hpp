@@ -72,7 +72,7 @@ Scheme lgr_flipped(int n);
 /// trapezoidal rule, n = 3 Hermite-Simpson's.
 Scheme lgl(int n);
 
-/// The names scheme() knows.
+/// The names of all schemes.
 const std::vector<std::string>& scheme_names();
 /// Whether the scheme of that name has any number of points.
 bool has_choice_of_points(const std::string& name);

@@ -34,7 +34,7 @@ std::vector<std::pair<std::string, double>> sensitivity_numbers(const PhasedProb
 /// How an answer changes with one number p: the derivative of everything in it with respect to p,
 /// in the user's units over the unit of p.
 struct Sensitivity {
-  std::string number;  ///< p
+  std::string number;  ///< name of p
   /// Derivative of the objective. Without a floor it is that of the Lagrangian with everything else
   /// held, except for the remaining barrier (envelope theorem; Fiacco 1983, section 3.4).
   double objective = 0;

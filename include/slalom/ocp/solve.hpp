@@ -122,7 +122,8 @@ struct PhasedSolution {
   std::vector<Solution> phases;  ///< each with its own share of the objective
   std::vector<std::pair<std::string, double>>
       cost_terms;  ///< of the problem itself, not of a phase
-  /// For each link: the change of J* per change of its bounds, with the sign of nlp::Start.
+  /// For each link: the decrease of J* per unit that its bound is raised: >= 0 at an upper bound,
+  /// <= 0 at a lower one.
   std::vector<std::pair<std::string, double>> link_multipliers;
   nlp::Residuals residuals;
   std::vector<Conflict> conflicts;  ///< as Solution::conflicts, of phases "phase: name"

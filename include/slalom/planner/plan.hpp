@@ -106,7 +106,7 @@ struct Plan {
   double t_start = 0;  ///< absolute time of node 0: t0 + tex [s]
   double tf = 0;       ///< duration [s]
   bool goal_in_range = false;
-  std::vector<double> t;  ///< time since t_start, one per node, t.front() = 0, t.back() = tf
+  std::vector<double> t;  ///< time since t_start, one per node: 0 at the first, tf at the last
   std::vector<vehicle::State> states;      ///< one per node
   std::vector<vehicle::Control> controls;  ///< one per node
   double obstacle_time_held = -1;  ///< absolute time at which obstacles are held; < 0: they move

@@ -48,8 +48,8 @@ struct Cycle {
   vehicle::State X0p{};   ///< state from which it plans: predicted for t0 + tex, unless instant
   planner::Plan plan;     ///< with its solve report; nodes as the solver left them
   bool late = false;      ///< of a planner that verifies: the plan was there too late to be driven
-  bool used = false;      ///< the plant took this plan over at t_swap (false: warm-up, failed, or
-                          ///< the drive ended first)
+  bool used = false;      ///< the plant took this plan over at t_swap (false: warm-up, failed,
+                          ///< late, or the drive ended first)
 };
 
 /// A closed-loop drive.
