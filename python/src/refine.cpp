@@ -121,6 +121,9 @@ nb::class_<Type> bind_refined(nb::module_& module, const char* name, const char*
           doc::ocp_RefineStatus_converged)
       .def_ro("solution", &Type::solution, doc::ocp_Refined_solution)
       .def_prop_ro(
+          "hamiltonian_gap", [](const Type& r) { return r.answer.hamiltonian_gap; },
+          doc::ocp_Refined_hamiltonian_gap)
+      .def_prop_ro(
           "meshes", [](const Type& r) { return r.answer.meshes; },
           "One record for each mesh that was solved.")
       .def(

@@ -175,6 +175,8 @@ void bind_trajectory(nb::class_<Solved>& type) {
           "high_index", [](const Solved& s) { return by_name<int>(s.answer.high_index); },
           doc::ocp_Solution_high_index)
       .def_prop_ro(
+          "kinks", [](const Solved& s) { return s.answer.kinks; }, doc::ocp_Solution_kinks)
+      .def_prop_ro(
           "beyond_tables", [](const Solved& s) { return by_name<double>(s.answer.beyond_tables); },
           doc::ocp_Solution_beyond_tables)
       .def_prop_ro(
@@ -247,6 +249,10 @@ void warn_of(const ocp::Problem& problem, const ocp::Solution& answer) {
     warn(problem.name() + ": the equation '" + row + "' is of index " + std::to_string(index) +
          ": controls meet it in derivative " + std::to_string(index - 1) +
          " alone; hold that derivative instead, and the equation and its lower derivatives at t0");
+  for (const auto& cost : answer.kinks)
+    warn(problem.name() + ": the cost '" + cost +
+         "' has a kink (abs, max or min), at which a solve can go to and fro; smooth_kinks() of "
+         "the problem states the same cost without it");
   for (const auto& [term, by] : answer.beyond_tables)
     warn(problem.name() + ": " + term + " uses a table up to " + number(by) +
          " beyond its ends, where it goes on as a line; beyond=\"hold\" holds its value there");

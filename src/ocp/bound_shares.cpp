@@ -15,32 +15,13 @@ namespace {
 /// Of an interval: where bounds are looked at besides its points.
 constexpr int kSamples = 12;
 
-/// Names of what a bound holds of states and time alone, and not softly: where a control is bounded
-/// too, its polynomials' swings at a jump would count.
-std::vector<std::string> names_of_state_rows(const Problem& problem) {
-  std::vector<std::string> names;
-  for (const auto& state : problem.states()) names.push_back(state.name);
-  const Symbols symbols(problem);
-  for (const auto& row : problem.constraints()) {
-    if (!row.enabled || !row.over_time() || row.soft) continue;
-    const auto used = expr::symbols_of({row.value});
-    const bool of_controls = std::any_of(used.begin(), used.end(), [&](const Expr& symbol) {
-      const Meaning* meaning = symbols.find(symbol);
-      return meaning != nullptr && meaning->kind == Meaning::Kind::control;
-    });
-    if (of_controls) continue;
-    if (row.kind == Problem::Kind::path) names.push_back(row.name);
-    for (const auto& member : row.members) names.push_back(row.name + "[" + member + "]");
-  }
-  return names;
-}
-
 /// Each row's multipliers by point; none for a row that is not judged or holds nowhere.
 std::vector<std::vector<double>> multipliers_of(const Problem& problem, const Solution& solution,
                                                 const PointFunctions& functions) {
   std::unordered_map<std::string, const Multipliers*> known;
   for (const auto& each : solution.multipliers) known[each.name] = &each;
-  const auto judged = names_of_state_rows(problem);
+  // Where a control is bounded too, its polynomials' swings at a jump would count.
+  const auto judged = rows_of_states(problem);
   std::vector<std::vector<double>> list;
   for (const auto& row : functions.known_rows()) {
     auto& values = list.emplace_back();
@@ -57,6 +38,24 @@ std::vector<std::vector<double>> multipliers_of(const Problem& problem, const So
 }
 
 }  // namespace
+
+std::vector<std::string> rows_of_states(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const auto& state : problem.states()) names.push_back(state.name);
+  const Symbols symbols(problem);
+  for (const auto& row : problem.constraints()) {
+    if (!row.enabled || !row.over_time() || row.soft) continue;
+    const auto used = expr::symbols_of({row.value});
+    const bool of_controls = std::any_of(used.begin(), used.end(), [&](const Expr& symbol) {
+      const Meaning* meaning = symbols.find(symbol);
+      return meaning != nullptr && meaning->kind == Meaning::Kind::control;
+    });
+    if (of_controls) continue;
+    if (row.kind == Problem::Kind::path) names.push_back(row.name);
+    for (const auto& member : row.members) names.push_back(row.name + "[" + member + "]");
+  }
+  return names;
+}
 
 std::vector<double> bound_shares(const Problem& problem, const Solution& solution,
                                  const Interpolant& polynomials) {

@@ -68,8 +68,13 @@ class Rewriting {
 
 }  // namespace
 
-std::vector<std::string> smooth_kinks(Problem& problem) {
-  std::vector<std::string> done;
+namespace {
+
+/// Cost terms that were replaced, each with what was done.
+using Replaced = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+Replaced replace_kinks(Problem& problem) {
+  Replaced replaced;
   const auto costs = problem.costs();
   for (const auto& cost : costs) {
     if (!cost.lagrange || !cost.enabled) continue;
@@ -79,9 +84,24 @@ std::vector<std::string> smooth_kinks(Problem& problem) {
     if (sentences.empty()) continue;
     problem.enable_cost(cost.name, false);
     problem.lagrange(cost.name + ", kinks as rows", value);
-    done.insert(done.end(), sentences.begin(), sentences.end());
+    replaced.emplace_back(cost.name, std::move(sentences));
   }
+  return replaced;
+}
+
+}  // namespace
+
+std::vector<std::string> smooth_kinks(Problem& problem) {
+  std::vector<std::string> done;
+  for (const auto& [cost, sentences] : replace_kinks(problem))
+    done.insert(done.end(), sentences.begin(), sentences.end());
   return done;
+}
+
+std::vector<std::string> costs_with_kinks(Problem problem) {
+  std::vector<std::string> names;
+  for (const auto& [cost, sentences] : replace_kinks(problem)) names.push_back(cost);
+  return names;
 }
 
 }  // namespace slalom::ocp

@@ -15,8 +15,13 @@ Solution Single::solve() const {
 }
 
 Solution Single::solve_anew() const {
+  return solve_from({resampled(problem_, *settings_.previous, {settings_.mesh, settings_.scheme})});
+}
+
+Solution Single::solve_from(std::vector<Trajectory> guesses) const {
   SolveSettings settings = settings_;
-  settings.guess = resampled(problem_, *settings.previous, {settings.mesh, settings.scheme});
+  settings.guess = std::move(guesses[0]);
+  settings.warm_start = {};
   settings.previous = nullptr;
   return stated(ocp::solve(now(), settings));
 }
@@ -48,11 +53,16 @@ PhasedSolution Several::solve() const {
 }
 
 PhasedSolution Several::solve_anew() const {
+  std::vector<Trajectory> guesses;
+  for (std::size_t p = 0; p < settings_.grids.size(); ++p)
+    guesses.push_back(resampled(problem(p), settings_.previous->phases[p], settings_.grids[p]));
+  return solve_from(std::move(guesses));
+}
+
+PhasedSolution Several::solve_from(std::vector<Trajectory> guesses) const {
   PhasedSettings settings = settings_;
-  settings.guesses.clear();
-  for (std::size_t p = 0; p < settings.grids.size(); ++p)
-    settings.guesses.push_back(
-        resampled(problem(p), settings.previous->phases[p], settings.grids[p]));
+  settings.guesses = std::move(guesses);
+  settings.warm_start = {};
   settings.previous = nullptr;
   return stated(ocp::solve(now(), settings));
 }

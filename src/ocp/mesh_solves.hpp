@@ -24,6 +24,8 @@ class Single {
   Solution solve() const;
   /// Without the last mesh's multipliers.
   Solution solve_anew() const;
+  /// From a guess for each phase alone.
+  Solution solve_from(std::vector<Trajectory> guesses) const;
   static std::vector<const Solution*> phases(const Solution& solution) { return {&solution}; }
   static std::vector<nlp::Options*> options_of(Solution& solution) { return {&solution.options}; }
   /// Of cost terms that are no phase's.
@@ -58,6 +60,7 @@ class Several {
   const Grids& grids() const { return settings_.grids; }
   PhasedSolution solve() const;
   PhasedSolution solve_anew() const;
+  PhasedSolution solve_from(std::vector<Trajectory> guesses) const;
   static std::vector<const Solution*> phases(const PhasedSolution& solution);
   static std::vector<nlp::Options*> options_of(PhasedSolution& solution);
   static double costs_beside(const PhasedSolution& solution);

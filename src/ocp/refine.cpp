@@ -10,6 +10,7 @@
 #include "conflicts.hpp"
 #include "damping.hpp"
 #include "mesh_solves.hpp"
+#include "minimum_principle.hpp"
 #include "remesh.hpp"
 #include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
@@ -102,6 +103,16 @@ struct Findings {
   std::vector<std::vector<double>> unresolved;
 };
 
+/// By phase.
+template <class Solves>
+std::vector<HamiltonianGap> gaps_in(const Solves& solves, const typename Solves::Answer& answer) {
+  std::vector<HamiltonianGap> list;
+  const auto phases = Solves::phases(answer);
+  for (std::size_t p = 0; p < phases.size(); ++p)
+    list.push_back(hamiltonian_gap(solves.problem(p), *phases[p]));
+  return list;
+}
+
 /// One refinement, mesh after mesh.
 template <class Solves>
 class Refining {
@@ -117,8 +128,10 @@ class Refining {
   /// Fills `answer`, `errors` and `meshes`.
   RefineStatus run(Answer& answer, std::vector<ErrorEstimate>& errors,
                    std::vector<MeshRecord>& meshes) {
+    std::optional<Answer> lower;
     for (int mesh = 1, damped = 0;;) {
-      Answer now = solve(meshes.empty());
+      Answer now = lower ? std::move(*lower) : solve(meshes.empty());
+      lower.reset();
       const bool first = meshes.empty();
       MeshRecord& record = meshes.emplace_back(record_of<Solves>(now));
       record.damping = damping_.weight();
@@ -137,14 +150,19 @@ class Refining {
       if (record.damping == 0 && converged(record, shares)) {  // whatever it does between points
         answer = std::move(now);
         errors = std::move(found->errors);
+        lower = lower_than(answer, shares.size());
+        if (lower) continue;
         return RefineStatus::converged;
       }
       const bool low = damping_.lowered(), raised = damping_.raised(found->chatter);
       if (!(low && raised)) {  // else the answer with more weight is the better one
         answer = std::move(now);
         errors = std::move(found->errors);
-        if (record.damping > 0 && converged(record, shares) && !raised)
+        if (record.damping > 0 && converged(record, shares) && !raised) {
+          lower = lower_than(answer, shares.size());
+          if (lower) continue;
           return RefineStatus::converged;
+        }
       }
       Grids grids = !raised ? next_grids(answer, errors, shares, found->unresolved)
                     : low   ? halved_grids(answer, found->chatter)
@@ -159,6 +177,12 @@ class Refining {
       solves_.damp(answer, damping_.chosen(), damping_.weight() * shares.size());
     }
   }
+  /// Of the last converged answer, away from bounds of states; 0 without one.
+  double hamiltonian_gap() const {
+    double sum = 0;
+    for (const auto& gap : gaps_) sum += gap.away_from_bounds;
+    return sum;
+  }
 
  private:
   using Grids = std::vector<PhasedTranscription::Grid>;
@@ -166,6 +190,8 @@ class Refining {
   static constexpr int kDampedSolves = 2;
   /// Times the tolerance: what damping may be estimated to leave.
   static constexpr double kDampedTolerance = 5;
+  /// Most answers that are left for a lower one.
+  static constexpr int kEscapes = 2;
 
   Answer solve(bool first) {
     Answer now = in_time([&] { return solves_.solve(); });
@@ -202,6 +228,25 @@ class Refining {
       record = before;
       return std::nullopt;
     }
+  }
+  /// An answer on the same mesh with a lower objective, where the minimum principle says that there
+  /// may be one: from a guess whose controls are those that it asks for.
+  std::optional<Answer> lower_than(const Answer& answer, double size) {
+    gaps_ = gaps_in(solves_, answer);
+    double gap = 0;
+    for (const auto& each : gaps_) gap += each.value;
+    if (gap <= kObjectiveTolerance * rules_.tolerance * size) return std::nullopt;
+    if (++escapes_ > kEscapes) return std::nullopt;
+    std::vector<Trajectory> guesses;
+    const auto phases = Solves::phases(answer);
+    for (std::size_t p = 0; p < phases.size(); ++p) {
+      guesses.push_back(phases[p]->trajectory);
+      guesses.back().controls = gaps_[p].controls;
+    }
+    Answer other = in_time([&] { return solves_.solve_from(std::move(guesses)); });
+    if (!other.solved() || other.objective >= answer.objective - rules_.tolerance * size)
+      return std::nullopt;
+    return other;
   }
   /// Fills the record's error of the objective too.
   bool converged(MeshRecord& record, const Shares& shares) {
@@ -255,13 +300,19 @@ class Refining {
   const double limit_;  ///< [s], of all together
   const Timer timer_;
   double last_objective_ = kInfinity;
+  std::vector<HamiltonianGap> gaps_;  ///< of the last converged answer, by phase
+  int escapes_ = 0;
 };
 
 template <class Solves>
 RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answer& answer,
-                 std::vector<ErrorEstimate>& errors, std::vector<MeshRecord>& meshes) {
+                 std::vector<ErrorEstimate>& errors, std::vector<MeshRecord>& meshes,
+                 double& hamiltonian_gap) {
   check(solves.name(), rules, solves.grids());
-  return Refining<Solves>(std::move(solves), rules).run(answer, errors, meshes);
+  Refining<Solves> refining(std::move(solves), rules);
+  const RefineStatus status = refining.run(answer, errors, meshes);
+  hamiltonian_gap = refining.hamiltonian_gap();
+  return status;
 }
 
 }  // namespace
@@ -300,7 +351,8 @@ std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status) {
 Refined refine(const Problem& problem, const SolveSettings& start, const RefineRules& rules) {
   Refined result;
   std::vector<ErrorEstimate> errors;
-  result.status = run(Single(problem, start), rules, result.solution, errors, result.meshes);
+  result.status = run(Single(problem, start), rules, result.solution, errors, result.meshes,
+                      result.hamiltonian_gap);
   if (!errors.empty()) result.errors = std::move(errors.front());
   if (result.status != RefineStatus::converged) result.solution.high_index = high_index(problem);
   return result;
@@ -309,8 +361,8 @@ Refined refine(const Problem& problem, const SolveSettings& start, const RefineR
 PhasedRefined refine(const PhasedProblem& problem, const PhasedSettings& start,
                      const RefineRules& rules) {
   PhasedRefined result;
-  result.status =
-      run(Several(problem, start), rules, result.solution, result.errors, result.meshes);
+  result.status = run(Several(problem, start), rules, result.solution, result.errors, result.meshes,
+                      result.hamiltonian_gap);
   if (result.status == RefineStatus::converged) return result;
   for (std::size_t p = 0; p < result.solution.phases.size(); ++p)
     result.solution.phases[p].high_index = high_index(problem.phases()[p]);

@@ -56,11 +56,13 @@ class Sizes {
   double state(std::size_t i) const { return known_[i] > 0 ? known_[i] : 1; }
   double control(std::size_t i) const { return known_[nx_ + i] > 0 ? known_[nx_ + i] : 1; }
 
-  /// The guess's, but no less than a part of that of the declaration's guess or bounds.
+  /// The guess's, but no less than a part of that of the declaration's guess or bounds; without
+  /// these, what moves a state by its size over the horizon.
   double static_parameter(std::size_t i) const {
     const auto& each = problem_.static_parameters()[i];
-    return guessed(guess_.static_parameters, i,
-                   first_of({size_of(each.guess), size_of(each.bounds), 1}));
+    const double declared = first_of({size_of(each.guess), size_of(each.bounds)});
+    const double given = guessed(guess_.static_parameters, i, declared);
+    return given > 0 ? given : first_of({by_effect(each.symbol), 1});
   }
   /// Its bounds', else the guess's, but no less than a part of what the integrand comes to.
   double integral(std::size_t i) const {
@@ -99,6 +101,33 @@ class Sizes {
   }
 
  private:
+  /// The least that moves any state by that state's size over the horizon, at the steepest point of
+  /// the guess for each; 0 for a symbol that moves none.
+  double by_effect(const Expr& symbol) const {
+    std::vector<Expr> rates;
+    for (const auto& state : problem_.states()) rates.push_back(state.rate);
+    std::vector<Expr> data;
+    for (const auto& each : expr::symbols_of(rates))
+      if (!each.same(symbol)) data.push_back(each);
+    const expr::Function f({symbol}, data, rates);
+    const double duration = std::max(guess_.tf - guess_.t0, 0.0);
+    std::vector<double> slopes(f.jacobian_pattern().size()), steepest(nx_, 0.0), none;
+    for (std::size_t point = 0; point < guess_.tau.size(); ++point) {
+      SetUpWatch::poll();
+      f.evaluate(1, std::vector{number(symbol, point, 0)}, numbers(data, point), none,
+                 {.values = false, .jacobian = true}, none, slopes, none);
+      for (std::size_t e = 0; e < slopes.size(); ++e) {
+        double& slope = steepest[f.jacobian_pattern()[e].row];
+        slope = std::max(slope, size_of(slopes[e]));
+      }
+    }
+    double least = 0;
+    for (std::size_t i = 0; i < nx_; ++i) {
+      const double size = size_of(state(i) / (steepest[i] * duration));
+      if (size > 0) least = least > 0 ? std::min(least, size) : size;
+    }
+    return least;
+  }
   static double first_of(std::initializer_list<double> candidates) {
     for (const double each : candidates)
       if (each > 0) return each;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "moved.hpp"
+#include "phase_guesses.hpp"
 #include "simulated_guess.hpp"
 #include "slalom/base/timer.hpp"
 #include "slalom/ocp/guess.hpp"
@@ -52,9 +53,7 @@ SolveSettings held(const Problem& problem, SolveSettings settings) {
   return settings;
 }
 PhasedSettings held(const PhasedProblem& problem, PhasedSettings settings) {
-  settings.guesses.resize(problem.phases().size());
-  for (std::size_t p = 0; p < problem.phases().size(); ++p)
-    if (settings.guesses[p].tau.empty()) settings.guesses[p] = held_guess(problem.phases()[p]);
+  settings.guesses = linked_guesses(problem, std::move(settings.guesses));
   return settings;
 }
 bool without_guess(const SolveSettings& settings) {

@@ -4,6 +4,7 @@
 #include "conflicts.hpp"
 #include "slalom/ocp/guess.hpp"
 #include "slalom/ocp/interpolant.hpp"
+#include "slalom/ocp/kinks.hpp"
 #include "slalom/ocp/moments.hpp"
 
 namespace slalom::ocp {
@@ -39,7 +40,10 @@ void describe(const Problem& problem, const PhasedTranscription::Grid& grid, con
   solution.control_names = names_of(problem.controls());
   solution.static_parameter_names = names_of(problem.static_parameters());
   solution.slack_names = names_of(problem.slacks());
-  if (solution.status != nlp::Status::solved) solution.high_index = high_index(problem);
+  if (solution.status != nlp::Status::solved) {
+    solution.high_index = high_index(problem);
+    solution.kinks = costs_with_kinks(problem);
+  }
   solution.beyond_tables = tables.beyond(problem, solution);
   if (knows_conflicts(solution)) solution.conflicts = conflicts(problem, solution.multipliers);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "bounds.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/guess.hpp"
 
@@ -17,15 +18,6 @@ double middle(Bounds bounds) {
   const bool lower = std::isfinite(bounds.lower), upper = std::isfinite(bounds.upper);
   if (lower && upper) return 0.5 * (bounds.lower + bounds.upper);
   return lower ? std::max(bounds.lower, 0.0) : upper ? std::min(bounds.upper, 0.0) : 0.0;
-}
-
-Bounds intersection(Bounds a, Bounds b) {
-  return {std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
-}
-
-/// Whether bounds say where between them a value is.
-bool told(Bounds bounds) {
-  return std::isfinite(bounds.lower) && std::isfinite(bounds.upper);
 }
 
 std::string place(const Problem& problem) {
@@ -88,7 +80,7 @@ Trajectory held_guess(const Problem& problem) {
     const Bounds ends[] = {intersection(state.bounds, state.initial),
                            intersection(state.bounds, state.final)};
     for (const int end : {0, 1})
-      if (told(ends[1 - end]) && !told(ends[end]))
+      if (tells_a_value(ends[1 - end]) && !tells_a_value(ends[end]))
         guess.states[end][i] =
             std::clamp(guess.states[1 - end][i], ends[end].lower, ends[end].upper);
   }

@@ -291,6 +291,53 @@ TEST(HardStarts, WhereCoarseMeshesFailHeldControlsLead) {
   }
 }
 
+/// From orbit to orbit by two burns, whose coast between says nothing of its ends: a radius of 0,
+/// as in a guess of this phase alone, has no finite rate.
+PhasedProblem orbit_raise() {
+  const auto phase = [](const std::string& name, bool burns, bool first, bool last) {
+    Problem p(name);
+    const Expr r = p.state("r"), vr = p.state("vr"), vt = p.state("vt"), thrust = p.state("a");
+    const Expr spent = p.state("spent");
+    const Expr angle = burns ? p.control("angle", {-M_PI / 2, M_PI / 2}) : Expr(0);
+    const Expr a = burns ? thrust : Expr(0);
+    p.dynamics(r, vr);
+    p.dynamics(vr, square(vt) / r - 1 / square(r) + a * sin(angle));
+    p.dynamics(vt, -vr * vt / r + a * cos(angle));
+    p.dynamics(thrust, burns ? square(thrust) / 1.5 : Expr(0));
+    p.dynamics(spent, a);
+    const auto fix_all = [&](const std::vector<std::pair<Expr, double>>& values, bool at_end) {
+      for (const auto& [state, value] : values) {
+        if (at_end)
+          p.final_bounds(state, Bounds::equal(value));
+        else
+          p.initial_bounds(state, Bounds::equal(value));
+      }
+    };
+    if (first) fix_all({{r, 1}, {vr, 0}, {vt, 1}, {thrust, 0.1}, {spent, 0}}, false);
+    if (last) fix_all({{r, 3}, {vr, 0}, {vt, std::sqrt(1.0 / 3)}}, true);
+    if (last) p.mayer("spent", p.final(spent));
+    return p;
+  };
+  Problem up = phase("up", true, true, false), coast = phase("coast", false, false, false);
+  Problem round = phase("round", true, false, true);
+  up.final_time({0.5, 10}, 2);
+  coast.initial_time({0.5, 10}, 2);
+  coast.final_time({1, 60}, 8);
+  round.initial_time({1, 60}, 8);
+  round.final_time({1.5, 70}, 10);
+  PhasedProblem raise("orbit raise");
+  for (Problem* each : {&up, &coast, &round}) raise.add(std::move(*each));
+  raise.connect(0, 1);
+  raise.connect(1, 2);
+  return raise;
+}
+
+TEST(HardStarts, PhasesBeginWithWhatTheirNeighboursEndsSay) {
+  const PhasedSolution solution = solve(orbit_raise());
+  EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+  EXPECT_NEAR(solution.objective, 0.3995, 1e-4);  // Dymos 1.13, "Two-burn orbit raise"
+}
+
 /// A user's limit on iterations that shows how a solve begins is kept to.
 TEST(HardStarts, AShortLimitIsKept) {
   SolveSettings settings{.mesh = Mesh::uniform(20), .scheme = lgr(4)};

@@ -151,6 +151,36 @@ TEST(AutomaticScales, OfParametersAndIntegralsComeFromTheGuessToo) {
   EXPECT_EQ(scaled.integrals()[2].unit(), 9);
 }
 
+/// The rates of a reaction fitted to its course, in units in which they are 1e3 and 1e6 times as
+/// large, and without a guess (Bellman, Jacquez, Kalaba & Schwimmer, Math. Biosci. 1, 1967).
+TEST(AutomaticScales, OfParametersWithoutAGuessComeFromWhatTheyMove) {
+  const auto fit = [](double unit) {
+    Problem p("fit");
+    const Expr y = p.state("y");
+    const Expr forward = p.static_parameter("forward", Bounds::at_least(0), 0);
+    const Expr back = p.static_parameter("back", Bounds::at_least(0), 0);
+    p.dynamics(y, unit * (forward * (126.2 - y) * square(91.9 - y) - back * square(y)));
+    p.initial_bounds(y, Bounds::equal(0));
+    p.final_time(Bounds::equal(39), 39);
+    const std::pair<double, double> course[] = {
+        {1, 1.4}, {2, 6.3},   {3, 10.5},  {4, 14.2},  {5, 17.6},  {6, 21.4},  {7, 23},
+        {9, 27},  {11, 30.5}, {14, 34.4}, {19, 38.8}, {24, 41.6}, {29, 43.5}, {39, 45.3}};
+    for (const auto& [t, measured] : course)
+      p.cost_at("at " + std::to_string(t), square(y - measured), Moment::time(t));
+    return solve(p);
+  };
+  const Solution one = fit(1);
+  ASSERT_TRUE(one.solved()) << nlp::to_string(one.status);
+  EXPECT_NEAR(one.objective, 21.867, 1e-3);
+  for (const double unit : {1e-6, 1e-3}) {
+    SCOPED_TRACE(unit);
+    const Solution other = fit(unit);
+    ASSERT_TRUE(other.solved()) << nlp::to_string(other.status);
+    EXPECT_NEAR(other.objective, one.objective, 1e-6);
+    EXPECT_NEAR(other.static_parameter("forward") * unit, one.static_parameter("forward"), 1e-10);
+  }
+}
+
 TEST(AutomaticScales, LeaveWhatWasGivenByHand) {
   Problem p("by hand");
   const Expr x = p.state("x", {-3, 3});

@@ -116,13 +116,16 @@ TEST(SmoothKinks, SayTheSameByRows) {
            [](const Expr& u) { return 1 - 2 * min(u / 2, -u / 2) - 1; },
            [](const Expr& u) { return max(abs(u), 0.0) / 2 + abs(u) * 0.5; }}) {
     Problem p = least_fuel(cost);
-    EXPECT_FALSE(solve(p, {.options = {.max_iterations = 100}}).solved());
+    const Solution kinked = solve(p, {.options = {.max_iterations = 100}});
+    EXPECT_FALSE(kinked.solved());
+    EXPECT_EQ(kinked.kinks, std::vector<std::string>{"fuel"}) << "named as a cause";
     const auto done = smooth_kinks(p);
     ASSERT_FALSE(done.empty());
     EXPECT_EQ(done.front().find("cost fuel: "), 0U) << done.front();
     const Solution solution = solve(p, {.mesh = Mesh::uniform(80)});
     EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
     EXPECT_NEAR(solution.objective, right, 1e-3);
+    EXPECT_TRUE(solution.kinks.empty());
     EXPECT_TRUE(smooth_kinks(p).empty()) << "done already";
   }
   // Not those that are to be large: no rows would hold them.

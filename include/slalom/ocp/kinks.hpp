@@ -14,4 +14,7 @@ namespace slalom::ocp {
 /// are rewritten. Returns one sentence about each.
 std::vector<std::string> smooth_kinks(Problem& problem);
 
+/// Names of the cost terms that it would replace.
+std::vector<std::string> costs_with_kinks(Problem problem);
+
 }  // namespace slalom::ocp

@@ -72,6 +72,13 @@ struct Refined {
   Solution solution;     ///< of the last mesh that was solved and judged; else of the first
   ErrorEstimate errors;  ///< empty if no mesh was judged
   std::vector<MeshRecord> meshes;
+  /// Of a converged answer, how far its controls are from Pontryagin's minimum principle (Bryson &
+  /// Ho 1975, section 3.4): the integral of H = L + costate' f less its least value over the
+  /// controls allowed, in units of the objective, except beside bounds of states that hold. If it
+  /// is much above the tolerance, the answer is stationary but no minimum, and a solve from the
+  /// controls with that least value found nothing better: try another guess. 0 for problems with
+  /// integrals, where it is not known.
+  double hamiltonian_gap = 0;
 
   /// The records as a table of plain text, with the status below.
   std::string table() const { return ocp::table(meshes, status); }
@@ -82,6 +89,7 @@ struct PhasedRefined {
   PhasedSolution solution;            ///< as in Refined
   std::vector<ErrorEstimate> errors;  ///< of each phase
   std::vector<MeshRecord> meshes;
+  double hamiltonian_gap = 0;  ///< as in Refined, of all phases
 
   /// The records as a table of plain text, with the status below.
   std::string table() const { return ocp::table(meshes, status); }

@@ -70,6 +70,9 @@ struct Solution {
   /// seldom solve as stated. Instead, require the derivative in which a control appears, and at t0
   /// the equation and its lower derivatives (Gear & Petzold, SIAM J. Numer. Anal. 21, 1984).
   std::vector<HighIndex> high_index;
+  /// For an answer that is not solved: cost terms with kinks, at which Newton's method can jump to
+  /// and fro. smooth_kinks() states the same cost without them.
+  std::vector<std::string> kinks;
   nlp::Options options;  ///< of the solve
   std::string backend;   ///< of the solve, with its factorisation
   nlp::Start point;      ///< of the NLP, for warm starts
