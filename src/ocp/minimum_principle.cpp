@@ -139,14 +139,21 @@ class PointSum {
     functions_.rates(time(), states(), u, rates_);
     const double integrand = functions_.integrand(time(), states(), u);
     double sum = 0;
+    size_ = 0;
     for (const Collocation& each : *collocations_) {
       const Vector& costates = solution_.collocated_costates.values[each.costates];
-      double h = integrand;
-      for (std::size_t i = 0; i < rates_.size(); ++i) h += costates[i] * rates_[i];
+      double h = integrand, size = std::fabs(integrand);
+      for (std::size_t i = 0; i < rates_.size(); ++i) {
+        h += costates[i] * rates_[i];
+        size += std::fabs(costates[i] * rates_[i]);
+      }
       sum += each.weight * h;
+      size_ += each.weight * size;
     }
     return std::isfinite(sum) ? sum : kInfinity;
   }
+  /// The magnitudes that added up to the last sum.
+  double size() const { return size_; }
 
  private:
   double time() const { return solution_.trajectory.time(point_); }
@@ -162,6 +169,7 @@ class PointSum {
   PointFunctions functions_;
   Vector rates_, rows_, own_rows_;
   std::size_t point_ = 0;
+  double size_ = 0;
   const std::vector<Collocation>* collocations_ = nullptr;
 };
 
@@ -185,6 +193,7 @@ HamiltonianGap hamiltonian_gap(const Problem& problem, const Solution& solution)
     Vector& best = gap.controls[p];
     const double own = sum(best);
     if (!std::isfinite(own)) continue;
+    gap.size += sum.size();
     double least = own;
     for (int sweep = 0; sweep < kSweeps; ++sweep)
       for (std::size_t i = 0; i < tried.size(); ++i) {

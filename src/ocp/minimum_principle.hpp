@@ -18,6 +18,7 @@ struct HamiltonianGap {
   /// The same without intervals at and beside which a state is at a bound. Costates are less exact
   /// there, for the multipliers of such bounds are impulses.
   double away_from_bounds = 0;
+  double size = 0;  ///< the integral of |L| + |costate|' |f|, by the answer's own controls
   std::vector<std::vector<double>> controls;  ///< [point][control] with that least value
 };
 

@@ -190,6 +190,10 @@ class Refining {
   static constexpr int kDampedSolves = 2;
   /// Times the tolerance: what damping may be estimated to leave.
   static constexpr double kDampedTolerance = 5;
+  /// Of the parts of the Hamiltonian: a gap that counts however small the costates are. They vanish
+  /// where an answer has lost all that it could gain.
+  static constexpr double kLargeGap = 1e-2;
+  static constexpr double kSharesOfTheWay[] = {1, 0.5};
   /// Most answers that are left for a lower one.
   static constexpr int kEscapes = 2;
 
@@ -230,23 +234,36 @@ class Refining {
     }
   }
   /// An answer on the same mesh with a lower objective, where the minimum principle says that there
-  /// may be one: from a guess whose controls are those that it asks for.
+  /// may be one: from a guess whose controls are, or are on the way to, those that it asks for.
   std::optional<Answer> lower_than(const Answer& answer, double size) {
     gaps_ = gaps_in(solves_, answer);
-    double gap = 0;
-    for (const auto& each : gaps_) gap += each.value;
-    if (gap <= kObjectiveTolerance * rules_.tolerance * size) return std::nullopt;
+    double gap = 0, parts = 0;
+    for (const auto& each : gaps_) {
+      gap += each.value;
+      parts += each.size;
+    }
+    if (gap <= std::min(kObjectiveTolerance * rules_.tolerance * size, kLargeGap * parts))
+      return std::nullopt;
     if (++escapes_ > kEscapes) return std::nullopt;
+    for (const double share : kSharesOfTheWay) {
+      Answer other = in_time([&] { return solves_.solve_from(guesses_towards(answer, share)); });
+      if (other.solved() && other.objective < answer.objective - rules_.tolerance * size)
+        return other;
+      if (stopped(other)) break;
+    }
+    return std::nullopt;
+  }
+  /// The answer with controls that share of the way to those which the minimum principle asks for.
+  std::vector<Trajectory> guesses_towards(const Answer& answer, double share) const {
     std::vector<Trajectory> guesses;
     const auto phases = Solves::phases(answer);
     for (std::size_t p = 0; p < phases.size(); ++p) {
-      guesses.push_back(phases[p]->trajectory);
-      guesses.back().controls = gaps_[p].controls;
+      auto& controls = guesses.emplace_back(phases[p]->trajectory).controls;
+      for (std::size_t k = 0; k < controls.size(); ++k)
+        for (std::size_t i = 0; i < controls[k].size(); ++i)
+          controls[k][i] += share * (gaps_[p].controls[k][i] - controls[k][i]);
     }
-    Answer other = in_time([&] { return solves_.solve_from(std::move(guesses)); });
-    if (!other.solved() || other.objective >= answer.objective - rules_.tolerance * size)
-      return std::nullopt;
-    return other;
+    return guesses;
   }
   /// Fills the record's error of the objective too.
   bool converged(MeshRecord& record, const Shares& shares) {
