@@ -112,6 +112,19 @@ def test_refinement(refinement, scheme):
     assert r.meshes[-1].largest_error == r.errors.largest == r.solution.estimate_errors().largest
     assert r.solution.objective == pytest.approx(decay_at(0)[1] / 2, rel=1e-6)
     assert r.table().count("\n") == len(r.meshes) + 2
+    assert 0 <= r.hamiltonian_gap <= 1e-6
+
+
+def test_refinement_leaves_an_answer_that_is_no_minimum():
+    p = slalom.Problem("linear-tangent steering")  # Bryson & Ho 1975, p. 59
+    u, v, y = p.state("u", initial=0), p.state("v", initial=0, final=0), p.state("y", initial=0, final=1, lower=0)
+    angle = p.control("angle", lower=-math.pi, upper=math.pi)
+    p.dynamics(u, np.cos(angle))
+    p.dynamics(v, np.sin(angle))
+    p.dynamics(y, v)
+    p.final_time(equal=2.05)
+    p.mayer("speed", p.final(u), maximise=True)
+    assert p.refine().solution.objective == pytest.approx(-0.80478321, abs=1e-6)
 
 
 def test_refinement_says_what_it_did_not_reach():

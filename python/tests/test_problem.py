@@ -142,10 +142,13 @@ def test_kinks_of_a_cost_as_rows():
     p.dynamics(v, u)
     p.final_time(equal=4)
     p.lagrange("fuel", abs(u))
-    assert not p.solve(max_iterations=100).solved
+    with pytest.warns(UserWarning, match="the cost 'fuel' has a kink .* smooth_kinks"):
+        kinked = p.solve(max_iterations=100)
+    assert not kinked.solved and kinked.kinks == ["fuel"]
     assert "abs 1 of fuel" in p.smooth_kinks()[0]
     s = p.solve()
     assert s.solved and s.objective == pytest.approx(4 - math.sqrt(12), rel=1e-3)
+    assert s.kinks == []
 
 
 def test_points_that_do_nothing_are_warned_of():
