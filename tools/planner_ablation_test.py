@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""How the page on the parts of P_E counts, on drives made up for it."""
+"""How the page on the parts of P_E counts, on drives made up for it, and what it drives, by a stand-in for the program."""
 
 import argparse
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from planner_ablation import VARIANTS, WHOLE, page, table  # noqa: E402
+import stand_in  # noqa: E402
+from planner_ablation import VARIANTS, WHOLE, main, page, table  # noqa: E402
 
 
 def trial(outcome, time="10", failed="0"):
@@ -44,6 +46,21 @@ class Ablation(unittest.TestCase):
         text = page(self.variants, self.variants, argparse.Namespace(points=2, count=4), "A stamp.\n")
         self.assertIn("| gates |" + " 3/4 |" * len(VARIANTS), text)
         self.assertIn("A stamp.", text)
+
+    def test_every_variant_drives_both_sets(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            text = stand_in.page_of(main, folder, "--points", "2", "--count", "1", STAND_IN_CRASHES="gates-0001")
+            studies = {file.stem: file.read_text() for file in (folder / "work").glob("*.yaml")}
+        for name in VARIANTS:
+            self.assertEqual(sum(line.startswith(f"| {name} |") for line in text.splitlines()), 2, name)
+        self.assertIn("| gates |" + " 0/1 |" * len(VARIANTS), text)
+        self.assertIn("| crossing |" + " 1/1 |" * len(VARIANTS), text)
+        self.assertEqual(len(studies), 2 * len(VARIANTS))
+        for number, changed in enumerate(VARIANTS.values()):
+            for kind in ("sweep", "random"):
+                for key, value in {"loop.deadline": "tex", **changed}.items():
+                    self.assertIn(f"{key}: {value}", studies[f"{kind}-{number}"])
 
 
 if __name__ == "__main__":

@@ -104,11 +104,10 @@ def studied(options, name, text):
     return swept(options.program, study, options.work / name)
 
 
-def paper_sweep(options, planner, fastest):
-    """Runs or completes the paper's sweep; its trials by horizon and speed of O2."""
-    text = SWEEP.format(planner=planner, points=options.points, fastest=fastest, settings=setting(settings_of(planner)))
-    return {(t["loop.tex"], t["obstacles.O2.vy"]): t
-            for t in studied(options, f"sweep{fastest}-{planner}", text)}
+def paper_sweep(options, name, planner, settings, fastest=min(GRIDS)):
+    """Runs or completes the paper's sweep under a name; its trials by horizon and speed of O2."""
+    text = SWEEP.format(planner=planner, points=options.points, fastest=fastest, settings=setting(settings))
+    return {(t["loop.tex"], t["obstacles.O2.vy"]): t for t in studied(options, name, text)}
 
 
 def offline_times(options, speeds):
@@ -277,7 +276,7 @@ def main():
     text = HEAD.format(stamp=stamp(command_of(parser, options, "verified-planner", "most", "points"), options.program))
     text += "## The paper's sweep\n\nE_C, execution horizons of .01 to 1 s.\n"
     for fastest, title in GRIDS.items():
-        trials = {p: paper_sweep(options, p, fastest) for p in PLANNERS}
+        trials = {p: paper_sweep(options, f"sweep{fastest}-{p}", p, settings_of(p), fastest) for p in PLANNERS}
         text += (f"\n### {title[0].upper()}{title[1:]}\n\n" + totals(trials) + "\n" + compared(trials) + "\n"
                  + others(trials) + "\n" + real_time(trials["P_E"]))
         if fastest == min(GRIDS):
