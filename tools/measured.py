@@ -9,6 +9,8 @@ with, and what tools that write one share. Standard library only.
 
 import argparse
 import datetime
+import functools
+import hashlib
 import os
 import pathlib
 import platform
@@ -82,12 +84,33 @@ def output_of(*command, default="unknown"):
     return done.stdout.strip() or default
 
 
+# What is built or read without being named in the build: a file that git does not know yet counts there.
+FOUND = ("src", "include", "apps", "viewer", "config")
+
+
 def commit(root=ROOT):
     """Short hash of HEAD; with -dirty where the tree differs, generated pages aside."""
     head = output_of("git", "-C", root, "rev-parse", "--short", "HEAD")
     changed = output_of("git", "-C", root, "status", "--porcelain", "--untracked-files=no", "--", ".",
                         ":!docs/measured", default="")
-    return head + ("-dirty" if changed else "")
+    unknown = output_of("git", "-C", root, "ls-files", "--others", "--exclude-standard", "--", *FOUND, default="")
+    return head + ("-dirty" if changed or unknown else "")
+
+
+@functools.cache
+def commit_at_start():
+    """The commit when it was first asked for: a page's stamp has what its measuring began with, whatever was committed
+    or changed meanwhile."""
+    return commit()
+
+
+def folder_of(program):
+    """The folder in which measurements of a program are kept: a commit's; where the commit does not say which program it
+    is, one for each program."""
+    file = pathlib.Path(program)
+    told = file.resolve() == PROGRAM.resolve() and not commit_at_start().endswith("-dirty")
+    digest = hashlib.sha256(file.read_bytes()).hexdigest()[:8] if not told and file.is_file() else ""
+    return ROOT / "run/measured" / "-".join(filter(None, (commit_at_start(), digest)))
 
 
 def of_processor(field):
@@ -120,7 +143,7 @@ def compiler(program):
 def stamp(command, program=PROGRAM, at=None):
     """The block that a generated page begins with: what makes it, and of what and on what it was
     measured; `at`: the commit, where it is not what is checked out."""
-    return (f"*Written by `{command}`; do not edit. Measured at commit {at or commit()} on "
+    return (f"*Written by `{command}`; do not edit. Measured at commit {at or commit_at_start()} on "
             f"{datetime.date.today()}: {processor()}, kernels {kernel_set()}, {compiler(program)}.*\n")
 
 
@@ -161,23 +184,42 @@ def targets(given):
 # --- what tools share ---------------------------------------------------------------------------
 
 
+class PageParser(argparse.ArgumentParser):
+    """Keeps what is measured in a folder of the commit, or of the program, unless --work names another."""
+
+    def parse_args(self, *arguments):
+        options = super().parse_args(*arguments)
+        if getattr(options, "work", "") is None:
+            options.work = folder_of(options.program) / self.page
+        return options
+
+
 def page_parser(name, doc, keeps=True):
     """The command line of a tool that writes the page `name`. With `keeps`, what it measured stays in
-    --work, by default in a folder of its own for each commit."""
-    parser = argparse.ArgumentParser(description=doc.split("\n\n")[0])
+    --work."""
+    parser = PageParser(description=doc.split("\n\n")[0])
+    parser.page = name
+    commit_at_start()
     parser.add_argument("--program", default=str(PROGRAM))
     parser.add_argument("--out", type=pathlib.Path, default=FOLDER / f"{name}.md")
     if keeps:
-        parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run/measured" / commit() / name,
-                            help="goes on with what was measured there")
+        parser.add_argument("--work", type=pathlib.Path, help="goes on with what was measured there "
+                            "(default: a folder of this commit in run/measured/)")
     return parser
 
 
 def command_of(parser, options, target, *names):
-    """What makes a page of these options, of which `names` shrink it: its target, or the tool where one differs."""
-    if all(getattr(options, name) == parser.get_default(name) for name in names):
+    """What makes a page of these options, of which `names` change it: its target, or the tool with those that differ
+    from their defaults. A target with a variable, "laps TRACKS=folder", is of a tool that is given a folder."""
+    words = []
+    for name in names:
+        value = getattr(options, name)
+        if value != parser.get_default(name):
+            words += ["--" + name.replace("_", "-"), *(value if isinstance(value, list) else [value])]
+    if not words:
         return f"make {target}"
-    return f"tools/{parser.prog} " + " ".join(f"--{name} {getattr(options, name)}" for name in names)
+    folder = "benchmarks" if (ROOT / "benchmarks" / parser.prog).is_file() else "tools"
+    return " ".join(map(str, [f"{folder}/{parser.prog}", *(["FOLDER"] if "=" in target else []), *words]))
 
 
 def write(file, text):

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import measured  # noqa: E402
@@ -82,6 +83,12 @@ class Repository(unittest.TestCase):
         self.put("src/nlp/a.cpp", "3")
         self.assertIn("-dirty", measured.commit(self.root))
 
+    def test_a_source_that_git_does_not_know_yet_makes_the_tree_dirty(self):
+        self.put("notes.txt", "text\n")
+        self.assertNotIn("dirty", measured.commit(self.root))
+        self.put("include/slalom/nlp/new.hpp", "1")
+        self.assertIn("-dirty", measured.commit(self.root))
+
     def test_without_history_nothing_is_judged(self):
         self.commit("src/nlp/a.cpp", "2")
         self.assertIn(f"0 of {len(measured.PAGES)} pages", measured.check(self.root)[0])
@@ -105,6 +112,37 @@ class Stamp(unittest.TestCase):
         self.assertEqual(measured.command_of(parser, parser.parse_args([]), "some-target", "most"), "make some-target")
         self.assertEqual(measured.command_of(parser, parser.parse_args(["--most", "2"]), "some-target", "most"),
                          "tools/some_tool.py --most 2")
+
+    def test_what_differs_is_named_alone(self):
+        parser = argparse.ArgumentParser(prog="perturb.py")
+        parser.add_argument("--count", type=int, default=5)
+        parser.add_argument("--solve-limit", type=float, default=1)
+        parser.add_argument("--names", nargs="*")
+        options = parser.parse_args(["--names", "a", "b", "--solve-limit", "2"])
+        self.assertEqual(measured.command_of(parser, options, "commonroad FILES=folder", "count", "names", "solve_limit"),
+                         "benchmarks/perturb.py FOLDER --names a b --solve-limit 2.0")
+
+    def test_a_page_has_the_commit_that_its_measuring_began_with(self):
+        with unittest.mock.patch.object(measured, "commit", side_effect=["aaaaaaa", "bbbbbbb"]):
+            measured.commit_at_start.cache_clear()
+            self.addCleanup(measured.commit_at_start.cache_clear)
+            work = measured.page_parser("realtime", "Text.").parse_args([]).work
+            self.assertIn("at commit aaaaaaa on", measured.stamp("make realtime"))
+        self.assertEqual(work, measured.ROOT / "run/measured/aaaaaaa/realtime")
+
+    def test_programs_that_the_commit_does_not_tell_apart_have_folders_of_their_own(self):
+        def folder(commit, text):
+            program.write_text(text)
+            with (unittest.mock.patch.object(measured, "PROGRAM", built),
+                  unittest.mock.patch.object(measured, "commit_at_start", lambda: commit)):
+                return measured.page_parser("realtime", "Text.").parse_args(["--program", str(program)]).work
+        with tempfile.TemporaryDirectory() as scratch:
+            built = program = pathlib.Path(scratch) / "slalom"
+            self.assertEqual(folder("aaaaaaa", "one"), folder("aaaaaaa", "two"))
+            self.assertNotEqual(folder("aaaaaaa-dirty", "one"), folder("aaaaaaa-dirty", "two"))
+            self.assertEqual(folder("aaaaaaa-dirty", "one"), folder("aaaaaaa-dirty", "one"))
+            program = pathlib.Path(scratch) / "other"
+            self.assertNotEqual(folder("aaaaaaa", "one"), folder("aaaaaaa", "two"))
 
     def test_the_compiler_is_the_programs_own(self):
         with tempfile.NamedTemporaryFile(suffix=".o") as file:
