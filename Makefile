@@ -85,10 +85,10 @@ kills: ## sweeps, shards and merges killed at random moments and run on, into do
 	$(MAKE) --no-print-directory build
 	python3 tools/kills.py --program build/slalom
 
-results: ## the paper's drives into docs/measured/results.md, paper-index.md and figures/
+results: ## the paper's drives into docs/measured/results.md and figures/
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
-	python3 tools/paper_pages.py results paper-index
+	python3 tools/paper_pages.py results
 
 paper-sweep: ## the paper's sweep on both grids and with one thing changed, into docs/measured/paper-sweep.md (takes 20 minutes)
 	tools/setup.sh results
@@ -100,10 +100,10 @@ latency: ## what each latency rule does to the pass rate, into docs/measured/lat
 	$(MAKE) --no-print-directory build
 	python3 tools/latency.py --program build/slalom
 
-verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/measured/verdicts.md
+verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/measured/verdicts.md and paper-index.md
 	tools/setup.sh results
 	$(MAKE) --no-print-directory build
-	python3 tools/paper_pages.py verdicts
+	python3 tools/paper_pages.py verdicts paper-index
 
 long-solves: ## long cold plans beside CasADi with Ipopt, into docs/measured/long-solves.md (takes a quarter of an hour)
 	tools/setup.sh bench

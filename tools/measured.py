@@ -43,13 +43,13 @@ PAPER = ("src/paper", "config/paper")
 # In the order in which `make docs-measured` makes them: the shortest first.
 PAGES = (
     Page("results", "results", DRIVE + PAPER),
-    Page("paper-index", "results", DRIVE + PAPER),
     Page("realtime", "realtime", DRIVE),
     Page("obstacle-choice", "obstacle-choice", DRIVE),
     Page("model-choice", "model-choice", DRIVE),
     Page("latency", "latency", DRIVE + ("config/studies/latency.yaml",)),
     Page("robustness", "robustness", DRIVE),
     Page("verdicts", "verdicts", DRIVE + PAPER + ("config/studies",)),
+    Page("paper-index", "verdicts", DRIVE + PAPER + ("config/studies",)),
     Page("verified-planner", "verified-planner", DRIVE + modules("sweep")),
     Page("ablation", "ablation", DRIVE + modules("sweep")),
     Page("random-scenarios", "random-scenarios", DRIVE + modules("sweep")),
@@ -208,9 +208,10 @@ def page_parser(name, doc, keeps=True):
     return parser
 
 
-def command_of(parser, options, target, *names):
+def command_of(parser, options, target, *names, given=""):
     """What makes a page of these options, of which `names` change it: its target, or the tool with those that differ
-    from their defaults. A target with a variable, "laps TRACKS=folder", is of a tool that is given a folder."""
+    from their defaults, behind what is `given` to it without a name: a folder, for a target with a variable, such as
+    "laps TRACKS=folder"."""
     words = []
     for name in names:
         value = getattr(options, name)
@@ -218,8 +219,9 @@ def command_of(parser, options, target, *names):
             words += ["--" + name.replace("_", "-"), *(value if isinstance(value, list) else [value])]
     if not words:
         return f"make {target}"
+    given = given or ("FOLDER" if "=" in target else "")
     folder = "benchmarks" if (ROOT / "benchmarks" / parser.prog).is_file() else "tools"
-    return " ".join(map(str, [f"{folder}/{parser.prog}", *(["FOLDER"] if "=" in target else []), *words]))
+    return " ".join(map(str, [f"{folder}/{parser.prog}", *given.split(), *words]))
 
 
 def write(file, text):

@@ -119,8 +119,10 @@ class Stamp(unittest.TestCase):
         parser.add_argument("--solve-limit", type=float, default=1)
         parser.add_argument("--names", nargs="*")
         options = parser.parse_args(["--names", "a", "b", "--solve-limit", "2"])
-        self.assertEqual(measured.command_of(parser, options, "commonroad FILES=folder", "count", "names", "solve_limit"),
-                         "benchmarks/perturb.py FOLDER --names a b --solve-limit 2.0")
+        made_by = [measured.command_of(parser, options, target, "count", "names", "solve_limit", given=given)
+                   for target, given in (("laps TRACKS=folder", ""), ("verdicts", "verdicts"))]  # fmt: skip
+        self.assertEqual(made_by, ["benchmarks/perturb.py FOLDER --names a b --solve-limit 2.0",
+                                   "benchmarks/perturb.py verdicts --names a b --solve-limit 2.0"])  # fmt: skip
 
     def test_a_page_has_the_commit_that_its_measuring_began_with(self):
         with unittest.mock.patch.object(measured, "commit", side_effect=["aaaaaaa", "bbbbbbb"]):

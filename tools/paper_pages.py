@@ -2,23 +2,22 @@
 """Writes pages of docs/measured/ from what `slalom reproduce` evaluates: results, paper-index, verdicts and
 paper-sweep. Every number and verdict on them is the program's. Standard library only.
 
-    tools/paper_pages.py PAGE... [--program build/slalom] [--work run] [--repeats 9]
+    tools/paper_pages.py PAGE... [--program build/slalom] [--work FOLDER] [--repeats 9]
 
-Sweeps stand in --work and go on where they stopped: verdicts needs the paper's on both grids, paper-sweep also those
-with one thing changed; paper-index takes the one that is there.
+Sweeps stand in --work and go on where they stopped: verdicts and paper-index need the paper's on both grids,
+paper-sweep also those with one thing changed.
 """
 
-import argparse
+import fnmatch
 import json
 import pathlib
 import shutil
 import subprocess
 import tempfile
 
-from measured import stamp
+from measured import FOLDER, ROOT, command_of, page_parser, stamp, write
 from sweeps import ended, head, row, setting, swept
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
 GRIDS = {"paper": "study", "paper-printed": "printed"}  # study, its folder
 # One thing changed at a time, on the first grid: name, settings, words.
 VARIANTS = (
@@ -29,18 +28,11 @@ VARIANTS = (
     ("nodes-30", {"planner.N": 30}, "N 30 instead of 15"),
     ("range-130", {"planner.L_range": 130, "planner.N": 22}, "L_range 130 m instead of 90, N 22"),
 )
-# Pictures kept: the file in the reproduction's folder, its name in figures/, what it shows.
-FIGURES = (
-    ("figures/E_A-figure.svg", "E_A-figure.svg", "E_A-figure: P_A, P_B, P_C; rings are the paper's vehicles"),
-    ("figures/E_B.svg", "E_B.svg", "E_B: P_C and P_D"),
-    ("figures/E_C.svg", "E_C.svg", "E_C: P_C and P_D"),
-    ("figures/E_C_crash.svg", "E_C_crash.svg", "E_C: the crash of P_C; dashed, where its plan takes O2 to stand"),
-    ("figures/E_C_dynamics.svg", "E_C_dynamics.svg", "E_C: lateral speed, yaw rate, controls, least wheel load"),
-    ("figures/E_C-range-50_crash.svg", "E_C-range-50_crash.svg", "E_C seen 50 m ahead"),
-    ("figures/E_C-no-cones_path.svg", "E_C-no-cones_path.svg", "E_C without cones"),
-    ("figures/cases.svg", "cases.svg", "The cases of the paper's conceptual figure, driven; vehicles every 2 s"),
-    ("E_C/P_D/figures/path.svg", "E_C-P_D.svg", "E_C with P_D"),
-)
+# Of the reproduction's figures, those that are kept, as far as they are there: of a crash, if there is one.
+KEPT = ("E_A-figure.svg", "E_B.svg", "E_C.svg", "E_C_crash*.svg", "E_C_dynamics.svg", "E_C-range-50_crash*.svg",
+        "E_C-no-cones_path.svg", "cases.svg")
+# And of single drives: the file in the reproduction's folder, its name in figures/, what it shows.
+OF_DRIVES = (("E_C/P_D/figures/path.svg", "E_C-P_D.svg", "E_C with P_D"),)
 TERMS = ("steering_angle", "steering_rate", "jerk", "total")
 
 
@@ -98,11 +90,18 @@ def efforts(entries):
     return text
 
 
+def pictures(evaluation):
+    """The file in the reproduction's folder, its name in figures/ and what it shows, of each that is kept."""
+    captions = {one["file"]: one["caption"] for one in evaluation["figures"]}
+    named = [name for pattern in KEPT for name in sorted(fnmatch.filter(captions, pattern))]
+    return [(f"figures/{name}", name, captions[name]) for name in named] + list(OF_DRIVES)
+
+
 def results(evaluation, mark):
     cases = [(c["case"], c["specifications"], c["planner_words"], c["scenario"],
               c["says"] + (f" (than {c['faster_than']})" if c["faster_than"] else ""), c["ended"],
               "yes" if c["holds"] else "no") for c in evaluation["cases"]]
-    pictures = "".join(f"\n![{words}](figures/{name})\n\n*{words}*\n" for _, name, words in FIGURES)
+    shown = "".join(f"\n![{words}](figures/{name})\n\n*{words}*\n" for _, name, words in pictures(evaluation))
     return f"""# Results
 
 {mark}
@@ -137,7 +136,7 @@ dynamic vehicle model, S4 minimum control effort, S5 speed and steering together
 
 {table(["case", "has", "planner", "way", "the paper's text", "ours", "holds"], cases)}
 ## Pictures
-{pictures}
+{shown}
 ## Solve times
 
 Solve times depend on the machine; `cycles.csv` and the report of each drive have them beside tex,
@@ -271,7 +270,7 @@ in section 5 of [formulation.md](../formulation.md).
 # --- what the pages are made of -----------------------------------------------------------------
 
 PAGES = {"results": results, "paper-index": index, "verdicts": verdicts, "paper-sweep": paper_sweep}
-TARGETS = {"paper-index": "results"}  # where make's target has another name
+TARGETS = {"paper-index": "verdicts"}  # where make's target has another name
 
 
 def variant(program, work, name, settings):
@@ -285,9 +284,8 @@ def variant(program, work, name, settings):
 
 def sweeps_for(pages, program, work):
     """The folders of the sweeps that these pages need, the grids first."""
-    if not {"verdicts", "paper-sweep"} & set(pages):
-        there = work / GRIDS["paper"]
-        return [there] if (there / "trials.csv").is_file() else []
+    if set(pages) == {"results"}:
+        return []
     folders = []
     for study, folder in GRIDS.items():
         swept(program, study, work / folder)
@@ -308,24 +306,22 @@ def reproduce(program, pages, out, sweeps, repeats):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = page_parser("paper", __doc__)
     parser.add_argument("pages", nargs="+", choices=PAGES)
-    parser.add_argument("--program", default=str(ROOT / "build/slalom"))
-    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "run")
     parser.add_argument("--repeats", type=int, default=9)
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "docs/measured")
+    parser.set_defaults(out=FOLDER)  # a folder, for there are several pages
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch) / "paper"
         evaluation = reproduce(args.program, args.pages, folder, sweeps_for(args.pages, args.program, args.work), args.repeats)
-        args.out.mkdir(parents=True, exist_ok=True)
-        for page in args.pages:
-            text = PAGES[page](evaluation, stamp(f"make {TARGETS.get(page, page)}"))
-            (args.out / f"{page}.md").write_text(text)
         if "results" in args.pages:
-            (args.out / "figures").mkdir(exist_ok=True)
-            for source, name, _ in FIGURES:
+            (args.out / "figures").mkdir(parents=True, exist_ok=True)
+            for source, name, _ in pictures(evaluation):
                 shutil.copyfile(folder / source, args.out / "figures" / name)
+        for page in args.pages:
+            names = ["repeats"] if page == "verdicts" else []
+            command = command_of(parser, args, TARGETS.get(page, page), *names, given=page)
+            write(args.out / f"{page}.md", PAGES[page](evaluation, stamp(command, args.program)))
 
 
 if __name__ == "__main__":

@@ -2,15 +2,16 @@
 """The pages that paper_pages.py writes, from an evaluation made up for them: what stands on them is what the program
 says, and nothing else."""
 
+import json
 import pathlib
 import sys
-import types
+import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-if "measured" not in sys.modules:  # the stamp is not looked at here
-    sys.modules["measured"] = types.SimpleNamespace(stamp=lambda command: f"<!-- {command} -->\n")
 import paper_pages  # noqa: E402
+import stand_in  # noqa: E402
 
 SHOT = {"t_s": 2.1667, "x_m": 1.0, "y_m": 2.0, "tolerance_m": 2.5, "comparable": True,
         "ours": {"x_m": 1.5, "y_m": 2.0, "distance_m": 0.5, "within": True}}
@@ -50,6 +51,8 @@ EVALUATION = {
     "repeats": 9, "drives": [DRIVE, DRIVE | {"folder": "E_C-no-cones/P_C", "printed": None}],
     "effort": [{"environment": "E_A-figure", "weights": [0.1, 1, 0.01], "weighted": PAIR, "printed": PAIR, **PAIR}],
     "cases": [], "index": [{"of": "Fig. mo", "command": "a", "where": "b", "ours": "c", "printed": "d"}],
+    "figures": [{"file": file, "caption": f"what is in {file}"}
+                for file in ("E_B.svg", "E_B_traces.svg", "E_C.svg", "E_C_crash.svg", "E_C_crash_P_D.svg")],
     "claims": [claim("holds"), claim("holds in part")],
     "printed_counts": counts(22, 148, 1.3e-29),
     "sweeps": [sweep("the first", 1), sweep("the second", 2),
@@ -66,6 +69,13 @@ class Pages(unittest.TestCase):
             self.assertEqual(page.count(judged), 1, judged)
         self.assertIn("| total | 0.501 | 0.401 | -20.0 % | 0.501 | 0.401 | -20.0 % |", page)
         self.assertIn("| jerk | 0.5 | 0.5 | 0.0 % |", page)
+
+    def test_figures_are_those_that_are_there_with_the_programs_captions(self):
+        page = paper_pages.results(EVALUATION, "MARK")
+        for name in ("E_B", "E_C_crash", "E_C_crash_P_D"):
+            self.assertIn(f"![what is in {name}.svg](figures/{name}.svg)", page)
+        self.assertNotIn("traces", page)
+        self.assertNotIn("_crash", paper_pages.results(EVALUATION | {"figures": [], "drives": []}, "MARK"))
 
     def test_verdicts_are_counted_and_shown_as_they_are(self):
         page = paper_pages.verdicts(EVALUATION, "MARK")
@@ -88,6 +98,52 @@ class Pages(unittest.TestCase):
         for name, page in paper_pages.PAGES.items():
             self.assertIn("\n\nMARK\n", page(EVALUATION, "MARK"), name)
         self.assertIn("| Fig. mo | a | b | c | d |", paper_pages.index(EVALUATION, "MARK"))
+
+
+class Written(unittest.TestCase):
+    """By a stand-in for the program."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    def run_tool(self, *pages, **more):
+        evaluation = json.dumps(EVALUATION | more)
+        log = self.folder / "log"
+        stand_in.run(paper_pages.main, *pages, "--out", self.folder / "out", "--work", self.folder / "work",
+                     STAND_IN_EVALUATION=evaluation, STAND_IN_LOG=str(log))  # fmt: skip
+        return log.read_text()
+
+    def test_results_need_no_sweep_and_have_their_figures(self):
+        self.assertNotIn("sweep", self.run_tool("results"))
+        figures = self.folder / "out/figures"
+        self.assertEqual((figures / "E_C_crash.svg").read_text(), "what is in E_C_crash.svg")
+        self.assertEqual(sorted(file.name for file in (self.folder / "out").iterdir()), ["figures", "results.md"])
+
+    def test_a_drive_that_does_not_crash_has_no_figure_of_it(self):
+        self.run_tool("results", figures=[{"file": "E_C.svg", "caption": "all arrive"}])
+        self.assertIn("all arrive", (self.folder / "out/results.md").read_text())
+
+    def test_the_index_goes_on_with_sweeps_of_its_own(self):
+        log = self.run_tool("paper-index", "verdicts", "--repeats", "3")
+        for folder in ("study", "printed"):
+            self.assertIn(f"--out {self.folder}/work/{folder}", log)
+            self.assertIn(f"--sweep {self.folder}/work/{folder}", log)
+        self.assertIn("make verdicts", (self.folder / "out/paper-index.md").read_text())
+        self.assertIn("tools/paper_pages.py verdicts --repeats 3", (self.folder / "out/verdicts.md").read_text())
+
+    def test_sweeps_of_another_commit_are_not_gone_on_with(self):
+        with unittest.mock.patch.object(paper_pages, "swept") as swept:
+            folders = []
+            for commit in ("aaaaaaa", "bbbbbbb"):
+                with (unittest.mock.patch("measured.commit_at_start", lambda commit=commit: commit),
+                      unittest.mock.patch.object(paper_pages, "write")):
+                    stand_in.run(paper_pages.main, "paper-index", STAND_IN_EVALUATION=json.dumps(EVALUATION))
+                folders.append({call.args[2] for call in swept.call_args_list})
+                swept.reset_mock()
+        self.assertEqual(folders[0] & folders[1], set())
+        self.assertEqual(len(folders[0]), 2)
 
 
 if __name__ == "__main__":

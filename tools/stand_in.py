@@ -2,7 +2,7 @@
 """Stands in for the program in tests of tools that write pages: it makes empty scenarios, and every drive arrives but
 those that are said to crash. It reads studies as the tools write them, and no others. Where the environment has
 STAND_IN_LOG, each command goes there as a line; a trial whose values, joined by spaces, match STAND_IN_CRASHES (a
-regular expression) crashes into O2."""
+regular expression) crashes into O2; `reproduce` evaluates to what is in STAND_IN_EVALUATION."""
 
 import csv
 import itertools
@@ -16,6 +16,7 @@ MEASURES = {"outcome": "goal", "hit": "", "message": "reached the goal", "time_s
             "failed_cycles": 0, "new_plans": 20, "rests": 0, "least_bads": 0, "least_clearance_m": 0.5,
             "least_clearance_obstacle": "O2", "least_wheel_load_N": 1500, "median_cpu_time_s": 0.001,
             "p99_cpu_time_s": 0.002, "max_cpu_time_s": 0.003, "max_solve_time_s": 0.004}  # fmt: skip
+BUILT_IN = "scenario: E_C\nplanners: [P_C, P_D]\n"  # a study that is named and no file
 CRASH = {"outcome": "crash", "hit": "O2", "message": "hit O2 at 3 s at (6, 200), 20 m/s", "goal_time_s": ""}
 
 
@@ -50,7 +51,7 @@ def ended(cells):
 
 
 def sweep(study, out):
-    text = pathlib.Path(study).read_text()
+    text = pathlib.Path(study).read_text() if pathlib.Path(study).is_file() else BUILT_IN
     keys, values = zip(*axes(text)) if "axes:" in text else ((), ())
     planners = list_of(re.search(r"(?m)^planners: (.*)$", text)[1])
     out.mkdir(parents=True, exist_ok=True)
@@ -69,6 +70,17 @@ def simulate(arguments, out):
     (out / "plant.csv").write_text("t,x,y\n")
 
 
+def reproduce(out):
+    """The evaluation that is given, and the figures of which it speaks."""
+    (out / "figures").mkdir(parents=True)
+    (out / "E_C/P_D/figures").mkdir(parents=True)
+    (out / "E_C/P_D/figures/path.svg").touch()
+    text = os.environ["STAND_IN_EVALUATION"]
+    (out / "evaluation.json").write_text(text)
+    for figure in json.loads(text)["figures"]:
+        (out / "figures" / figure["file"]).write_text(figure["caption"])
+
+
 def make_scenarios(family, out, count):
     out.mkdir(parents=True, exist_ok=True)
     for index in range(1, count + 1):
@@ -85,22 +97,28 @@ def main(command, *arguments):
         sweep(arguments[0], out)
     elif command == "simulate":
         simulate(arguments, out)
+    elif command == "reproduce":
+        reproduce(out)
     elif command == "make-scenarios":
         make_scenarios(arguments[0], out, int(option["--count"]))
     else:
         raise SystemExit(f"{command}: the stand-in does not know this")
 
 
-def page_of(tool, folder, *arguments, **environment):
-    """What the main function of a tool writes that has this for a program, and `folder`/work for what it measures."""
+def run(tool, *arguments, **environment):
+    """Runs the main function of a tool, which has this for a program."""
     import unittest.mock  # here, for the stand-in itself starts often
 
-    page = folder / "page.md"
-    command = ["tool.py", "--program", __file__, "--work", folder / "work", "--out", page, *arguments]
+    command = [tool.__module__ + ".py", *arguments, "--program", __file__]
     with (unittest.mock.patch.object(sys, "argv", list(map(str, command))),
           unittest.mock.patch.dict(os.environ, environment)):
         tool()
-    return page.read_text()
+
+
+def page_of(tool, folder, *arguments, **environment):
+    """The page that a tool writes, with `folder`/work for what it measures."""
+    run(tool, "--work", folder / "work", "--out", folder / "page.md", *arguments, **environment)
+    return (folder / "page.md").read_text()
 
 
 if __name__ == "__main__":

@@ -170,6 +170,14 @@ Json index_json(const std::vector<IndexRow>& rows) {
   return list;
 }
 
+/// What each figure in figures/ shows.
+Json figures_json(const Reproduction& all) {
+  Json list = Json::array();
+  for (const auto& figure : reproduction_figures(all.drives, all.paper, all.cases))
+    list.push_back({{"file", figure.file}, {"caption", figure.caption}});
+  return list;
+}
+
 Json sweeps_json(const Reproduction& all, const report::PublishedSweep& published) {
   const auto claims = load_claims().sweep;
   Json list = Json::array();
@@ -209,6 +217,7 @@ std::string evaluation_json(const Reproduction& reproduction) {
                      {"effort", effort_json(reproduction)},
                      {"cases", cases_json(reproduction.cases)},
                      {"claims", claims_json(judge(load_claims().drives, evidence))},
+                     {"figures", figures_json(reproduction)},
                      {"index", index_json(paper_index(evidence))},
                      {"printed_counts", counts_json(published.counts)},
                      {"sweeps", sweeps_json(reproduction, published)}};

@@ -200,6 +200,10 @@ TEST(Evaluation, HasEveryTable) {
   EXPECT_EQ(json["sweeps"].size(), 0u);
   EXPECT_GT(json["claims"].size(), 10u);
   EXPECT_GT(json["index"].size(), 10u);
+  ASSERT_EQ(json["figures"].size(), 18u) << "four an environment, and two crashes";
+  EXPECT_EQ(json["figures"][12]["file"], "E_B_crash.svg");
+  EXPECT_NE(json["figures"][12]["caption"].get<std::string>().find("edge of O2"),
+            std::string::npos);
 }
 
 std::vector<ConceptCase> three_cases(double b_arrives, double c_arrives) {
