@@ -232,8 +232,7 @@ def main():
     files = []
     for difficulty in DIFFICULTIES:
         folder = options.work / "scenarios" / f"{difficulty:g}"
-        make_scenarios(options.program, folder, ALL_FAMILIES, count, SEED, difficulty)
-        files += [folder / f"{family}-{index:04}.yaml" for family in ALL_FAMILIES for index in range(1, count + 1)]
+        files += make_scenarios(options.program, folder, ALL_FAMILIES, count, SEED, difficulty)
     for name in ("variants", "drives"):
         (options.work / name).mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

@@ -270,8 +270,7 @@ def main():
     options = parser.parse_args()
     folder = options.work / "scenarios"
     count = math.ceil(options.drives / (len(ALL_FAMILIES) * len(LEVELS)))
-    make_scenarios(options.program, folder, ALL_FAMILIES, count, SEED, DIFFICULTY)
-    plain = [folder / f"{family}-{index:04}.yaml" for family in ALL_FAMILIES for index in range(1, count + 1)]
+    plain = make_scenarios(options.program, folder, ALL_FAMILIES, count, SEED, DIFFICULTY)
     trials, verified = {}, {}
     for level in LEVELS:
         trials[level], verified[level] = drive_level(options, level, plain)

@@ -26,33 +26,43 @@ def first_knowing(rows, place, reach, horizon):
     return None
 
 
-def from_there(scenario, row, moved):
-    """The text of a scenario whose start is a row's state, and whose obstacles have moved so far."""
+def obstacles_of(resolved):
+    """The numbers of each obstacle of a resolved scenario, by name."""
+    return {re.search(r'name: "([^"]*)"', line)[1]:
+            {key: float(value) for key, value in re.findall(r"(\w+): ([-+.\d][-+.\deE]*)", line)}
+            for line in resolved.splitlines() if line.startswith("  - {")}  # fmt: skip
+
+
+def place(obstacle, t):
+    """Where an obstacle is at a time."""
+    return obstacle["x"] + obstacle["vx"] * t, obstacle["y"] + obstacle["vy"] * t
+
+
+def from_there(scenario, row, obstacles):
+    """The text of a scenario whose start is a row's state, with these obstacles where they are by then."""
+    def line(name, numbers):
+        x, y = place(numbers, float(row["t"]))
+        return f'  - {{name: "{name}", ' + ", ".join(f"{k}: {v!r}" for k, v in (numbers | {"x": x, "y": y}).items()) + "}\n"
     state = ", ".join(f"{key}: {row[key]}" for key in STATE)
+    lines = "".join(line(name, numbers) for name, numbers in obstacles.items())
     text = re.sub(r"(?m)^start: .*$", f"start: {{{state}}}", scenario)
-    for name, (x, y) in moved.items():
-        text = re.sub(rf"(?m)^(  - \{{name: {name}), x: [^,]+, y: [^,]+,", rf"\1, x: {x!r}, y: {y!r},", text)
-    return text
+    return re.sub(r"(?m)^obstacles:\n(  - .*\n)+", lambda _: "obstacles:\n" + lines, text)
 
 
-def saved(program, scenario, settings, obstacle, offline):
-    """Drives `scenario` (a file) again with settings, and from the first plan that knows of `obstacle` (name, place at 0,
-    velocity, radius) once more with all known and the offline settings: the moment and that drive's outcome. None where
-    that drive ends before such a plan begins."""
-    name, at, velocity, radius = obstacle
-
-    def place(t):
-        return at[0] + velocity[0] * t, at[1] + velocity[1] * t
-
+def saved(program, scenario, settings, hit, offline):
+    """Drives `scenario` (a file) again with settings, and from the first plan that knows of the obstacle `hit` once more
+    with all known and the offline settings: the moment and that drive's outcome. None where that drive ends before such
+    a plan begins."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         drive(program, scenario, "P_E", settings, folder / "drive")
-        reach = float(settings["planner.L_range"]) + radius
-        row = first_knowing(rows_of(folder / "drive/plant.csv"), place, reach, float(settings["loop.tex"]))
+        obstacles = obstacles_of((folder / "drive/resolved.yaml").read_text())
+        own = obstacles[hit]
+        reach = float(settings["planner.L_range"]) + max(own["a"], own["b"])
+        row = first_knowing(rows_of(folder / "drive/plant.csv"), lambda t: place(own, t), reach, float(settings["loop.tex"]))
         if row is None:
             return None
         file = folder / "from-there.yaml"
-        file.write_text(from_there(pathlib.Path(scenario).read_text(), row, {name: place(float(row["t"]))}))
-        keep = {key: value for key, value in settings.items() if key.startswith("obstacles.")}
-        summary, _ = driven(program, file, "P_E", keep | offline)
+        file.write_text(from_there(pathlib.Path(scenario).read_text(), row, obstacles))
+        summary, _ = driven(program, file, "P_E", offline)
         return float(row["t"]), summary["outcome"]

@@ -2,7 +2,7 @@
 """Drives P_E whole and with one part of it left out through the paper's sweep and random scenarios, and writes
 what each part does to docs/measured/ablation.md. Standard library only.
 
-    tools/planner_ablation.py [--program build/slalom] [--points 10] [--count 20]
+    tools/planner_ablation.py [--program build/slalom] [--points 10] [--count 20] [--jobs 2]
 """
 
 import statistics
@@ -29,7 +29,7 @@ HEAD = """# What each part of P_E does
 {stamp}
 [P_E](../verified-planner.md) whole, and with one part left out at a time by a setting of the planner
 ([scenario-reference.md](../scenario-reference.md)). All drive with `loop.deadline: tex` and
-`loop.latency: measured`.
+`loop.latency: measured`. Drives at a time: {jobs}.
 
 """
 
@@ -78,7 +78,7 @@ def by_family(variants):
 
 
 def page(swept, drawn, options, stamped):
-    return (HEAD.format(stamp=stamped)
+    return (HEAD.format(stamp=stamped, jobs=options.jobs)
             + "## The paper's sweep\n\n"
             f"E_C, {options.points} execution horizons of .01 to 1 s, O2 coming at {options.points} speeds of up to "
             "40 m/s.\n\n" + table(swept)
@@ -91,15 +91,16 @@ def main():
     parser = page_parser("ablation", __doc__)
     parser.add_argument("--points", type=int, default=10, help="on each axis of the sweep")
     parser.add_argument("--count", type=int, default=20, help="scenarios of each family")
+    parser.add_argument("--jobs", type=int, default=2, help="drives at a time")
     options = parser.parse_args()
     folder = options.work / "scenarios"
-    make_scenarios(options.program, folder, FAMILIES + TIMED_FAMILIES, options.count, SEED, DIFFICULTY)
+    files = make_scenarios(options.program, folder, FAMILIES + TIMED_FAMILIES, options.count, SEED, DIFFICULTY)
     swept, drawn = {}, {}
     for number_of, (name, settings) in enumerate(VARIANTS.items()):
         settings = {**REAL_TIME, **settings}
         swept[name] = paper_sweep(options, f"sweep-{number_of}", "P_E", settings)
-        drawn[name] = random_sweep(options, f"random-{number_of}", folder, "P_E", settings)
-    stamped = stamp(command_of(parser, options, "ablation", "points", "count"), options.program)
+        drawn[name] = random_sweep(options, f"random-{number_of}", files, "P_E", settings)
+    stamped = stamp(command_of(parser, options, "ablation", "points", "count", "jobs"), options.program)
     write(options.out, page(swept, drawn, options, stamped))
 
 

@@ -43,7 +43,7 @@ class Ablation(unittest.TestCase):
         self.assertIn("| 4 | 80 | 0 | – | 3 | 0 | 0.25 |", self.row_of("no fallback", table(self.variants)))
 
     def test_the_page_counts_by_family(self):
-        text = page(self.variants, self.variants, argparse.Namespace(points=2, count=4), "A stamp.\n")
+        text = page(self.variants, self.variants, argparse.Namespace(points=2, count=4, jobs=2), "A stamp.\n")
         self.assertIn("| gates |" + " 3/4 |" * len(VARIANTS), text)
         self.assertIn("A stamp.", text)
 

@@ -10,7 +10,7 @@ import collections
 import itertools
 import subprocess
 
-from measured import page_parser, stamp, write
+from measured import command_of, page_parser, stamp, write
 from sweeps import head, interval, mcnemar, row, setting, swept
 
 PLANNERS = ("P_A", "P_B", "P_C", "P_D")
@@ -36,18 +36,20 @@ of its LiDAR as far as its plan reaches them.
 """
 
 def make_scenarios(program, folder, families, count, seed, difficulty):
-    """`count` scenarios of each family."""
+    """The files of `count` scenarios of each family; what else is in the folder, of a larger count, is none of them."""
     for family in families:
         subprocess.run([program, "make-scenarios", family, "--quiet", "--force", "--out", folder, "--count",
                         str(count), "--seed", str(seed), "--difficulty", str(difficulty)], check=True)
+    return [folder / f"{family}-{index:04}.yaml" for family in families for index in range(1, count + 1)]
 
 
-def sweep(program, work, name, scenarios, planners, settings):
+def sweep(program, work, name, files, planners, settings, *arguments):
     """Runs or completes a sweep; its trials by scenario and planner."""
     study = work / f"{name}.yaml"
-    study.write_text(f"title: random scenarios, {name}\nscenarios: [{scenarios.resolve()}/*.yaml]\n"
+    listed = "".join(f"  - {file.resolve()}\n" for file in sorted(files))
+    study.write_text(f"title: random scenarios, {name}\nscenarios:\n{listed}"
                      f"planners: [{', '.join(planners)}]\nset: {setting(settings)}\n")
-    return {(t["scenario"], t["planner"]): t for t in swept(program, study, work / name)}
+    return {(t["scenario"], t["planner"]): t for t in swept(program, study, work / name, *arguments)}
 
 
 def of_family(family, scenarios):
@@ -114,17 +116,17 @@ def main():
     parser.add_argument("--difficulty", type=float, default=0.5)
     options = parser.parse_args()
     folder = options.work / "scenarios"
-    make_scenarios(options.program, folder, FAMILIES, options.count, options.seed, options.difficulty)
-    scenarios = sorted(path.stem for path in folder.glob("*.yaml"))
-    trials = sweep(options.program, options.work, "planners", folder, PLANNERS, {})
+    files = make_scenarios(options.program, folder, FAMILIES, options.count, options.seed, options.difficulty)
+    scenarios = sorted(file.stem for file in files)
+    trials = sweep(options.program, options.work, "planners", files, PLANNERS, {})
     planners = {p: {s: trials[s, p]["outcome"] for s in scenarios} for p in PLANNERS}
     variants = {"P_D": planners["P_D"]}
     for number, (name, settings) in enumerate(VARIANTS.items()):
         if settings:
-            trials = sweep(options.program, options.work, f"variant-{number}", folder, ["P_D"], settings)
+            trials = sweep(options.program, options.work, f"variant-{number}", files, ["P_D"], settings)
             variants[name] = {s: trials[s, "P_D"]["outcome"] for s in scenarios}
-    stamped = stamp("make random-scenarios", options.program)
-    write(options.out, page(planners, variants, scenarios, options, stamped))
+    command = command_of(parser, options, "random-scenarios", "count", "seed", "difficulty")
+    write(options.out, page(planners, variants, scenarios, options, stamp(command, options.program)))
 
 
 if __name__ == "__main__":
