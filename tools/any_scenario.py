@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Drives random valid scenarios, of all families, at any place, heading, speed and difficulty and with options drawn at
-random, and writes to docs/measured/any-scenario.md how they end and what is at fault: exceptions, messages that
-name no cause, and plans through an obstacle that do not say so. Standard library only.
+random, and writes to docs/measured/any-scenario.md how they end and what is at fault: ends without a drive, messages
+that name no cause, and plans through an obstacle that do not say so. Standard library only.
 
-    tools/any_scenario.py [--program build/slalom] [--drives 2000]
+    tools/any_scenario.py [--program build/slalom] [--drives 2000] [--jobs 2]
 """
 
 import collections
@@ -14,6 +14,7 @@ import os
 import random
 import re
 import subprocess
+from typing import NamedTuple
 
 from measured import command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios
@@ -51,9 +52,31 @@ HEAD = """# Any scenario
 {stamp}
 Scenarios of {families} families at difficulties {difficulties}, each turned by quarters and whole turns, moved by up to
 10 000 km, started at 0 to 28 m/s and driven by one of P_A to P_E with about {changed} of {options} other settings drawn at
-random (seed {seed}), for 15 s at the most. All are valid: `slalom check` takes them.
+random (seed {seed}), for 15 s at the most. Of {count}, {refused} are refused before they are driven, with a message that names
+the item, its value and the rule; the others are driven.
 
 """
+
+# What is at fault, by kind: of which drives it is judged, and what it is.
+NO_DRIVE, NO_CAUSE, UNREPORTED = "no drive", "no cause", "unreported"
+KINDS = {
+    NO_DRIVE: ("all that are not refused", f"no end within {LONGEST} s, or an end with an error and without a drive"),
+    NO_CAUSE: ("drives that end as `not_optimal`", "the message does not say what was in the way of a plan"),
+    UNREPORTED: ("drives with solved plans by P_A to P_D, with hard rows for obstacles and a model other than the kinematic one",
+                 "a plan that counts as solved is deeper in an obstacle's margin, between its nodes, than `planner.passage_depth`"
+                 f" and {TOLERANCE:g} m more"),
+}
+
+
+class Drive(NamedTuple):
+    name: str
+    planner: str
+    settings: dict
+    outcome: str
+    judged: dict  # what is at fault, or nothing, for each kind that it is judged by
+
+    def faults(self):
+        return [fault for fault in self.judged.values() if fault]
 
 
 # --- the scenarios ------------------------------------------------------------------------------
@@ -116,7 +139,7 @@ def drawn(file):
 
 
 def drive(options, file):
-    """How one variant ends: (name, planner, settings, outcome, faults)."""
+    """How one variant ends."""
     text, planner, settings = drawn(file)
     name = f"{file.parent.name}-{file.stem}"
     scenario, out = options.work / "variants" / f"{name}.yaml", options.work / "drives" / name
@@ -127,36 +150,40 @@ def drive(options, file):
     try:
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=LONGEST, check=False)
     except subprocess.TimeoutExpired:
-        return name, planner, settings, "hangs", [f"not done after {LONGEST} s"]
+        return Drive(name, planner, settings, "hangs", {NO_DRIVE: f"not done after {LONGEST} s"})
     if done.returncode != 0:
-        return name, planner, settings, f"exit code {done.returncode}", refused(done)
+        return Drive(name, planner, settings, *without_a_drive(done))
     summary = json.loads((out / "summary.json").read_text())
-    faults = unexplained(summary) + unreported(out, text, planner, settings)
+    judged = {NO_DRIVE: ""} | unexplained(summary) | unreported(out, planner, settings)
     for path in out.glob("*"):  # but for what a fault is looked at by
-        if not faults and path.is_file():
+        if not any(judged.values()) and path.is_file():
             path.unlink()
-    return name, planner, settings, summary["outcome"], faults
+    return Drive(name, planner, settings, summary["outcome"], judged)
 
 
-def refused(done):
-    """A start that cannot be is refused, as it is to be; all else that ends without a drive is a fault."""
+def without_a_drive(done):
+    """Outcome and judgement of a program that ended with an error: a scenario that cannot be is refused, as it is to
+    be."""
     line = done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "no message"
-    return [] if done.returncode == 2 and ", expected " in line else [line]
+    if done.returncode == 2 and ", expected " in line:
+        return "refused", {}
+    return f"exit code {done.returncode}", {NO_DRIVE: line}
 
 
 def unexplained(summary):
     """A drive for which no plan was left says what was in the way."""
     message = summary["message"]
+    if summary["outcome"] != "not_optimal":
+        return {}
     causes = ("; ", "no usable plan was left: ", "passes_through: ")
-    if summary["outcome"] != "not_optimal" or any(cause in message for cause in causes):
-        return []
-    return ["names no cause: " + message]
+    return {NO_CAUSE: "" if any(cause in message for cause in causes) else "names no cause: " + message}
 
 
-def unreported(out, text, planner, settings):
+def unreported(out, planner, settings):
     """Plans that are called solved and go through an obstacle between their nodes."""
-    if planner == "P_E" or settings.get("planner.obstacle_constraint") == "soft":
-        return []
+    if (planner == "P_E" or settings.get("planner.obstacle_constraint") == "soft"
+            or settings.get("planner.model") == "kinematic"):
+        return {}
     resolved = (out / "resolved.yaml").read_text()
     value = lambda key: float(re.search(rf"(?m)^  {key}: ([-+.\deE]+)$", resolved).group(1))  # noqa: E731
     kept = min(value("sm_start"), value("sm_end")) - value("passage_depth") - TOLERANCE
@@ -167,16 +194,14 @@ def unreported(out, text, planner, settings):
     cycles = {c["cycle"]: c for c in rows_of(out / "cycles.csv")}
     plans = collections.defaultdict(list)
     for node in rows_of(out / "plans.csv"):
-        plans[node["cycle"]].append({k: float(v) for k, v in node.items()})
-    faults = []
+        if cycles[node["cycle"]]["status"] == "solved":
+            plans[node["cycle"]].append({k: float(v) for k, v in node.items()})
     for index, nodes in plans.items():
-        if cycles[index]["status"] != "solved" or settings.get("planner.model") == "kinematic":
-            continue
         least = min((depth(nodes, o, float(cycles[index]["t0"]) if held else None, la) for o in obstacles),
                     default=math.inf)
         if least < kept:
-            faults.append(f"cycle {index}: solved, and {least:.2f} m from an obstacle's edge between nodes")
-    return faults[:1]
+            return {UNREPORTED: f"cycle {index}: solved, and {least:.2f} m from an obstacle's edge between nodes"}
+    return {UNREPORTED: ""} if plans else {}
 
 
 def depth(nodes, o, held, la):
@@ -206,20 +231,26 @@ def velocity(node, la):
 # --- the page ------------------------------------------------------------------------------------
 
 
-def page(results, stamped):
+def page(drives, stamped):
     text = HEAD.format(stamp=stamped, families=len(ALL_FAMILIES), difficulties=", ".join(map(str, DIFFICULTIES)),
-                       changed=CHANGED, options=len(OPTIONS), seed=SEED)
-    outcomes = sorted({r[3] for r in results})
+                       changed=CHANGED, options=len(OPTIONS), seed=SEED, count=len(drives),
+                       refused=sum(d.outcome == "refused" for d in drives))
+    outcomes = sorted({d.outcome for d in drives})
     text += head(["planner", "drives", *outcomes, "at fault"])
-    for planner in sorted({r[1] for r in results}):
-        own = [r for r in results if r[1] == planner]
-        text += row([planner, len(own), *(sum(r[3] == o for r in own) for o in outcomes), sum(bool(r[4]) for r in own)])
-    bad = [r for r in results if r[4]]
-    text += ("\nAt fault: {} of {} (95 %: {:.4f} to {:.4f}).\n".format(len(bad), len(results),
-                                                                       *interval(len(bad), len(results))))
-    for name, planner, settings, outcome, faults in bad:
-        changed = ", ".join(f"{k}={v}" for k, v in settings.items())
-        text += f"\n- {name}, {planner}, {outcome}: {'; '.join(faults)} ({changed})"
+    for planner in sorted({d.planner for d in drives}):
+        own = [d for d in drives if d.planner == planner]
+        text += row([planner, len(own), *(sum(d.outcome == o for d in own) for o in outcomes), sum(bool(d.faults()) for d in own)])
+    text += "\nAt fault, each kind of those that can be judged by it:\n\n"
+    text += head(["kind", "what", "judged", "at fault", "of", "95 %"])
+    for kind, (of, what) in KINDS.items():
+        own = [d for d in drives if kind in d.judged]
+        bad = sum(bool(d.judged[kind]) for d in own)
+        share = "{:.4f}–{:.4f}".format(*interval(bad, len(own))) if own else "–"
+        text += row([kind, what, of, bad, len(own), share])
+    bad = [d for d in drives if d.faults()]
+    for d in bad:
+        changed = ", ".join(f"{k}={v}" for k, v in d.settings.items())
+        text += f"\n- {d.name}, {d.planner}, {d.outcome}: {'; '.join(d.faults())} ({changed})"
     return text + ("\n" if bad else "")
 
 
@@ -237,7 +268,7 @@ def main():
         (options.work / name).mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         results = list(pool.map(lambda file: drive(options, file), files))
-    write(options.out, page(results, stamp(command_of(parser, options, "any-scenario", "drives"), options.program)))
+    write(options.out, page(results, stamp(command_of(parser, options, "any-scenario", "drives", "jobs"), options.program)))
 
 
 if __name__ == "__main__":

@@ -5,10 +5,12 @@ import math
 import pathlib
 import re
 import sys
+import types
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from any_scenario import depth, moved, page, unexplained  # noqa: E402
+from any_scenario import (  # noqa: E402
+    NO_CAUSE, NO_DRIVE, UNREPORTED, Drive, depth, moved, page, unexplained, unreported, without_a_drive)  # fmt: skip
 
 TEXT = """name: "made"
 start: {x: 0, y: 10, v: 0, r: 0, psi: 1.5, sa: 0, ux: 17, ax: 0}
@@ -55,16 +57,37 @@ class Faults(unittest.TestCase):
         self.assertAlmostEqual(depth(nodes[:1], o, None, 1.5), math.inf)
 
     def test_a_drive_without_a_plan_says_why(self):
-        def ended(message):
-            return unexplained({"outcome": "not_optimal", "message": message})
-        self.assertEqual(ended("the NLP of cycle 2 was not solved: infeasible; O1 in the way: node 3"), [])
-        self.assertEqual(len(ended("the NLP of cycle 2 was not solved: infeasible")), 1)
+        def ended(message, outcome="not_optimal"):
+            return unexplained({"outcome": outcome, "message": message})
+        self.assertEqual(ended("the NLP of cycle 2 was not solved: infeasible; O1 in the way: node 3"), {NO_CAUSE: ""})
+        self.assertIn("names no cause", ended("the NLP of cycle 2 was not solved: infeasible")[NO_CAUSE])
+        self.assertEqual(ended("reached the goal", "goal"), {})
 
-    def test_the_page_counts_and_names_them(self):
-        text = page([("0-gates-0001", "P_A", {}, "goal", []), ("0-gates-0002", "P_A", {"loop.tex": 1}, "hangs", ["late"])],
-                    "A stamp.\n")
-        self.assertIn("| P_A | 2 | 1 | 1 | 1 |", text)
+    def test_a_refusal_is_counted_and_no_fault_while_other_errors_are(self):
+        def ended(code, message):
+            return without_a_drive(types.SimpleNamespace(returncode=code, stderr=message))
+        self.assertEqual(ended(2, "x.yaml:2:1: start.ux: found -1, expected at least 0\n"), ("refused", {}))
+        self.assertEqual(ended(2, "terminate called\n"), ("exit code 2", {NO_DRIVE: "terminate called"}))
+        self.assertEqual(ended(-11, ""), ("exit code -11", {NO_DRIVE: "no message"}))
+
+    def test_each_kind_of_fault_is_counted_of_those_that_it_is_judged_of(self):
+        text = page([Drive("0-gates-0001", "P_A", {}, "goal", {NO_DRIVE: "", UNREPORTED: ""}),
+                     Drive("0-gates-0002", "P_A", {"loop.tex": 1}, "hangs", {NO_DRIVE: "late"}),
+                     Drive("0-gates-0003", "P_A", {}, "refused", {}),
+                     Drive("0-gates-0004", "P_E", {}, "not_optimal", {NO_DRIVE: "", NO_CAUSE: ""})], "A stamp.\n")  # fmt: skip
+        self.assertIn("Of 4, 1 are refused", text)
+        self.assertIn("| planner | drives | goal | hangs | not_optimal | refused | at fault |", text)
+        self.assertIn("| P_A | 3 | 1 | 1 | 0 | 1 | 1 |", text)
+        counts = {kind: re.search(rf"(?m)^\| {kind} \|.*\| (\d+ \| \d+) \| [^|]+\|$", text)[1]
+                  for kind in (NO_DRIVE, NO_CAUSE, UNREPORTED)}
+        self.assertEqual(counts, {NO_DRIVE: "1 | 3", NO_CAUSE: "0 | 1", UNREPORTED: "0 | 1"})
         self.assertIn("- 0-gates-0002, P_A, hangs: late (loop.tex=1)", text)
+        self.assertNotIn("check` takes them", text)
+
+    def test_plans_that_are_not_looked_at_are_not_counted(self):
+        for planner, settings in (("P_E", {}), ("P_D", {"planner.model": "kinematic"}),
+                                  ("P_D", {"planner.obstacle_constraint": "soft"})):
+            self.assertEqual(unreported(pathlib.Path("/nowhere"), planner, settings), {})
 
 
 if __name__ == "__main__":
