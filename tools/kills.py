@@ -7,6 +7,7 @@ is lost, doubled, or recorded as failed; into docs/measured/kills.md. Standard l
 
 import collections
 import contextlib
+import math
 import os
 import pathlib
 import random
@@ -18,7 +19,7 @@ import tempfile
 import time
 
 from measured import command_of, page_parser, stamp, write
-from sweeps import trials
+from sweeps import head, row, trials
 
 SEED = 1
 TRIALS = 40
@@ -52,11 +53,10 @@ class Bench:
         self.program, self.folder = str(pathlib.Path(program).resolve()), folder
         (folder / "scenario.yaml").write_text(SCENARIO)
         self.tables = {}
+        self.kind, self.takes_s, self.struck = "", {}, collections.Counter()  # by kind: undisturbed, and how often
         for name, first in (("study", 10), ("other", 11.5)):
             (folder / f"{name}.yaml").write_text(STUDY.format(title=name, first=first))
-            begin = time.monotonic()
             self.finish("alone-" + name, name)
-            self.takes_s = time.monotonic() - begin
             self.tables[name] = table(folder / ("alone-" + name))
 
     def start(self, *arguments):
@@ -83,8 +83,8 @@ class Bench:
         if found != self.tables[study]:
             failed = sum(row["outcome"] == "failed" for row in found)
             raise Fault(f"the table differs: {len(found)} of {TRIALS} trials, {failed} failed")
-        now = {row[0]: row for row in recorded(self.folder / out)}
-        if changed := [row[0] for row in kept if now.get(row[0]) != row]:
+        now = {trial[0]: trial for trial in recorded(self.folder / out)}
+        if changed := [trial[0] for trial in kept if now.get(trial[0]) != trial]:
             raise Fault(f"{len(changed)} recorded trials were run again")
 
 
@@ -103,34 +103,59 @@ def recorded(folder):
     return rows
 
 
+def runs(number):
+    """Whether a process runs: one that has ended stands in the list of its parent until that looks."""
+    try:
+        return pathlib.Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
 def workers_of(process):
-    """Numbers of its child processes."""
+    """Numbers of its child processes that run."""
     listing = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
-    return [int(number) for number in listing.read_text().split()] if listing.exists() else []
+    return [number for number in map(int, listing.read_text().split()) if runs(number)] if listing.exists() else []
 
 
-def after_a_while(draw, bench, process, strike):
-    """Strikes at a random moment of an undisturbed run's time, and waits for the end."""
-    moment = draw.random() ** 2 * bench.takes_s  # more often early, where stores are made
-    with contextlib.suppress(subprocess.TimeoutExpired):
-        process.wait(moment)
-    if process.poll() is None:
-        with contextlib.suppress(ProcessLookupError):
-            strike()
+def ended(process):
+    """Waits for its end, which is one of those that are documented."""
     message = process.communicate()[1].decode()
     if process.returncode not in ENDS:
         raise Fault(f"ended with {process.returncode}: {message.strip()}")
 
 
+def struck(draw, bench, processes, strike):
+    """Strikes one of the processes at a random moment of the time that this kind takes undisturbed, which its first run
+    shows, and waits for the end of all. The process that was struck; None where none ran any more."""
+    begin, found = time.monotonic(), None
+    moment = draw.random() ** 2 * bench.takes_s.get(bench.kind, math.inf)  # more often early, where stores are made
+    for process in processes:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(max(begin + moment - time.monotonic(), 0) if math.isfinite(moment) else None)
+    bench.takes_s.setdefault(bench.kind, time.monotonic() - begin)
+    running = [process for process in processes if process.poll() is None]
+    with contextlib.suppress(ProcessLookupError):
+        target = draw.choice(running) if running else None
+        if target and strike(target) is not False:
+            bench.struck[bench.kind] += 1
+            found = target
+    for process in processes:
+        ended(process)
+    return found
+
+
 # --- what is killed -------------------------------------------------------------------------------
+
+
+def kill(process):
+    process.kill()
 
 
 def one_sweep(strike):
     """Kills one sweep by strike(draw, process), and goes on."""
 
     def kind(draw, bench, out):
-        process = bench.sweep(out)
-        after_a_while(draw, bench, process, lambda: strike(draw, process))
+        struck(draw, bench, [bench.sweep(out)], lambda process: strike(draw, process))
         kept = recorded(bench.folder / out)
         bench.finish(out)
         bench.judge(out, kept)
@@ -139,15 +164,15 @@ def one_sweep(strike):
 
 
 def kill_workers(draw, process):
-    for number in workers_of(process)[: draw.choice((1, 2))]:
+    workers = workers_of(process)[: draw.choice((1, 2))]
+    for number in workers:
         os.kill(number, draw.choice((signal.SIGKILL, signal.SIGTERM)))
+    return bool(workers)
 
 
 def shard(draw, bench, out):
     """One of two at work in one folder."""
-    both = [bench.sweep(out, "study", "--shard", f"{k}/2") for k in (1, 2)]
-    after_a_while(draw, bench, both[0], both[0].kill)
-    after_a_while(draw, bench, both[1], lambda: None)
+    struck(draw, bench, [bench.sweep(out, "study", "--shard", f"{k}/2") for k in (1, 2)], kill)
     kept = recorded(bench.folder / out)
     for k in (1, 2):
         bench.finish(out, "study", "--shard", f"{k}/2")
@@ -157,8 +182,7 @@ def shard(draw, bench, out):
 def replacement(draw, bench, out):
     """--force over another study."""
     shutil.copytree(bench.folder / "alone-other", bench.folder / out)
-    process = bench.sweep(out, "study", "--force")
-    after_a_while(draw, bench, process, process.kill)
+    struck(draw, bench, [bench.sweep(out, "study", "--force")], kill)
     rows, study = recorded(bench.folder / out), "study"
     if {row[1] for row in rows} <= {row[1] for row in recorded(bench.folder / "alone-other")} and len(rows) == TRIALS:
         study = "other"  # before anything was replaced: the old results stand
@@ -167,10 +191,9 @@ def replacement(draw, bench, out):
 
 
 def merge(draw, bench, out):
-    process = bench.start("merge", "half-1", "half-2", "--out", out)
-    after_a_while(draw, bench, process, process.kill)
+    struck(draw, bench, [bench.start("merge", "half-1", "half-2", "--out", out)], kill)
     process = bench.start("merge", "half-1", "half-2", "--out", out, "--force")
-    after_a_while(draw, bench, process, lambda: None)
+    ended(process)
     if process.returncode != 0:
         raise Fault(f"merging again ended with {process.returncode}")
     bench.judge(out, recorded(bench.folder / "half-1") + recorded(bench.folder / "half-2"))
@@ -179,22 +202,20 @@ def merge(draw, bench, out):
 def two_studies(draw, bench, out):
     """Two studies into one folder at once, one of them killed: one has it, or neither yet."""
     both = {name: bench.sweep(out, name) for name in ("study", "other")}
-    killed = draw.choice(list(both))
-    after_a_while(draw, bench, both[killed], both[killed].kill)
-    left = next(name for name in both if name != killed)
-    after_a_while(draw, bench, both[left], lambda: None)
-    if both[killed].returncode == both[left].returncode == 0:
+    killed = struck(draw, bench, list(both.values()), kill)
+    if all(process.returncode == 0 for process in both.values()):
         raise Fault("both were taken")
+    left, other = sorted(both, key=lambda name: both[name] is killed)
     kept = recorded(bench.folder / out)
     of_left = {row[1] for row in recorded(bench.folder / f"alone-{left}")}
-    owner = left if not kept or kept[0][1] in of_left else killed
+    owner = left if not kept or kept[0][1] in of_left else other
     # Of a store killed before its first trial nobody can see from outside whose it is.
     bench.finish(out, owner, *(() if kept else ("--force",)))
     bench.judge(out, kept, owner)
 
 
 KINDS = {
-    "the supervisor": one_sweep(lambda _, process: process.kill()),
+    "the supervisor": one_sweep(lambda _, process: kill(process)),
     "workers": one_sweep(kill_workers),
     "the process group, by SIGTERM": one_sweep(lambda _, process: os.killpg(process.pid, signal.SIGTERM)),
     "one of two shards": shard,
@@ -205,42 +226,45 @@ KINDS = {
 
 
 def run_all(program, kills, folder):
-    """Kind -> Counter of ends, and all faults as sentences."""
+    """The bench, which has counted the strikes; kind -> Counter of clean runs; and all faults as sentences. The first run
+    of each kind is undisturbed, and counts for its time and faults alone."""
     bench = Bench(program, folder)
     for k in (1, 2):
         bench.finish(f"half-{k}", "study", "--shard", f"{k}/2")
-    draw, faults, done = random.Random(SEED), [], collections.Counter()
-    for number in range(kills):
-        for name, kind in KINDS.items():
+    draw, faults, clean = random.Random(SEED), [], collections.Counter()
+    for number in range(kills + 1):
+        for bench.kind, kind in KINDS.items():
             out = f"out-{number}"
             try:
                 kind(draw, bench, out)
-                done[name] += 1
+                clean[bench.kind] += number > 0
             except Fault as fault:
-                faults.append(f"{name}, number {number}: {fault}")
+                faults.append(f"{bench.kind}, {f'number {number}' if number else 'undisturbed'}: {fault}")
             shutil.rmtree(folder / out, ignore_errors=True)
-    return done, faults
+    return bench, clean, faults
 
 
-def page(kills, done, faults, stamped):
+def page(kills, bench, clean, faults, stamped):
     lines = ["# Kills", "", stamped,
-             f"A study of {TRIALS} very short trials with `retries: 0` on two workers, killed at moments drawn at random (seed",
-             f"{SEED}, more often early, where stores are made), then run on until it is done. Clean: each run ended in one of the",
-             "ways that are documented, the table is that of an undisturbed run, no trial was recorded as failed, and no recorded",
-             "trial was run again.", "", "| killed | times | clean |", "|---|---|---|"]  # fmt: skip
-    lines += [f"| {name} | {kills} | {done[name]} |" for name in KINDS]
+             f"A study of {TRIALS} very short trials with `retries: 0` on two workers, killed at a moment drawn at random (seed",
+             f"{SEED}, more often early, where stores are made) of the time that a run of this kind takes undisturbed, then run on",
+             "until it is done. Where it was over by then, nothing was struck. Clean: each run ended in one of the ways that are",
+             "documented, the table is that of an undisturbed run, no trial was recorded as failed, and no recorded trial was run",
+             "again."]  # fmt: skip
+    rows = "".join(row([name, f"{bench.takes_s[name]:.2f}", kills, bench.struck[name], clean[name]]) for name in KINDS)
+    lines += ["", head(["killed", "undisturbed [s]", "runs", "struck", "clean"]) + rows.rstrip()]
     if faults:
         lines += ["", "What was not clean:", "", *(f"- {fault}" for fault in faults)]
     return "\n".join(lines) + "\n"
 
 
 def main():
-    parser = page_parser("kills", __doc__)
+    parser = page_parser("kills", __doc__, keeps=False)
     parser.add_argument("--kills", type=int, default=100, help="of each kind")
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        done, faults = run_all(args.program, args.kills, pathlib.Path(folder))
-    write(args.out, page(args.kills, done, faults, stamp(command_of(parser, args, "kills", "kills"), args.program)))
+        found = run_all(args.program, args.kills, pathlib.Path(folder))
+    write(args.out, page(args.kills, *found, stamp(command_of(parser, args, "kills", "kills"), args.program)))
 
 
 if __name__ == "__main__":
