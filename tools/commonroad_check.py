@@ -5,8 +5,9 @@ For each scenario NAME.xml of one folder and drive NAME/solution.xml of another,
 whether the vehicle's rectangle touches an obstacle or leaves the lanelets at any time step, how near it comes to
 an obstacle, and when the goal is reached. Obstacles that begin where the vehicle does, or whose shape then holds its
 middle, are recorded drives of it: they are left out, and named under "without". Collision and road are judged by shapely, and again by
-commonroad-drivability-checker where it is installed; a row says so where the two differ. The checker needs the
-commonroad-io before 2026:
+commonroad-drivability-checker where it is installed; a row says so where the two differ, be it in a time step. A drive
+whose vehicle starts with its middle off the lanelets neither stays on the road nor leaves it, and is counted apart. The
+checker needs the commonroad-io before 2026:
 
     python3 -m venv judge; judge/bin/pip install commonroad-drivability-checker 'commonroad-io<2026'
 
@@ -145,6 +146,18 @@ def refuse_misplaced(xml, scenario):
                 raise ValueError(f"obstacle {element.get('id')} has a shape with a place that this commonroad-io does not read")
 
 
+def together(ours, checkers):
+    """The first time steps of a collision and off the road by both judges, the earlier one where they differ, and what
+    is said of them; `checkers` is None where there is one judge."""
+    if checkers is None:
+        return *ours, "shapely"
+    if ours == checkers:
+        return *ours, "both"
+    earliest = [min((step for step in steps if step is not None), default=None) for steps in zip(ours, checkers)]
+    named = ["none" if step is None else f"step {step}" for step in (*ours, *checkers)]
+    return *earliest, "differ: collision {} and {}, off the road {} and {}".format(*named[::2], *named[1::2])
+
+
 def judged(xml, solution_file):
     """What a row says of one drive."""
     from commonroad.common.file_reader import CommonRoadFileReader
@@ -159,14 +172,7 @@ def judged(xml, solution_file):
     without = without_the_vehicle(scenario, problem.initial_state)
     collision, off, least = by_shapely(scenario, states, car.l, car.w)
     again = by_checker(scenario, states, car.l, car.w)
-    if again is None:
-        judges = "shapely"
-    elif (again[0] is None, again[1] is None) == (collision is None, off is None):
-        judges = "both"
-    else:
-        judges = f"differ: the checker has collision {again[0]}, off the road {again[1]}"
-        collision = again[0] if collision is None else collision
-        off = again[1] if off is None else off
+    collision, off, judges = together((collision, off), again)
     starts_off = by_shapely(scenario, states[:1], 0.01, 0.01)[1] is not None
     if starts_off:
         off = None
@@ -227,17 +233,19 @@ def main():
         print(f"{arguments.drives}: found no NAME/solution.xml of a scenario of {arguments.scenarios}", file=sys.stderr)
         return 2
     print(HEAD)
-    good = 0
+    good = apart = 0
     for name, xml, solution, summary in found:
         try:
             verdict = judged(xml, solution)
         except Exception as error:  # the packages' messages are of all kinds
             print(f"{solution}: cannot be judged: {type(error).__name__}: {error}", file=sys.stderr)
             return 2
-        good += verdict["collision"] is None and verdict["off"] is None
+        clean = verdict["collision"] is None and verdict["off"] is None
+        good += clean and not verdict["starts_off"]
+        apart += clean and verdict["starts_off"]
         print(row(name, summary, verdict))
-    print(f"\n{good} of {len(found)} drives touch nothing and stay on the road.")
-    return 0 if good == len(found) else 1
+    print(f"\n{good} of {len(found)} drives touch nothing and stay on the road; {apart} touch nothing and start off it.")
+    return 0 if good + apart == len(found) else 1
 
 
 if __name__ == "__main__":

@@ -15,7 +15,8 @@ import pathlib
 import subprocess
 import sys
 
-from measured import ROOT, page_parser, stamp, write
+from environments import environment
+from measured import ROOT, command_of, page_parser, stamp, write
 
 CHECKER = ROOT / "tools/commonroad_check.py"
 JUDGE = ("commonroad-drivability-checker", "commonroad-io<2026")
@@ -116,13 +117,13 @@ def verdicts(rows):
 def counts(rows):
     imported = [row for row in rows if "refused" not in row]
     judged = [row["verdict"] for row in imported if "scenario" in row["verdict"]]
-    clean = [v for v in judged if v["collision"] == "no" and v["off the road"] in ("no", "starts off it")]
+    clean = [v["off the road"] for v in judged if v["collision"] == "no"]
     asked = [v for v in judged if v["goal reached"] != "none asked"]
     reached = [v for v in asked if v["goal reached"] != "no"]
     goal = sum(row["summary"].get("outcome") == "goal" for row in imported)
     return (f"Imported: {len(imported)} of {len(rows)}. Drives that ended at the goal: {goal}. By the checker: "
-            f"{len(clean)} of {len(judged)} touch nothing and stay on the road; of {len(asked)} with a goal {len(reached)} "
-            "reach it.")  # fmt: skip
+            f"{clean.count('no')} of {len(judged)} touch nothing and stay on the road, {clean.count('starts off it')} touch "
+            f"nothing and start off it; of {len(asked)} with a goal {len(reached)} reach it.")  # fmt: skip
 
 
 def load_line(rows):
@@ -142,26 +143,18 @@ def page(rows, stamped):
         *drives(rows), "",
         "## The independent checker", "",
         "`tools/commonroad_check.py` judges the drives, exported as CommonRoad solutions ([export.md](../export.md)), from the",
-        "XML files alone, at their time steps; two judges where they agree.", "",
+        "XML files alone, at their time steps; `both` where two judges agree, in the first time steps too.", "",
         *verdicts(rows), "",
         "## What was not carried over", "",
         *table(["scenario", "left out, or not as in the source"], left), ""])  # fmt: skip
 
 
-def environment(folder, packages):
-    """An interpreter with these packages."""
-    python = folder / "bin/python"
-    if not python.is_file():
-        subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *packages], check=True)
-    return str(python)
-
-
 def with_package():
-    wheels = sorted((ROOT / "dist").glob("slalom-*.whl"))
-    if not wheels:
+    wheels = (ROOT / "dist").glob("slalom-*.whl")
+    newest = max(wheels, key=lambda wheel: wheel.stat().st_mtime, default=None)
+    if newest is None:
         sys.exit("commonroad: no dist/slalom-*.whl: `make wheel` builds it, or --python names an interpreter that has it")
-    return environment(ROOT / "build/commonroad/package", [f"{wheels[-1]}[commonroad]"])
+    return environment(ROOT / "build/commonroad/package", [f"{newest}[commonroad]"])
 
 
 def main():
@@ -189,7 +182,7 @@ def main():
         rows.append(driven(args, xml))
         print(json.dumps({"name": xml.stem, "outcome": rows[-1].get("summary", {}).get("outcome"),
                           "refused": rows[-1].get("refused")}), flush=True)  # fmt: skip
-    write(args.out, page(rows, stamp("make commonroad FILES=folder", args.program)))
+    write(args.out, page(rows, stamp(command_of(parser, args, "commonroad FILES=folder", "names"), args.program)))
 
 
 if __name__ == "__main__":

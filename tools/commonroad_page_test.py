@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """What commonroad_page.py makes of imported files, drives and the checker's table; no program is needed."""
 
+import contextlib
+import io
 import os
 import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import commonroad_check  # noqa: E402
@@ -39,12 +42,37 @@ class Page(unittest.TestCase):
                 row("A_4", off="starts off it", reached="none asked"), {"name": "A_5", "refused": "a.xml:3: no goal"}]  # fmt: skip
         text = tool.page(rows, "A stamp.\n")
         self.assertIn("Imported: 4 of 5", text)
-        self.assertIn("2 of 4 touch nothing and stay on the road; of 3 with a goal 2 reach it", text)
+        self.assertIn("1 of 4 touch nothing and stay on the road, 1 touch nothing and start off it; of 3 with a goal 2 reach it",
+                      text)
         self.assertIn("| A_5 | a.xml:3: no goal | – |", text)
 
     def test_a_drive_that_could_not_be_judged_says_why(self):
         lost = row("A_1") | {"verdict": {"message": "not exported"}}
         self.assertIn("| A_1 | not exported | – |", tool.page([lost], "A stamp.\n"))
+
+
+class Judges(unittest.TestCase):
+    def test_they_agree_where_their_time_steps_do(self):
+        self.assertEqual(commonroad_check.together((None, 3), (None, 3)), (None, 3, "both"))
+        self.assertEqual(commonroad_check.together((2, None), None), (2, None, "shapely"))
+        self.assertEqual(commonroad_check.together((7, None), (5, 9)),
+                         (5, 9, "differ: collision step 7 and step 5, off the road none and step 9"))
+
+    def test_a_drive_that_starts_off_the_road_is_counted_apart(self):
+        verdicts = {"A_1": {}, "A_2": {"starts_off": True}, "A_3": {"off": 2}}
+        default = {"end": 3.0, "collision": None, "off": None, "least": 1.0, "reached": "no", "without": "", "starts_off": False,
+                   "judges": "both", "dt": 0.1}  # fmt: skip
+        for names, code, words in ((["A_1", "A_2"], 0, "1 of 2 drives touch nothing and stay on the road; 1 touch"),
+                                   (["A_1", "A_3"], 1, "1 of 2 drives touch nothing and stay on the road; 0 touch")):
+            with (tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as out,
+                  unittest.mock.patch.object(sys, "argv", ["commonroad_check.py", folder, folder]),
+                  unittest.mock.patch.object(commonroad_check, "judged", lambda xml, _: default | verdicts[xml.stem])):
+                for name in names:
+                    (pathlib.Path(folder) / f"{name}.xml").touch()
+                    (pathlib.Path(folder) / name).mkdir()
+                    (pathlib.Path(folder) / name / "solution.xml").touch()
+                self.assertEqual(commonroad_check.main(), code)
+            self.assertIn(words, out.getvalue())
 
 
 class Driven(unittest.TestCase):
@@ -77,6 +105,26 @@ class Driven(unittest.TestCase):
             self.assertEqual(first["verdict"]["goal reached"], "3.10 s")
             self.assertEqual(tool.driven(args, xml), first)
             self.assertEqual(len(log.read_text().splitlines()), 4)
+
+    def test_another_wheel_makes_the_packages_environment_anew(self):
+        """By a stand-in for pip."""
+        with tempfile.TemporaryDirectory() as name:
+            root = pathlib.Path(name)
+            commands = []
+
+            def run(command, check):
+                commands.append(command)
+                (root / "build/commonroad/package/bin").mkdir(parents=True, exist_ok=True)
+                (root / "build/commonroad/package/bin/python").touch()
+
+            (root / "dist").mkdir()
+            wheel = root / "dist/slalom-1.0-cp312-abi3-linux_x86_64.whl"
+            with unittest.mock.patch.object(tool, "ROOT", root), unittest.mock.patch("subprocess.run", run):
+                for text in ("one", "one", "two"):
+                    wheel.write_text(text)
+                    self.assertEqual(tool.with_package(), str(root / "build/commonroad/package/bin/python"))
+            installs = [command for command in commands if "pip" in command]
+            self.assertEqual([command[-1] for command in installs], [f"{wheel}[commonroad]"] * 2)
 
     def test_a_file_that_is_refused_is_not_driven(self):
         with tempfile.TemporaryDirectory() as name:
