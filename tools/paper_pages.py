@@ -177,9 +177,9 @@ def verdicts(evaluation, mark):
 {mark}
 Each claim of the paper, its figures, ours, and what they say of it: of {len(judged)} claims, by drives and by the first
 sweep, {tally(judged)}. A verdict is a rule on numbers that the program measures (`config/paper/claims.yaml`). Intervals
-in brackets are of 95 %: of medians (also of ratios cycle by cycle) from order statistics, of ratios of two medians by
-bootstrap over the cycles. Solve times are CPU time, of each cycle the median over {evaluation["repeats"]} drives; the
-first cycle, which the warm-up solves, is left out.
+in brackets are of 95 %: of medians (also of ratios cycle by cycle) from order statistics, none (–) of fewer than six
+values; of ratios of two medians by bootstrap over the cycles. Solve times are CPU time, of each cycle the median over
+{evaluation["repeats"]} drives; the first cycle, which the warm-up solves, is left out.
 
 ## From the drives
 

@@ -28,8 +28,9 @@ std::string shown(const Value& value, const std::string& format) {
   const auto& list = std::get<Numbers>(value);
   if (list.size() != 3)
     throw InvalidValue("a text", fmt::format("a list of {}", list.size()), "an interval");
-  return fmt::format("{} [{}, {}]", shown(list[0], format), shown(list[1], format),
-                     shown(list[2], format));
+  const auto estimate = shown(list[0], format);
+  if (std::isnan(list[1]) && std::isnan(list[2])) return estimate + " [–]";
+  return fmt::format("{} [{}, {}]", estimate, shown(list[1], format), shown(list[2], format));
 }
 
 Expression read_formula(const io::Value& value) {
@@ -155,7 +156,8 @@ Claims load_claims() {
   return {read_claims(root.find("drives"), names), read_claims(root.find("sweep"), names)};
 }
 
-std::vector<Judged> judge(const std::vector<Claim>& claims, const Evidence& evidence) {
+std::vector<Judged> judge(const std::vector<Claim>& claims, const Evidence& evidence,
+                          std::vector<LeftOut>* left_out) {
   std::vector<Judged> list;
   for (const auto& claim : claims) {
     const Context context{&evidence, &claim.names, evidence.trials, nullptr};
@@ -163,7 +165,10 @@ std::vector<Judged> judge(const std::vector<Claim>& claims, const Evidence& evid
       if (claim.given && number_of(*claim.given, context) == 0) continue;
       list.push_back({claim.id, claim.says, claim.at, claim.printed.fill(context),
                       claim.ours.fill(context), verdict(claim, context)});
-    } catch (const NotDriven&) {  // then there is nothing to judge it by
+    } catch (const NotDriven& missing) {  // then there is nothing to judge it by
+      if (evidence.whole)
+        throw InvalidValue("claim " + claim.id, "'" + missing.what + "'", "what is driven");
+      if (left_out != nullptr) left_out->push_back({claim.id, missing.what});
     } catch (const InvalidValue& wrong) {
       throw InvalidValue("claim " + claim.id + ", " + wrong.where(), wrong.found(),
                          wrong.expected());

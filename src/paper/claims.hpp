@@ -13,7 +13,7 @@ namespace slalom::paper {
 
 /// Text with formulas in braces, each with a format: "P_A {time(E_A/P_A):.1f} s". A format is one
 /// of std::format's for numbers, or "ms", which shows seconds as milliseconds. Lists of three are
-/// shown as an estimate with its interval in brackets.
+/// shown as an estimate with its interval in brackets, "[–]" where there is none.
 class Template {
  public:
   Template() = default;
@@ -53,7 +53,14 @@ struct Claims {
 /// Throws InvalidValue with file:line:column when the file is not as it should be.
 Claims load_claims();
 
-/// The claims in their order; those that ask for what was not driven are left out.
-std::vector<Judged> judge(const std::vector<Claim>& claims, const Evidence& evidence);
+/// A claim that is not judged, and what it asks for that was not driven.
+struct LeftOut {
+  std::string id, asks_for;
+};
+
+/// The claims in their order. Those that ask for what was not driven are left out, and added to
+/// `left_out`; where the evidence is whole there is no such thing: InvalidValue.
+std::vector<Judged> judge(const std::vector<Claim>& claims, const Evidence& evidence,
+                          std::vector<LeftOut>* left_out = nullptr);
 
 }  // namespace slalom::paper

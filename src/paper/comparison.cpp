@@ -1,6 +1,7 @@
 #include "comparison.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,12 @@ const ReproducedDrive* find(const std::vector<ReproducedDrive>& drives,
 bool as_paper(const sim::Drive& drive, const PaperDrive& paper) {
   return paper.outcome == sim::to_string(drive.outcome) && paper.hit == drive.hit &&
          paper.earliest <= drive.time && drive.time <= paper.latest;
+}
+
+std::string ended_words(const sim::Drive& drive) {
+  auto words = report::outcome_words(drive);
+  words.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(words.front())));
+  return words;
 }
 
 std::vector<double> cpu_times(const ReproducedDrive& one) {

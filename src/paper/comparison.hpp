@@ -17,6 +17,9 @@ const ReproducedDrive* find(const std::vector<ReproducedDrive>& drives,
 /// Whether a drive ends as the paper's: outcome, obstacle hit, and when.
 bool as_paper(const sim::Drive& drive, const PaperDrive& paper);
 
+/// How a drive ended, as within a sentence: "reached the goal".
+std::string ended_words(const sim::Drive& drive);
+
 /// CPU time of each cycle, the warm-up left out [s].
 std::vector<double> cpu_times(const ReproducedDrive& one);
 

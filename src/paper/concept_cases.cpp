@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "../report/html.hpp"
 #include "../report/map.hpp"
 #include "../report/page_parts.hpp"
-#include "../report/words.hpp"
+#include "comparison.hpp"
 
 namespace slalom::paper {
 namespace {
@@ -65,9 +64,7 @@ std::string planner_words(const ConceptCase& one) {
 std::string ended(const ConceptCase& one) {
   const auto& drive = one.driven.drive;
   if (arrived(one)) return fmt::format("arrives at {} s", report::number(arrival(drive), 1));
-  auto words = report::outcome_words(drive);
-  words.front() = static_cast<char>(std::tolower(words.front()));
-  return fmt::format("{} at {} s", words, report::number(drive.time, 1));
+  return fmt::format("{} at {} s", ended_words(drive), report::number(drive.time, 1));
 }
 
 bool holds(const ConceptCase& one, const Cases& cases) {

@@ -69,11 +69,9 @@ double state(const ReproducedDrive& one, std::size_t index, double t) {
   return one.drive.plant.empty() ? NAN : report::state_at(one.drive, t)[index];
 }
 
-/// "arrives at 6.00 s".
-std::string ended_words(const ReproducedDrive& one) {
-  auto words = report::outcome_words(one.drive);
-  words.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(words.front())));
-  return fmt::format("{} at {:.2f} s", words, one.drive.time);
+/// "reached the goal at 6.00 s".
+std::string ended_at(const ReproducedDrive& one) {
+  return fmt::format("{} at {:.2f} s", ended_words(one.drive), one.drive.time);
 }
 
 /// "crash O1 2.9 s".
@@ -181,7 +179,7 @@ Functions of_one_drive() {
                                  return double(d.drive.outcome == sim::Outcome::crash &&
                                                d.drive.hit == text_of(p[1], c));
                                })},
-      {"ended", measure(1, [](One d, P, C) { return ended_words(d); })},
+      {"ended", measure(1, [](One d, P, C) { return ended_at(d); })},
       {"end", measure(1,
                       [](One d, P, C) {
                         return short_end(to_string(d.drive.outcome), d.drive.hit, d.drive.time);

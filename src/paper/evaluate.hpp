@@ -32,6 +32,7 @@ struct Evidence {
   const PaperData* paper = nullptr;
   const report::PublishedSweep* published = nullptr;
   const std::vector<SweepTrial>* trials = nullptr;
+  bool whole = false;  ///< all is driven that formulas may ask for
 };
 
 /// Thrown where a formula asks for what was not driven.

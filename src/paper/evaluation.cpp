@@ -1,7 +1,5 @@
 #include "evaluation.hpp"
 
-#include <cmath>
-
 #include "../io/file_set.hpp"
 #include "../io/json_file.hpp"
 #include "comparison.hpp"
@@ -20,14 +18,10 @@ Json text_or_null(const std::string& text) {
   return text.empty() ? Json() : Json(text);
 }
 
-/// JSON has no NaN: what is not there is null.
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 Evidence evidence_of(const Reproduction& all, const report::PublishedSweep& published,
                      const std::vector<SweepTrial>* trials) {
   Evidence evidence{{}, &all.paper, &published, trials};
+  evidence.whole = !all.besides.empty() && trials != nullptr;
   for (const auto& one : all.drives) evidence.drives[one.folder] = &one;
   for (const auto& one : all.cases) evidence.drives[one.driven.folder] = &one.driven;
   for (const auto& one : all.besides) evidence.drives[one.folder] = &one;
@@ -43,6 +37,13 @@ Json claims_json(const std::vector<Judged>& claims) {
                     {"printed", claim.printed},
                     {"ours", claim.ours},
                     {"verdict", verdict_words(claim.verdict)}});
+  return list;
+}
+
+Json left_out_json(const std::vector<LeftOut>& claims) {
+  Json list = Json::array();
+  for (const auto& claim : claims)
+    list.push_back({{"claim", claim.id}, {"asks_for", claim.asks_for}});
   return list;
 }
 
@@ -210,13 +211,16 @@ std::string evaluation_json(const Reproduction& reproduction) {
   const auto published = published_sweep();
   const auto trials = first_trials(reproduction);
   const auto evidence = evidence_of(reproduction, published, trials ? &*trials : nullptr);
+  std::vector<LeftOut> left_out;
+  const auto claims = judge(load_claims().drives, evidence, &left_out);
   const Json json = {{"format", "slalom evaluation 1"},
                      {"version", io::kVersion},
                      {"repeats", reproduction.repeats},
                      {"drives", drives_json(reproduction)},
                      {"effort", effort_json(reproduction)},
                      {"cases", cases_json(reproduction.cases)},
-                     {"claims", claims_json(judge(load_claims().drives, evidence))},
+                     {"claims", claims_json(claims)},
+                     {"claims_left_out", left_out_json(left_out)},
                      {"figures", figures_json(reproduction)},
                      {"index", index_json(paper_index(evidence))},
                      {"printed_counts", counts_json(published.counts)},

@@ -29,13 +29,13 @@ Estimate median_interval(std::vector<double> values) {
   const auto n = values.size();
   std::size_t k = 0;
   double chance = std::pow(0.5, static_cast<double>(n)), tail = chance;
+  if (tail > kTail) return {sim::median(values), kNone, kNone};
   while (k < n / 2 && tail < kTail) {
     ++k;
     chance *= static_cast<double>(n - k + 1) / static_cast<double>(k);
     tail += chance;
   }
-  k = k > 0 ? k - 1 : 0;
-  return {sim::median(values), values[k], values[n - 1 - k]};
+  return {sim::median(values), values[k - 1], values[n - k]};
 }
 
 Estimate ratio_interval(const std::vector<double>& before, const std::vector<double>& after) {

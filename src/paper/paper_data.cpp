@@ -80,16 +80,6 @@ const OptionTable<PaperData::Effort>& effort_options() {
   return table;
 }
 
-const OptionTable<PaperData::Note>& note_options() {
-  using N = PaperData::Note;
-  static const auto table = [] {
-    OptionTable<N> t;
-    t.text("topic", &N::topic, "Table of the page.").text("text", &N::text, "What to know.");
-    return t;
-  }();
-  return table;
-}
-
 /// A drive as its file has it: what is driven, with one override.
 struct DriveEntry {
   std::string name, scenario, planner, set;
@@ -162,8 +152,7 @@ PaperData load_paper_data() {
   const io::Value results = read_map("results.yaml", {"effort_P_B", "effort_P_C", "notes"});
   read_effort(results, "effort_P_B", paper.effort_P_B);
   read_effort(results, "effort_P_C", paper.effort_P_C);
-  if (const io::Value* notes = results.find("notes"))
-    paper.notes = io::read_list(*notes, "notes", note_options());
+  paper.notes = read_notes<PaperData::Note>(results);
   return paper;
 }
 

@@ -60,7 +60,9 @@ const OptionTable<IndexRow>& row_options() {
 std::string filled(const io::Value* text, const Context& context) {
   try {
     return text == nullptr ? "–" : Template(*text).fill(context);
-  } catch (const NotDriven&) {
+  } catch (const NotDriven& missing) {
+    if (context.evidence->whole)
+      throw InvalidValue(text->place.to_string(), "'" + missing.what + "'", "what is driven");
     return "–";
   }
 }

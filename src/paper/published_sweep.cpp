@@ -36,16 +36,6 @@ const OptionTable<PublishedSweep::Point>& point_options() {
   return table;
 }
 
-const OptionTable<PublishedSweep::Note>& note_options() {
-  using N = PublishedSweep::Note;
-  static const auto table = [] {
-    OptionTable<N> t;
-    t.text("topic", &N::topic, "Table of the page.").text("text", &N::text, "What to know.");
-    return t;
-  }();
-  return table;
-}
-
 template <class S>
 std::vector<S> read_members(const io::Value& root, const std::string& key,
                             const OptionTable<S>& table) {
@@ -60,7 +50,7 @@ PublishedSweep published_sweep() {
   PublishedSweep paper;
   paper.counts = read_members(root, "counts", count_options());
   paper.points = read_members(root, "points", point_options());
-  paper.notes = read_members(root, "notes", note_options());
+  paper.notes = read_notes<PublishedSweep::Note>(root);
   return paper;
 }
 

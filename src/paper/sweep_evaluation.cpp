@@ -17,10 +17,6 @@ constexpr double kTexStep = 0.003;   ///< a printed tex is rounded by less [s]
 constexpr double kSpeedStep = 0.05;  ///< likewise a printed speed [m/s]
 constexpr double kLong = 0.5;        ///< the tex that tells long horizons from short [s]
 
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 double greatest_speed(const std::vector<SweepTrial>& trials) {
   double speed = 0;
   for (const auto& trial : trials) speed = std::max(speed, trial.speed);
@@ -115,6 +111,10 @@ Json ends_json(const report::SweepTable& table, const std::vector<SweepTrial>& t
 }
 
 }  // namespace
+
+Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
 
 Json counts_json(const std::vector<PublishedSweep::Count>& counts) {
   Json json = {{"planners", Json::array()}, {"ratio", nullptr}, {"fisher_p", nullptr}};

@@ -7,6 +7,9 @@
 
 namespace slalom::paper {
 
+/// JSON has no NaN: what is not there is null.
+io::Json number_or_null(double value);
+
 /// Passes by planner; of the first two, the second's share over the first's and Fisher's exact p.
 io::Json counts_json(const std::vector<report::PublishedSweep::Count>& counts);
 

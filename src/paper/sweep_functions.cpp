@@ -121,7 +121,8 @@ const report::PublishedSweep::Count& printed_count(const Expression& part, const
   throw InvalidValue(planner, "no count", "a planner of the paper's sweep");
 }
 
-/// What is printed of a planner at a tex, over speeds up to one; NaN where nothing is.
+/// What is printed of a planner at a tex, over speeds up to one. Throws InvalidValue where nothing
+/// is.
 Function printed_point(double report::PublishedSweep::Point::*figure) {
   return {3, 3, [figure](const Parts& parts, const Context& context) -> Value {
             const auto planner = text_of(parts[0], context);

@@ -8,6 +8,7 @@
 #include "../../src/paper/paper_data.hpp"
 #include "../../src/paper/paper_index.hpp"
 #include "../../src/paper/published_sweep.hpp"
+#include "slalom/base/error.hpp"
 
 namespace slalom::paper {
 namespace {
@@ -123,7 +124,41 @@ TEST_F(ClaimRules, WhatWasNotDrivenIsNotJudged) {
   const auto whole = judge(claims_.drives, evidence()).size();
   EXPECT_EQ(whole, claims_.drives.size() - 1) << "case E's claim looks at the sweep too";
   drives_.erase("E_A/P_A");
-  EXPECT_LT(judge(claims_.drives, evidence()).size(), whole);
+  std::vector<LeftOut> left_out;
+  EXPECT_LT(judge(claims_.drives, evidence(), &left_out).size(), whole);
+  ASSERT_GT(left_out.size(), 1u);
+  EXPECT_EQ(left_out[0].id + ", " + left_out[0].asks_for, "minimum_time_arrives, E_A/P_A");
+  EXPECT_EQ(left_out.back().id + ", " + left_out.back().asks_for, "small_tex_instead, the sweep");
+}
+
+TEST_F(ClaimRules, WhereAllIsDrivenAnUnknownDriveIsAMistake) {
+  auto all = evidence();
+  all.whole = true;
+  EXPECT_EQ(judge(claims_.drives, all).size(), claims_.drives.size());
+  all.drives.erase("E_A/P_A");
+  try {
+    (void)judge(claims_.drives, all);
+    FAIL() << "nothing was thrown";
+  } catch (const InvalidValue& wrong) {
+    EXPECT_EQ(wrong.where() + ", " + wrong.found(), "claim minimum_time_arrives, 'E_A/P_A'");
+  }
+  EXPECT_THROW(
+      paper_index({.drives = {}, .paper = &paper_, .published = &published_, .whole = true}),
+      InvalidValue);
+}
+
+TEST_F(ClaimRules, WhatIsNotShownToBeDearerDoesNotHoldForIt) {
+  for (std::size_t i = 0; i < 12; ++i)  // ratios about 1.1, and an interval that reaches beyond
+    drives_["E_C/P_D"].drive.cycles[i].plan.report.cpu_s = i % 2 == 0 ? 0.0009 : 0.0012;
+  EXPECT_EQ(drives("moving_is_free"), "holds in part");
+  drives_["E_C/P_D"].drive = made();
+  EXPECT_EQ(drives("moving_is_free"), "holds");
+  drives_["E_B/P_C"].drive.cycles.resize(7);  // six later ones have an interval, five have none
+  EXPECT_EQ(drives("moving_is_free"), "holds");
+  drives_["E_B/P_C"].drive.cycles.resize(6);
+  EXPECT_EQ(drives("moving_is_free"), "holds in part");
+  EXPECT_NE(of_drives("moving_is_free").ours.find("E_B × 1.00 [–]; E_C × 1.00 [1.00, 1.00]"),
+            std::string::npos);
 }
 
 TEST_F(ClaimRules, MinimumTime) {

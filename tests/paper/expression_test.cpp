@@ -74,5 +74,14 @@ TEST(Intervals, HoldTheirMedian) {
   EXPECT_TRUE(std::isnan(median_interval({}).value));
 }
 
+TEST(Intervals, AreNoneOfFewerThanSixValues) {
+  const auto six = median_interval({1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(six.lo, 1);  // the median lies beyond all in 3.125 %
+  EXPECT_EQ(six.hi, 6);
+  const auto five = median_interval({1, 2, 3, 4, 5});
+  EXPECT_EQ(five.value, 3);
+  EXPECT_TRUE(std::isnan(five.lo) && std::isnan(five.hi)) << "6.25 %";
+}
+
 }  // namespace
 }  // namespace slalom::paper

@@ -199,6 +199,7 @@ TEST(Evaluation, HasEveryTable) {
   EXPECT_EQ(json["effort"].size(), 2u);
   EXPECT_EQ(json["sweeps"].size(), 0u);
   EXPECT_GT(json["claims"].size(), 10u);
+  EXPECT_GT(json["claims_left_out"].size(), 5u) << "of cases, of the sweep, and of drives besides";
   EXPECT_GT(json["index"].size(), 10u);
   ASSERT_EQ(json["figures"].size(), 18u) << "four an environment, and two crashes";
   EXPECT_EQ(json["figures"][12]["file"], "E_B_crash.svg");
