@@ -27,7 +27,7 @@ install(FILES ${PROJECT_BINARY_DIR}/slalomConfig.cmake
               cmake/FindKnitro.cmake DESTINATION ${package_dir})
 
 # `make package`: a Debian package of what is installed. Its dependencies are found by the linker's
-# own list (dpkg-shlibdeps).
+# own list (dpkg-shlibdeps); whoever links the library in it needs what slalomConfig.cmake looks for.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME slalom)
 set(CPACK_PACKAGE_CONTACT "the Slalom project")
@@ -38,5 +38,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libfmt-dev, libyaml-cpp-dev, libsqlite3-dev, libsleef-dev")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS coinor-libipopt1v5)  # looked for when solver `ipopt` is asked for
 include(CPack)

@@ -20,6 +20,12 @@ for library in libc6 libfmt libyaml-cpp libsqlite3; do
     exit 1
   }
 done
+for library in libfmt-dev libyaml-cpp-dev libsqlite3-dev libsleef-dev; do
+  dpkg-deb --field "$package" Recommends | grep -qw "$library" || {
+    echo "the package does not recommend $library, which its library is linked with"
+    exit 1
+  }
+done
 dpkg-deb --extract "$package" "$work/deb/root"
 cd "$work/deb"
 "$work/deb/root/usr/bin/slalom" simulate E_B --planner P_D --set loop.timeout=1 --out drive

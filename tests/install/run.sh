@@ -24,6 +24,15 @@ awk -v folder="$work/readme" '
 "$cmake" -S "$here" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
   -DREADME_PROGRAMS="$work/readme"
 "$cmake" --build "$work/consumer"
+# Without Sleef the package is not found, and says why.
+sleef=$(dirname "$(realpath "$(g++ -print-file-name=libsleef.so)")")
+if "$cmake" -S "$here" -B "$work/without" -DCMAKE_PREFIX_PATH="$prefix" \
+  "-DCMAKE_IGNORE_PATH=$sleef;${sleef#/usr}" >"$work/without.log" 2>&1 ||
+  ! tr -s '\n ' ' ' <"$work/without.log" | grep -q "the library sleef is missing"; then
+  cat "$work/without.log"
+  echo "the package does not say that Sleef is missing"
+  exit 1
+fi
 export SLALOM_CONFIG_DIR=$prefix/share/slalom/config
 "$work/consumer/consumer"
 
