@@ -40,6 +40,7 @@ sanitize: ## the unit tests with address and undefined-behaviour sanitizers, and
 	ctest --preset tsan -j $(JOBS)
 
 tidy: ## clang-tidy on every source by itself, and with the analyzer, which `make test` leaves out
+	tools/setup.sh test
 	cmake --preset release -DSLALOM_TESTS=ON
 	tools/tidy.py --build build --alone --jobs $(JOBS)
 
@@ -76,7 +77,7 @@ study: ## the paper's sweep of 800 drives into run/study/, with its page; goes o
 	build/slalom study-report run/study
 
 sweep-scale: ## 100,000 very short trials: rate, memory, how soon a sweep goes on, into docs/measured/sweep-scale.md (takes half an hour)
-	tools/setup.sh bench
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 benchmarks/sweep_scale.py --program build/slalom
 
@@ -86,22 +87,22 @@ kills: ## sweeps, shards and merges killed at random moments and run on, into do
 	python3 tools/kills.py --program build/slalom
 
 results: ## the paper's drives into docs/measured/results.md and figures/
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/paper_pages.py results
 
 paper-sweep: ## the paper's sweep on both grids and with one thing changed, into docs/measured/paper-sweep.md (takes 20 minutes)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/paper_pages.py paper-sweep
 
 latency: ## what each latency rule does to the pass rate, into docs/measured/latency.md
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/latency.py --program build/slalom
 
 verdicts: ## each claim of the paper judged by our drives and sweeps, into docs/measured/verdicts.md and paper-index.md
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/paper_pages.py verdicts paper-index
 
@@ -115,27 +116,27 @@ shape-forms: ## ways to keep a rectangle off rectangles in an OCP, into docs/mea
 	python3 benchmarks/shape_forms.py
 
 robustness: ## outcomes over floors, starts and horizons into docs/measured/robustness.csv, .svg and .md (takes minutes)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/robustness.py --program build/slalom
 
 realtime: ## planning times beside the execution horizon into docs/measured/realtime.md
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/realtime.py --program build/slalom
 
 obstacle-choice: ## what leaving out obstacles does, into docs/measured/obstacle-choice.md
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/obstacle_choice.py --program build/slalom
 
 model-choice: ## how P_D drives with each model it may have in mind, into docs/measured/model-choice.md
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/model_choice.py --program build/slalom
 
 sensitivity: ## how far plant and sensors may be from what P_D and P_E believe, into docs/measured/sensitivity.md (takes an hour)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/sensitivity.py --program build/slalom
 
@@ -167,27 +168,27 @@ docs: wheel ## the documentation's site into build/docs/
 	tools/docs.sh dist build/docs
 
 random-scenarios: ## P_A to P_D on 1000 random scenarios, into docs/measured/random-scenarios.md (takes minutes)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/random_scenarios.py --program build/slalom
 
 verified-planner: ## P_E beside P_D in the paper's sweep and random scenarios, into docs/measured/verified-planner.md (takes half an hour)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/verified_planner.py --program build/slalom
 
 ablation: ## P_E with one part of it left out at a time, into docs/measured/ablation.md (takes half an hour)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/planner_ablation.py --program build/slalom
 
 any-scenario: ## random valid scenarios with random options, and what is at fault, into docs/measured/any-scenario.md (takes an hour)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/any_scenario.py --program build/slalom
 
 belief-errors: ## P_E with plant and sensors not as believed, 10,000 drives, into docs/measured/belief-errors.md (takes hours)
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build
 	python3 tools/belief_errors.py --program build/slalom
 
@@ -203,12 +204,14 @@ laps: ## laps of the tracks in TRACKS=folder beside CasADi's and in closed loop,
 
 commonroad: ## the CommonRoad scenarios in FILES=folder driven and judged, into docs/measured/commonroad.md (takes minutes)
 	@test -n "$(FILES)" || { echo "commonroad: FILES=folder of CommonRoad's XML files is wanted (docs/import.md)"; exit 2; }
-	tools/setup.sh results
+	tools/setup.sh run
 	$(MAKE) --no-print-directory build wheel
 	python3 tools/commonroad_page.py "$(FILES)" --program build/slalom
 
 format: ## format the C++ sources
+	tools/setup.sh format
 	tools/format.sh
 
-clean: ## remove the build trees and what `make run` wrote
-	rm -rf build build-python dist build-debug build-asan build-tsan build-fuzz run tests/browser/node_modules
+clean: ## remove the build trees, dist/ and what `make run` wrote; what was measured stays in run/
+	rm -rf build build-python build-portable build-debug build-asan build-tsan build-fuzz dist run/E_B run/E_C \
+	  tests/browser/node_modules

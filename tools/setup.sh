@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# setup.sh run|test|bench|results|wheel|wheel-elsewhere|package|fuzz: sees to it that what `make run`, `make test`, `make bench`,
-# `make fuzz` or `make results` and `make robustness` need is there. What is missing is installed by
-# apt, after saying which package and why, and asking whoever sits at the terminal. Nobody is asked
-# where YES=1 or CI is set, or where there is no terminal; YES=0 says no. Where apt cannot do it, this
-# says what to install and goes on: the build then tells whether it was there after all.
+# setup.sh run|test|bench|wheel|wheel-elsewhere|package|fuzz|format: sees to it that what `make run` and all pages of the
+# program alone, `make test` and `make tidy`, `make bench` and pages with other tools, and the other targets of these names
+# need is there. What is missing is installed by apt, after saying which package and why, and asking whoever sits at the
+# terminal. Nobody is asked where YES=1 or CI is set, or where there is no terminal; YES=0 says no. Where apt cannot do it,
+# this says what to install and goes on: the build then tells whether it was there after all.
 set -euo pipefail
 trap 'echo "setup: took $SECONDS s"' EXIT
 
@@ -26,7 +26,7 @@ libsqlite3-dev      | run   | inc:sqlite3.h             | keeps the results of s
 libsleef-dev        | run   | inc:sleef.h               | elementary functions on vectors
 libgtest-dev        | test  | inc:gtest/gtest.h         | unit tests
 libamplsolver-dev   | test  | inc:ampl-netlib-solvers/asl_pfgh.h | reads .nl files, in the tests' own solver
-clang-format        | test  | cmd:clang-format          | checks the format of the source
+clang-format        | format | cmd:clang-format         | formats the source, and checks its format
 clang-tidy          | test  | cmd:clang-tidy            | checks the source for mistakes
 python3             | run   | cmd:python3               | finds which sources to compile together
 chromium            | test  | cmd:chromium cmd:chromium-browser cmd:google-chrome | drives the report's page
@@ -40,6 +40,7 @@ make                | wheel | cmd:make                  | does so
 gcc                 | wheel | cmd:cc                    | compiles what SQLite's sources are made with
 debootstrap         | wheel-elsewhere | cmd:debootstrap | makes other releases of Debian to try the wheel in
 python3-venv        | bench | py:ensurepip              | keeps the peers they compare with to a folder of their own
+pkg-config          | bench | cmd:pkg-config            | finds Ipopt, and tells versions of libraries
 gcc                 | bench | cmd:gcc                   | compiles the C code those peers generate
 make                | bench | cmd:make                  | builds acados' generated solver
 dpkg-dev            | package | cmd:dpkg-shlibdeps        | finds what the Debian package depends on
@@ -85,16 +86,13 @@ is_there() {
 }
 
 wanted() { # needed for $1, when asked for $2
+  local of="run $2"
   case $2 in
-    run) [ "$1" = run ] ;;
-    test) [ "$1" = run ] || [ "$1" = test ] || [ "$1" = wheel ] || [ "$1" = package ] ;;
-    package) [ "$1" = run ] || [ "$1" = package ] ;;
-    wheel) [ "$1" = run ] || [ "$1" = wheel ] ;;
-    wheel-elsewhere) [ "$1" = run ] || [ "$1" = wheel ] || [ "$1" = wheel-elsewhere ] ;;
-    bench) [ "$1" = run ] || [ "$1" = bench ] ;;
-    results) [ "$1" = run ] || [ "$1" = results ] ;;
-    fuzz) [ "$1" = run ] || [ "$1" = fuzz ] ;;
+    test) of="run test wheel package format" ;;
+    wheel-elsewhere) of="run wheel wheel-elsewhere" ;;
+    format) of=format ;;
   esac
+  [[ " $of " == *" $1 "* ]]
 }
 
 missing_for() {
@@ -128,9 +126,9 @@ go_on() {
 
 purpose=${1:-}
 case $purpose in
-  run | test | bench | results | wheel | wheel-elsewhere | package | fuzz) ;;
+  run | test | bench | wheel | wheel-elsewhere | package | fuzz | format) ;;
   *)
-    echo "usage: tools/setup.sh run|test|bench|results|wheel|wheel-elsewhere|package|fuzz" >&2
+    echo "usage: tools/setup.sh run|test|bench|wheel|wheel-elsewhere|package|fuzz|format" >&2
     exit 2
     ;;
 esac

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""setup.sh asks before it installs, where somebody can answer."""
+"""setup.sh asks before it installs, where somebody can answer, and names what each target lacks."""
 
 import os
 import pathlib
 import pty
+import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -55,6 +57,36 @@ class Setup(unittest.TestCase):
         self.assertTrue(self.installs())
         self.assertFalse(self.installs(YES="0"))
         self.assertFalse(self.installs("y\n", YES="0"))
+
+
+class Purposes(unittest.TestCase):
+    """On a path with nothing but what the script itself runs."""
+
+    def lacking(self, purpose):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("bash", "sed", "awk", "id", "env", "cat"):
+                os.symlink(shutil.which(name), pathlib.Path(folder) / name)
+            stub = pathlib.Path(folder) / "dpkg-query"
+            stub.write_text('#!/bin/sh\ncase "$*" in *pkg-config* | *clang-format* | *gtest* | *linux-perf*) exit 1 ;; esac\n'
+                            "printf installed\n")  # fmt: skip
+            stub.chmod(0o755)
+            done = subprocess.run([SETUP, purpose], stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60,
+                                  env={"PATH": folder, "YES": "0"})  # fmt: skip
+            return done.returncode, set(re.findall(r"(?m)^  (\S+)", done.stdout)) - {"libgtest-dev"}
+
+    def test_each_has_its_packages(self):
+        self.assertEqual(self.lacking("bench"), (0, {"pkg-config", "linux-perf"}))
+        self.assertEqual(self.lacking("run"), (0, set()))
+        self.assertEqual(self.lacking("format"), (0, {"clang-format"}))
+        self.assertEqual(self.lacking("test"), (0, {"pkg-config", "clang-format"}))
+
+    def test_others_are_refused(self):
+        self.assertEqual(self.lacking("results")[0], 2)
+
+    def test_make_asks_for_those_that_there_are(self):
+        makefile = SETUP.parents[1].joinpath("Makefile").read_text()
+        usage = re.search(r'usage: tools/setup.sh ([^"]+)"', SETUP.read_text())[1].split("|")
+        self.assertEqual(set(re.findall(r"setup\.sh (\S+)", makefile)) - set(usage), set())
 
 
 if __name__ == "__main__":
