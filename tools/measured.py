@@ -26,7 +26,8 @@ PROGRAM = ROOT / "build/slalom"
 class Page(NamedTuple):
     name: str  # of the file, without .md
     target: str  # make's
-    measures: tuple  # paths; a commit that changes one makes the page stale
+    tool: str  # what writes it; it counts among what is measured, and so do the modules that it imports
+    measures: tuple  # paths, which may have stars; a commit that changes one makes the page stale
     needs: str = ""  # make's variable that names a folder of files which are not in the repository
 
 
@@ -34,42 +35,67 @@ def modules(names):
     return tuple(f"{folder}/{name}" for name in names.split() for folder in ("src", "include/slalom"))
 
 
+def programs(names):
+    """The sources of programs of benchmarks/, and what they share."""
+    own = tuple(f"benchmarks/{name}.*pp" for name in names.split())
+    return own + ("benchmarks/cycle_file.*pp", "benchmarks/planner_cycle.*pp", "benchmarks/command_line.hpp")
+
+
 CONFIG = tuple(f"config/{kind}" for kind in ("scenarios", "planners", "vehicles"))
-SOLVER = modules("expr kkt nlp ocp")
-PLANNER = SOLVER + modules("vehicle planner") + CONFIG
-DRIVE = PLANNER + modules("world sim")
+SOLVER = modules("base expr kkt nlp ocp")
+PLANNER = SOLVER + modules("vehicle world planner") + CONFIG
+DRIVE = PLANNER + modules("sim")
+SWEEP = DRIVE + modules("sweep")
 PAPER = ("src/paper", "config/paper")
+CYCLES = DRIVE + programs("record solve")  # recorded from drives
 
 # In the order in which `make docs-measured` makes them: the shortest first.
 PAGES = (
-    Page("results", "results", DRIVE + PAPER),
-    Page("realtime", "realtime", DRIVE),
-    Page("obstacle-choice", "obstacle-choice", DRIVE),
-    Page("model-choice", "model-choice", DRIVE),
-    Page("latency", "latency", DRIVE + ("config/studies/latency.yaml",)),
-    Page("robustness", "robustness", DRIVE),
-    Page("verdicts", "verdicts", DRIVE + PAPER + ("config/studies",)),
-    Page("paper-index", "verdicts", DRIVE + PAPER + ("config/studies",)),
-    Page("verified-planner", "verified-planner", DRIVE + modules("sweep")),
-    Page("ablation", "ablation", DRIVE + modules("sweep")),
-    Page("random-scenarios", "random-scenarios", DRIVE + modules("sweep")),
-    Page("paper-sweep", "paper-sweep", DRIVE + PAPER + ("config/studies",)),
-    Page("sensitivity", "sensitivity", DRIVE),
-    Page("long-solves", "long-solves", PLANNER),
-    Page("shape-forms", "shape-forms", SOLVER + modules("world") + tuple(
-        f"benchmarks/shape_{name}" for name in ("forms.cpp", "rows.cpp", "rows.hpp", "scenes.hpp"))),
-    Page("commonroad", "commonroad", DRIVE + ("python/slalom/importing", "python/slalom/exporting"), "FILES"),
-    Page("solver-profile", "solver-profile", PLANNER),
-    Page("growth", "growth", PLANNER),
-    Page("kills", "kills", modules("sweep") + ("apps/slalom",)),
-    Page("sweep-scale", "sweep-scale", modules("sweep") + ("apps/slalom",)),
-    Page("perturbed", "perturbed", PLANNER),
-    Page("peers", "peers", SOLVER + ("python/src", "benchmarks/ocp")),
-    Page("any-scenario", "any-scenario", DRIVE + modules("sweep")),
-    Page("laps", "laps", DRIVE, "TRACKS"),
-    Page("belief-errors", "belief-errors", DRIVE + modules("sweep")),
-    Page("benchmarks", "bench", PLANNER),
+    Page("results", "results", "tools/paper_pages.py", DRIVE + PAPER + modules("report")),
+    Page("realtime", "realtime", "tools/realtime.py", DRIVE),
+    Page("obstacle-choice", "obstacle-choice", "tools/obstacle_choice.py", DRIVE),
+    Page("model-choice", "model-choice", "tools/model_choice.py", DRIVE),
+    Page("latency", "latency", "tools/latency.py", SWEEP + ("config/studies/latency.yaml",)),
+    Page("robustness", "robustness", "tools/robustness.py", SWEEP),
+    Page("verdicts", "verdicts", "tools/paper_pages.py", SWEEP + PAPER + ("config/studies",)),
+    Page("paper-index", "verdicts", "tools/paper_pages.py", SWEEP + PAPER + ("config/studies",)),
+    Page("verified-planner", "verified-planner", "tools/verified_planner.py", SWEEP),
+    Page("ablation", "ablation", "tools/planner_ablation.py", SWEEP),
+    Page("random-scenarios", "random-scenarios", "tools/random_scenarios.py", SWEEP),
+    Page("paper-sweep", "paper-sweep", "tools/paper_pages.py", SWEEP + PAPER + ("config/studies",)),
+    Page("sensitivity", "sensitivity", "tools/sensitivity.py", SWEEP),
+    Page("long-solves", "long-solves", "benchmarks/long_solves.py", PLANNER + ("benchmarks/long_casadi.py",)),
+    Page("shape-forms", "shape-forms", "benchmarks/shape_forms.py", SOLVER + modules("world") + tuple(
+        f"benchmarks/{name}.*pp" for name in ("shape_forms", "shape_rows", "shape_scenes", "smooth_box"))),
+    Page("commonroad", "commonroad", "tools/commonroad_page.py", DRIVE + (
+        "python/slalom/importing", "python/slalom/exporting", "tools/commonroad_check.py"), "FILES"),
+    Page("solver-profile", "solver-profile", "benchmarks/profile.py", CYCLES + programs("interleaved")),
+    Page("growth", "growth", "benchmarks/growth.py", CYCLES + programs("growth")),
+    Page("kills", "kills", "tools/kills.py", modules("sweep") + ("apps/slalom",)),
+    Page("sweep-scale", "sweep-scale", "benchmarks/sweep_scale.py", modules("sweep") + ("apps/slalom",)),
+    Page("perturbed", "perturbed", "benchmarks/perturb.py", CYCLES + programs("perturb")),
+    Page("peers", "peers", "benchmarks/ocp/peers.py", SOLVER + ("python/src", "python/slalom", "benchmarks/ocp")),
+    Page("any-scenario", "any-scenario", "tools/any_scenario.py", SWEEP),
+    Page("laps", "laps", "benchmarks/laps.py", DRIVE + programs("lap") + ("benchmarks/lap_casadi.py",), "TRACKS"),
+    Page("belief-errors", "belief-errors", "tools/belief_errors.py", SWEEP),
+    Page("benchmarks", "bench", "benchmarks/run.py", CYCLES + programs("judge functions") + (
+        "benchmarks/peer_*.py", "benchmarks/planner_casadi.py", "benchmarks/shooting.py", "benchmarks/compiled.py",
+        "benchmarks/time_casadi.py", "benchmarks/time_generated.c")),
 )
+
+
+def written_by(tool):
+    """A tool and all that it imports of tools/ and its own folder, but for the stamp's own module."""
+    found, left = [], [tool]
+    while left:
+        file = left.pop()
+        found.append(file)
+        for name in re.findall(r"(?m)^(?:from|import) (\w+)", (ROOT / file).read_text()):
+            names = [f"{folder}/{name}.py" for folder in (pathlib.PurePath(file).parent, "tools")]
+            other = next((name for name in names if (ROOT / name).is_file()), "tools/measured.py")
+            if other not in (*found, *left, "tools/measured.py"):
+                left.append(other)
+    return tuple(found)
 
 
 # --- the stamp ----------------------------------------------------------------------------------
@@ -136,7 +162,7 @@ def kernel_set():
 def compiler(program):
     """The compiler that a program names in itself."""
     file = pathlib.Path(program)
-    found = re.search(rb"GCC: \([^)]*\) [\d.]+|clang version [\d.]+", file.read_bytes()) if file.is_file() else None
+    found = re.search(rb"GCC: \([^)]*\) [\d.]+|clang version [\d.]+|g\+\+ [\d.]+", file.read_bytes()) if file.is_file() else None
     return found[0].decode().replace("GCC: ", "g++ ") if found else "unknown compiler"
 
 
@@ -158,7 +184,8 @@ def stale(page, root=ROOT):
     found = re.search(r"Measured at commit ([0-9a-f]+)(-dirty)?", file.read_text())
     if not found:
         return "has no stamp"
-    since = output_of("git", "-C", root, "rev-list", "--count", f"{found[1]}..HEAD", "--", *page.measures)
+    since = output_of("git", "-C", root, "rev-list", "--count", f"{found[1]}..HEAD", "--", *page.measures,
+                      *written_by(page.tool))
     if since == "unknown":
         return f"was measured at {found[1]}, which is not in the history"
     if since != "0":

@@ -3,6 +3,7 @@
 
 import argparse
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,7 +13,7 @@ import unittest.mock
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import measured  # noqa: E402
 
-PAGE = measured.Page("realtime", "realtime", ("src/nlp", "include/slalom/nlp"))
+PAGE = measured.Page("realtime", "realtime", "tools/realtime.py", ("src/nlp", "include/slalom/nlp"))
 
 
 class Table(unittest.TestCase):
@@ -21,7 +22,15 @@ class Table(unittest.TestCase):
         for page in measured.PAGES:
             self.assertRegex(makefile, rf"(?m)^{page.target}: ")
             for path in page.measures:
-                self.assertTrue((measured.ROOT / path).exists(), path)
+                self.assertTrue(any(measured.ROOT.glob(path)), path)
+            # The target runs the tool.
+            recipe = re.search(rf"(?m)^{page.target}: .*\n((?:\t.*\n)+)", makefile)[1]
+            self.assertIn(f"python3 {page.tool}", recipe)
+
+    def test_a_tool_counts_with_what_it_imports(self):
+        self.assertEqual(set(measured.written_by("tools/planner_ablation.py")), {f"tools/{name}.py" for name in (
+            "planner_ablation", "verified_planner", "first_sight", "random_scenarios", "sweeps")})  # fmt: skip
+        self.assertIn("benchmarks/contestants.py", measured.written_by("benchmarks/perturb.py"))
 
     def test_pages_of_files_from_elsewhere_are_made_where_their_folder_is_given(self):
         self.assertFalse({"laps", "commonroad"} & set(measured.targets({"TRACKS": ""})))
@@ -65,6 +74,11 @@ class Repository(unittest.TestCase):
         self.assertEqual(measured.stale(PAGE, self.root), "")
         self.commit("src/nlp/a.cpp", "2")
         self.assertRegex(measured.stale(PAGE, self.root), "commits since to what it measures: 1$")
+        self.commit("tools/robustness.py", "1")
+        self.assertRegex(measured.stale(PAGE, self.root), "commits since to what it measures: 2$")
+        self.commit("tools/quick.py", "1")
+        star = PAGE._replace(measures=("src/nlp/*.cpp",))
+        self.assertRegex(measured.stale(star, self.root), "commits since to what it measures: 2$")
 
     def test_what_cannot_be_compared_is_said(self):
         self.assertEqual(measured.stale(PAGE, self.root), "is not there")
@@ -151,6 +165,12 @@ class Stamp(unittest.TestCase):
             file.write(b"\x7fELF\0GCC: (Debian 12.2.0-14) 12.2.0\0.text")
             file.flush()
             self.assertEqual(measured.compiler(file.name), "g++ (Debian 12.2.0-14) 12.2.0")
+        with tempfile.NamedTemporaryFile(suffix=".so") as file:  # stripped
+            for name in ("clang version 20.1.2", "g++ 12.2.0"):
+                file.seek(0)
+                file.write(b"\x7fELF\0" + name.encode() + b" (somewhere)\0.text")
+                file.flush()
+                self.assertEqual(measured.compiler(file.name), name)
         self.assertEqual(measured.compiler("/nowhere"), "unknown compiler")
 
     def test_writing_makes_the_folder_and_leaves_nothing_beside(self):

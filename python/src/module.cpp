@@ -62,6 +62,12 @@ void bind_errors(nb::module_& module) {
 NB_MODULE(_core, module) {
   using namespace slalom::python;
   module.attr("__version__") = slalom::io::kVersion;
+  // For measurements to name it; a stripped extension says it nowhere else.
+#ifdef __clang__
+  module.attr("__compiler__") = "clang version " __clang_version__;
+#else
+  module.attr("__compiler__") = "g++ " __VERSION__;
+#endif
   bind_errors(module);
   bind_expressions(module);
   bind_solution(module);

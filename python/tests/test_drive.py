@@ -1,6 +1,7 @@
 """Scenarios, planning and drives from Python are those of the command line."""
 
 import os
+import re
 import signal
 import threading
 
@@ -273,3 +274,8 @@ def test_values_are_read_by_the_keys_that_set_them():
     assert "obstacles.cone3.y" in scenario.keys()
     with pytest.raises(KeyError, match="perhaps 'obstacles.O2.v[xy]'"):
         scenario["obstacles.O2.vz"]
+
+
+def test_the_extension_names_its_compiler():
+    """As pages of measurements do; a stripped one says it nowhere else."""
+    assert re.match(r"(clang version|g\+\+) \d+\.", slalom._core.__compiler__)
