@@ -16,6 +16,7 @@ import re
 import subprocess
 from typing import NamedTuple
 
+from first_sight import obstacles_of
 from measured import command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios
 from sweeps import head, interval, row, rows_of
@@ -189,8 +190,7 @@ def unreported(out, planner, settings):
     kept = min(value("sm_start"), value("sm_end")) - value("passage_depth") - TOLERANCE
     held = re.search(r"(?m)^  moving_avoidance: (\w+)$", resolved).group(1) == "false"
     la = value("la")
-    obstacles = [{k: float(v) for k, v in re.findall(r"(\w+): ([-+.\d][-+.\deE]*)", line)}
-                 for line in resolved.splitlines() if line.startswith("  - {")]
+    obstacles = obstacles_of(resolved).values()
     cycles = {c["cycle"]: c for c in rows_of(out / "cycles.csv")}
     plans = collections.defaultdict(list)
     for node in rows_of(out / "plans.csv"):

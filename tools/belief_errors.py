@@ -16,10 +16,10 @@ import statistics
 from typing import NamedTuple
 
 from measured import command_of, page_parser, stamp, write
-from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios, of_family
+from random_scenarios import FAMILIES, TIMED_FAMILIES, arrivals, by_family, make_scenarios
 from sensitivity import QUANTITIES
-from sweeps import head, interval, row, rows_of, setting, swept
-from verified_planner import REAL_TIME, arrives, number
+from sweeps import arrives, head, interval, row, rows_of, setting, swept
+from verified_planner import REAL_TIME, number
 
 LEVELS = {"small": 0.1, "medium": 0.5, "large": 1.0}  # shares of the ranges
 SEED, DIFFICULTY = 5, 0.6
@@ -196,12 +196,11 @@ def levels_table(trials, verified):
 
 
 def families_table(trials):
-    text = head(["family", *(f"{level}: arrive" for level in trials), *(f"{level}: crash" for level in trials)])
-    for family in ALL_FAMILIES:
-        own = [[of_scenario[s] for s in of_family(family, of_scenario)] for of_scenario in trials.values()]
-        text += row([family, *(f"{sum(map(arrives, o))}/{len(o)}" for o in own),
-                     *(sum(t["outcome"] == "crash" for t in o) for o in own)])
-    return text
+    def crashed(of_scenario):
+        return lambda own: sum(of_scenario[s]["outcome"] == "crash" for s in own)
+    columns = {f"{level}: arrive": arrivals(of_scenario) for level, of_scenario in trials.items()}
+    columns |= {f"{level}: crash": crashed(of_scenario) for level, of_scenario in trials.items()}
+    return by_family(list(trials["small"]), ALL_FAMILIES, columns)
 
 
 def shares_table(trials):

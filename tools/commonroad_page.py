@@ -17,6 +17,7 @@ import sys
 
 from environments import environment
 from measured import ROOT, command_of, page_parser, stamp, write
+from sweeps import table
 
 CHECKER = ROOT / "tools/commonroad_check.py"
 JUDGE = ("commonroad-drivability-checker", "commonroad-io<2026")
@@ -83,11 +84,6 @@ def number(value, form="{:.2f}"):
     return "–" if value is None else form.format(value)
 
 
-def table(head, rows):
-    return ["| " + " | ".join(head) + " |", "|---" * len(head) + "|",
-            *("| " + " | ".join(row) + " |" for row in rows)]  # fmt: skip
-
-
 def drives(rows):
     lines = []
     for row in rows:
@@ -140,13 +136,13 @@ def page(rows, stamped):
         "Scenarios given to `make commonroad FILES=folder`, imported ([import.md](../import.md)) and driven in closed loop by",
         "the planner that the import names. Distances are the program's own: of the body to the nearest obstacle, and to",
         "the road's edge, at all times.", "", counts(rows), "", load_line(rows), "",
-        *drives(rows), "",
+        drives(rows),
         "## The independent checker", "",
         "`tools/commonroad_check.py` judges the drives, exported as CommonRoad solutions ([export.md](../export.md)), from the",
         "XML files alone, at their time steps; `both` where two judges agree, in the first time steps too.", "",
-        *verdicts(rows), "",
+        verdicts(rows),
         "## What was not carried over", "",
-        *table(["scenario", "left out, or not as in the source"], left), ""])  # fmt: skip
+        table(["scenario", "left out, or not as in the source"], left)])  # fmt: skip
 
 
 def with_package():

@@ -77,21 +77,22 @@ class Strikes(unittest.TestCase):
 
     def test_the_first_run_of_a_kind_is_undisturbed_and_gives_its_time(self):
         self.assertIsNone(self.strike(0.05, 0.2)[0])
-        self.assertGreaterEqual(self.bench.takes_s["kind"], 0.2)
+        self.assertGreater(self.bench.takes_s["kind"], 0.1)
         self.assertEqual(self.bench.struck["kind"], 0)
 
     def test_a_strike_counts_where_something_is_struck(self):
         self.bench.takes_s = {"kind": 0.3}
         one, processes = self.strike(60)
         self.assertEqual((one, self.bench.struck["kind"]), (processes[0], 1))
-        self.draw.random = lambda: 1  # when it is over
+        self.draw.random = lambda: 10  # long after it is over
         self.assertIsNone(self.strike(0)[0])
         self.assertEqual(self.bench.struck["kind"], 1)
+        self.draw.random = lambda: 0.5
         self.strike(1, strike=lambda process: kills.kill_workers(self.draw, process))  # has none
         self.assertEqual(self.bench.struck["kind"], 1)
 
     def test_of_several_one_that_runs_is_struck(self):
-        self.bench.takes_s = {"kind": 0.2}
+        self.bench.takes_s = {"kind": 0.5}
         self.draw.random = lambda: 1
         one, processes = self.strike(0, 60)
         self.assertIs(one, processes[1])
@@ -99,7 +100,7 @@ class Strikes(unittest.TestCase):
     def test_the_page_says_how_many_runs_were_struck(self):
         def strike(draw, made, out):
             kills.struck(draw, made, [subprocess.Popen(["sleep", "0"], stderr=subprocess.PIPE)], kills.kill)
-        self.draw.random = lambda: 1
+        self.draw.random = lambda: 100  # long after all is over
         made = bench(pathlib.Path("/"), [])
         made.takes_s, made.struck = {}, collections.Counter()
         made.finish = lambda *_: None

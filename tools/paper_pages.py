@@ -16,7 +16,8 @@ import subprocess
 import tempfile
 
 from measured import FOLDER, ROOT, command_of, page_parser, stamp, write
-from sweeps import ended, head, row, setting, swept
+from sweeps import ended, setting, swept
+from sweeps import table as plain_table
 
 GRIDS = {"paper": "study", "paper-printed": "printed"}  # study, its folder
 # One thing changed at a time, on the first grid: name, settings, words.
@@ -37,7 +38,7 @@ TERMS = ("steering_angle", "steering_rate", "jerk", "total")
 
 
 def table(columns, rows):
-    return head(columns) + "".join(row([str(cell).replace("|", "\\|") for cell in cells]) for cells in rows)
+    return plain_table(columns, ([str(cell).replace("|", "\\|") for cell in cells] for cells in rows))
 
 
 def digits(value, form):

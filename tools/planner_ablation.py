@@ -8,9 +8,9 @@ what each part does to docs/measured/ablation.md. Standard library only.
 import statistics
 
 from measured import command_of, page_parser, stamp, write
-from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios, of_family
-from sweeps import head, interval, mcnemar, row
-from verified_planner import REAL_TIME, arrives, number, paper_sweep, random_sweep
+from random_scenarios import FAMILIES, TIMED_FAMILIES, arrivals, by_family, make_scenarios
+from sweeps import arrives, head, interval, mcnemar, row
+from verified_planner import REAL_TIME, number, paper_sweep, random_sweep
 
 WHOLE = "whole"
 # What is left out, under the name that it has in the tables, by the settings of the planner.
@@ -68,15 +68,6 @@ def table(variants):
     return text
 
 
-def by_family(variants):
-    """A row a family of how many arrive."""
-    text = head(["family", *variants])
-    for family in FAMILIES + TIMED_FAMILIES:
-        own = of_family(family, sorted(variants[WHOLE]))
-        text += row([family, *(f"{sum(arrives(trials[s]) for s in own)}/{len(own)}" for trials in variants.values())])
-    return text
-
-
 def page(swept, drawn, options, stamped):
     return (HEAD.format(stamp=stamped, jobs=options.jobs)
             + "## The paper's sweep\n\n"
@@ -84,7 +75,8 @@ def page(swept, drawn, options, stamped):
             "40 m/s.\n\n" + table(swept)
             + f"\n## Random scenarios\n\nSeed {SEED}, difficulty {DIFFICULTY:g}, "
             f"{options.count} of each family.\n\n" + table(drawn)
-            + "\nDrives that arrive:\n\n" + by_family(drawn))
+            + "\nDrives that arrive:\n\n"
+            + by_family(sorted(drawn[WHOLE]), FAMILIES + TIMED_FAMILIES, {name: arrivals(t) for name, t in drawn.items()}))
 
 
 def main():

@@ -11,7 +11,7 @@ import itertools
 import subprocess
 
 from measured import command_of, page_parser, stamp, write
-from sweeps import head, interval, mcnemar, row, setting, swept
+from sweeps import arrives, head, interval, mcnemar, row, setting, swept, table
 
 PLANNERS = ("P_A", "P_B", "P_C", "P_D")
 # Those that this page measures, and those that came later, in which the way is a matter of time.
@@ -56,23 +56,30 @@ def of_family(family, scenarios):
     return [s for s in scenarios if s.rsplit("-", 1)[0] == family]
 
 
-def by_family(columns, scenarios):
-    """A row a family of how many arrive; `columns`: outcomes by scenario, for each name."""
-    text = head(["family", *columns])
-    for family in FAMILIES:
-        own = of_family(family, scenarios)
-        passed = [sum(outcomes[s] == "goal" for s in own) for outcomes in columns.values()]
-        text += row([family, *(f"{k}/{len(own)}" for k in passed)])
-    passed = [sum(outcomes[s] == "goal" for s in scenarios) for outcomes in columns.values()]
-    text += row(["all", *(f"{k}/{len(scenarios)}" for k in passed)])
-    return text + row(["95 % of the share",
-                       *("{:.3f}–{:.3f}".format(*interval(k, len(scenarios))) for k in passed)])
+def by_family(scenarios, families, columns):
+    """A table with a row a family; `columns`: what is said of a list of scenarios, by name."""
+    return table(["family", *columns],
+                 ([family, *(say(of_family(family, scenarios)) for say in columns.values())] for family in families))
+
+
+def arrivals(trials):
+    """How many of a list of scenarios arrive; `trials`: by scenario."""
+    return lambda own: f"{sum(arrives(trials[s]) for s in own)}/{len(own)}"
+
+
+def shares(columns, scenarios):
+    """A row a family of how many arrive, and rows of all; `columns`: trials by scenario, for each name."""
+    def share(trials):
+        return "{:.3f}–{:.3f}".format(*interval(sum(arrives(trials[s]) for s in scenarios), len(scenarios)))
+    text = by_family(scenarios, FAMILIES, {name: arrivals(trials) for name, trials in columns.items()})
+    text += row(["all", *(arrivals(trials)(scenarios) for trials in columns.values())])
+    return text + row(["95 % of the share", *map(share, columns.values())])
 
 
 def ends(columns):
     text = head(["", "goal", "crash", "not_optimal", "others"])
-    for name, outcomes in columns.items():
-        count = collections.Counter(outcomes.values())
+    for name, trials in columns.items():
+        count = collections.Counter(trial["outcome"] for trial in trials.values())
         named = [count.pop(kind, 0) for kind in ("goal", "crash", "not_optimal")]
         text += row([name, *named, sum(count.values())])
     return text
@@ -81,8 +88,8 @@ def ends(columns):
 def pairs(columns, wanted, scenarios):
     text = head(["pair", "both", "the first alone", "the second alone", "p (McNemar)"])
     for one, two in wanted:
-        first = [columns[one][s] == "goal" for s in scenarios]
-        second = [columns[two][s] == "goal" for s in scenarios]
+        first = [arrives(columns[one][s]) for s in scenarios]
+        second = [arrives(columns[two][s]) for s in scenarios]
         both = sum(a and b for a, b in zip(first, second))
         only1 = sum(a and not b for a, b in zip(first, second))
         only2 = sum(b and not a for a, b in zip(first, second))
@@ -93,18 +100,18 @@ def pairs(columns, wanted, scenarios):
 def never(columns, scenarios):
     """The families in which no drive of any column arrives."""
     families = [family for family in FAMILIES if not any(
-        outcomes[s] == "goal" for outcomes in columns.values() for s in of_family(family, scenarios))]
+        arrives(trials[s]) for trials in columns.values() for s in of_family(family, scenarios))]
     return f"Families in which none of these arrives: {', '.join(families) or 'none'}.\n"
 
 
 def page(planners, variants, scenarios, options, stamped):
     return (HEAD.format(stamp=stamped) + f"{len(scenarios)} scenarios, {options.count} of each family in the table, seed {options.seed}, "
             f"difficulty {options.difficulty:g}, else by default settings. Drives that arrive:\n\n"
-            + by_family(planners, scenarios) + "\n" + never(planners, scenarios)
+            + shares(planners, scenarios) + "\n" + never(planners, scenarios)
             + "\nHow they ended:\n\n" + ends(planners)
             + "\nPaired on the scenarios, by McNemar's exact test:\n\n"
             + pairs(planners, itertools.combinations(PLANNERS, 2), scenarios)
-            + "\nP_D, with other settings:\n\n" + by_family(variants, scenarios) + "\n"
+            + "\nP_D, with other settings:\n\n" + shares(variants, scenarios) + "\n"
             + pairs(variants, [("P_D", name) for name in variants if name != "P_D"], scenarios)
             + "\n" + never(variants, scenarios))
 
@@ -119,12 +126,12 @@ def main():
     files = make_scenarios(options.program, folder, FAMILIES, options.count, options.seed, options.difficulty)
     scenarios = sorted(file.stem for file in files)
     trials = sweep(options.program, options.work, "planners", files, PLANNERS, {})
-    planners = {p: {s: trials[s, p]["outcome"] for s in scenarios} for p in PLANNERS}
+    planners = {p: {s: trials[s, p] for s in scenarios} for p in PLANNERS}
     variants = {"P_D": planners["P_D"]}
     for number, (name, settings) in enumerate(VARIANTS.items()):
         if settings:
             trials = sweep(options.program, options.work, f"variant-{number}", files, ["P_D"], settings)
-            variants[name] = {s: trials[s, "P_D"]["outcome"] for s in scenarios}
+            variants[name] = {s: trials[s, "P_D"] for s in scenarios}
     command = command_of(parser, options, "random-scenarios", "count", "seed", "difficulty")
     write(options.out, page(planners, variants, scenarios, options, stamp(command, options.program)))
 

@@ -47,6 +47,10 @@ def swept(program, study, out, *arguments):
     return trials(out)
 
 
+def arrives(trial):
+    return trial["outcome"] == "goal"
+
+
 def setting(values):
     """`values` as the map that stands behind `set:` in a study."""
     return "{" + ", ".join(f"{key}: {value}" for key, value in values.items()) + "}"
@@ -84,3 +88,7 @@ def row(cells):
 
 def head(cells):
     return row(cells) + "|---" * len(cells) + "|\n"
+
+
+def table(columns, rows):
+    return head(columns) + "".join(map(row, rows))

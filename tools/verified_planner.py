@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from first_sight import saved
 from measured import ROOT, command_of, page_parser, stamp, write
-from random_scenarios import FAMILIES, TIMED_FAMILIES, make_scenarios, of_family, sweep
-from sweeps import driven, head, interval, mcnemar, row, setting, swept
+from random_scenarios import FAMILIES, TIMED_FAMILIES, arrivals, by_family, make_scenarios, sweep
+from sweeps import arrives, driven, head, interval, mcnemar, row, setting, swept
 
 PLANNERS = ("P_D", "P_E")
 # As it would be on a vehicle: a cycle ends within its horizon, and what planning takes is charged.
@@ -124,10 +124,6 @@ def random_sweep(options, name, files, planner, settings):
     """Runs or completes a sweep of scenarios; its trials by scenario."""
     trials = sweep(options.program, options.work, name, files, [planner], settings, "--jobs", str(options.jobs))
     return {scenario: trial for (scenario, _), trial in trials.items()}
-
-
-def arrives(trial):
-    return trial["outcome"] == "goal"
 
 
 def ladder(every):
@@ -246,15 +242,6 @@ def first_sight(options, trial, settings):
     return f"; from {moment:.2f} s: {'a way to the goal' if outcome == 'goal' else f'no way found, {outcome}'}\n"
 
 
-def by_family(trials, families):
-    text = head(["family", *PLANNERS])
-    scenarios = sorted(trials["P_E"])
-    for family in families:
-        own = of_family(family, scenarios)
-        text += row([family, *(f"{sum(arrives(trials[p][s]) for s in own)}/{len(own)}" for p in PLANNERS)])
-    return text
-
-
 def others(trials):
     """Each drive of P_E that does not arrive, by name and message."""
     lost = [(s, t) for s, t in trials["P_E"].items() if not arrives(t)]
@@ -285,8 +272,9 @@ def main():
         folder = options.work / f"scenarios-{seed}"
         files = make_scenarios(options.program, folder, families, min(count, options.most), seed, difficulty)
         trials = {p: random_sweep(options, f"random-{seed}-{p}", files, p, settings_of(p)) for p in PLANNERS}
+        families_table = by_family(sorted(trials["P_E"]), families, {p: arrivals(trials[p]) for p in PLANNERS})
         text += (f"\n## Random scenarios, seed {seed}, difficulty {difficulty:g}\n\n" + totals(trials) + "\n"
-                 + compared(trials) + "\n" + by_family(trials, families) + "\n" + others(trials))
+                 + compared(trials) + "\n" + families_table + "\n" + others(trials))
     write(options.out, text)
 
 
