@@ -255,7 +255,7 @@ def page(drives, stamped):
 
 
 def main():
-    parser = page_parser("any-scenario", __doc__)
+    parser = page_parser("any-scenario", __doc__, keeps="leaves scenarios and the drives at fault there, and begins anew")
     parser.add_argument("--drives", type=int, default=2000, help="about so many, of all families and difficulties")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()

@@ -221,17 +221,16 @@ class PageParser(argparse.ArgumentParser):
         return options
 
 
-def page_parser(name, doc, keeps=True):
-    """The command line of a tool that writes the page `name`. With `keeps`, what it measured stays in
-    --work."""
+def page_parser(name, doc, keeps="goes on with what was measured there"):
+    """The command line of a tool that writes the page `name`. With `keeps`, what --work is for, what it measured stays
+    there."""
     parser = PageParser(description=doc.split("\n\n")[0])
     parser.page = name
     commit_at_start()
     parser.add_argument("--program", default=str(PROGRAM))
     parser.add_argument("--out", type=pathlib.Path, default=FOLDER / f"{name}.md")
     if keeps:
-        parser.add_argument("--work", type=pathlib.Path, help="goes on with what was measured there "
-                            "(default: a folder of this commit in run/measured/)")
+        parser.add_argument("--work", type=pathlib.Path, help=keeps + " (default: a folder of this commit in run/measured/)")
     return parser
 
 

@@ -10,7 +10,7 @@ import itertools
 import json
 from typing import NamedTuple
 
-from measured import page_parser, stamp, write
+from measured import command_of, page_parser, stamp, write
 from sweeps import head, interval, row, swept
 from verified_planner import PLANNERS, settings_of
 
@@ -294,7 +294,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2, help="worker processes")
     options = parser.parse_args()
     trials = [trial for planner in PLANNERS for environment in STARTS for trial in sweep(options, environment, planner)]
-    write(options.out, page(trials, stamp("make sensitivity", options.program)))
+    write(options.out, page(trials, stamp(command_of(parser, options, "sensitivity", "jobs"), options.program)))
 
 
 if __name__ == "__main__":
