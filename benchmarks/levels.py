@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+ROUNDING = 1e-9  # relative
+
 
 @dataclass(frozen=True)
 class Level:
@@ -17,8 +19,9 @@ class Level:
         return self.stationarity if self.floor > 0 else 0.1 * self.stationarity
 
     def confirms(self, entry):
-        """Whether the checker's residuals make `entry` an answer (one that is missing never does)."""
-        return all(entry[k] is not None and entry[k] <= getattr(self, k)
+        """Whether the checker's residuals make `entry` an answer (one that is missing never does). Rounding refuses
+        none: a multiplier that stands for as much as is allowed may come out of the check the least bit larger."""
+        return all(entry[k] is not None and entry[k] <= getattr(self, k) * (1 + ROUNDING)
                    for k in ("violation", "stationarity", "complementarity"))  # fmt: skip
 
 
