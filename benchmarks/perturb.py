@@ -16,6 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contestants import program, record_cycles
 from measured import page_parser, stamp, write
 from run import build_ours
+from sweeps import quantile
 
 ENVIRONMENT, SEED, WIDTH, DEADLINE = "E_C", 1, 7, 0.002
 CHUNK = 250
@@ -38,11 +39,6 @@ def solve(folder, cycles, first, count):
                         str(DEADLINE), "--first", str(first), "--count", str(count)],
                        check=True, stdout=file)  # fmt: skip
     out.with_suffix(".part").rename(out)
-
-
-def quantile(values, share):
-    values = sorted(values)
-    return values[min(len(values) - 1, int(share * len(values)))]
 
 
 def share(part, whole):
@@ -88,9 +84,9 @@ def markdown(lines, stamped):
         ("overshoot where it struck [µs]: median, p99, max",
          ", ".join(f"{1e6 * quantile(struck, q):.0f}" for q in (0.5, 0.99, 1)) if struck else "–"),
         ("iterations of ours: median, p95, max",
-         ", ".join(str(quantile([x["ours"]["iterations"] for x in lines], q)) for q in (0.5, 0.95, 1))),
+         ", ".join(f"{quantile([x['ours']['iterations'] for x in lines], q):g}" for q in (0.5, 0.95, 1))),
         ("iterations of Ipopt: median, p95, max",
-         ", ".join(str(quantile([x["ipopt"]["iterations"] for x in lines], q)) for q in (0.5, 0.95, 1))),
+         ", ".join(f"{quantile([x['ipopt']['iterations'] for x in lines], q):g}" for q in (0.5, 0.95, 1))),
     ]  # fmt: skip
     text = ["# Perturbed cycles", "", stamped,
             f"Planning cycles of {ENVIRONMENT} with P_D, recorded in closed loop, each with another predicted",

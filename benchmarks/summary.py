@@ -4,18 +4,11 @@ from collections import defaultdict
 
 from contestants import CONTESTANTS, ENVIRONMENTS
 from levels import LEVELS
+from sweeps import quantile
 
 LIMIT_MS = 500.0  # the planner's default execution horizon: what an unsolved cycle counts as, or its time if longer
 REFERENCE = "casadi-c"  # whose answers ours are compared with
 PHI, PATH_M = 1e-4, 0.01  # the same answer: relative difference of phi, largest of paths
-
-
-def quantile(values, q):
-    values = sorted(values)
-    at = q * (len(values) - 1)
-    low = int(at)
-    high = min(low + 1, len(values) - 1)
-    return values[low] + (at - low) * (values[high] - values[low])
 
 
 def solved(entry, level):

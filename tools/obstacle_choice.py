@@ -35,7 +35,7 @@ obstacles of one velocity that stand closer than this.
   another number of obstacles needs a transcription of its own when it first occurs.
 
 Planner P_D, execution horizon .5 s; groups with a gap of {gap:g} m. Planning time is thread time of a
-cycle, transcription included; iterations are of the whole drive.
+cycle, transcription included, of all cycles; iterations are of the whole drive, without its warm-up.
 
 """
 
@@ -46,7 +46,7 @@ class Drive:
                                       {f"planner.{key}": value for key, value in settings.items()})  # fmt: skip
         self.end = ended(self.summary)
         self.iterations = sum(int(c["iterations"]) for c in cycles)
-        self.times = [1e3 * float(c["planning_cpu_s"]) for c in cycles[1:]]  # the first is the warm-up
+        self.times = [1e3 * float(c["planning_cpu_s"]) for c in cycles]
 
 
 def table(drives):

@@ -7,9 +7,7 @@ from one run. Standard library only.
 Thread times are of the one run, the first, not the best of several.
 """
 
-import csv
 import json
-import math
 import pathlib
 import statistics
 import subprocess
@@ -17,6 +15,7 @@ import tempfile
 
 from measured import page_parser, stamp, write
 from robustness import PAPER as DRIVES
+from sweeps import ended, head, quantile, row, rows_of
 
 # Drives of E_C by P_D: name, tex [s], deadline, what an unsolved cycle drives on.
 STUDIES = (("off", 0.01, "off", "last_plan"), ("10 ms", 0.01, "tex", "best_iterate"),
@@ -27,8 +26,7 @@ MOST_LISTED = 20
 class Drive:
     def __init__(self, folder):
         self.summary = json.loads((folder / "summary.json").read_text())
-        with open(folder / "cycles.csv", newline="") as file:
-            self.cycles = list(csv.DictReader(file))
+        self.cycles = rows_of(folder / "cycles.csv")
         # A plan that goes through an obstacle between its nodes is solved, too: its rows hold.
         solved = [c["status"].startswith(("solved", "passes_through")) for c in self.cycles]
         self.unsolved = [c for c, good in zip(self.cycles, solved) if not good]
@@ -39,16 +37,11 @@ class Drive:
         return sorted(1e3 * float(c[column]) for c in (self.cycles if cycles is None else cycles))
 
     def end(self):
-        s = self.summary
-        return f"{s['outcome']}{' ' + s['hit'] if s['hit'] else ''} {s['time_s']:.2f} s"
-
-
-def quantile(rising, share):
-    return rising[min(len(rising) - 1, math.ceil(share * len(rising)) - 1)] if rising else math.nan
+        return f"{ended(self.summary)} {self.summary['time_s']:.2f} s"
 
 
 def ms(value):
-    return "–" if math.isnan(value) else f"{value:.3f}"
+    return f"{value:.3f}"
 
 
 def simulate_arguments(tex, deadline, on_failure):
@@ -57,70 +50,59 @@ def simulate_arguments(tex, deadline, on_failure):
 
 
 def reproduced_table(drives):
-    lines = ["| drive | outcome | cycles | first solve, cold [ms] | its iterations | median solve [ms] |"
-             " longest solved [ms] | its iterations | cycle | not solved |",
-             "|---|---|---|---|---|---|---|---|---|---|"]
+    text = head(["drive", "outcome", "cycles", "first solve, cold [ms]", "its iterations", "median solve [ms]",
+                 "longest solved [ms]", "its iterations", "cycle", "not solved"])
     for key in DRIVES:
         drive = drives[key]
         warm_up = drive.summary["warm_up"]
         longest = max(drive.solved, key=lambda c: float(c["cpu_time_s"]))
-        lines.append(
-            f"| {key[0]}, {key[1]} | {drive.end()} | {len(drive.cycles)} | "
-            f"{ms(1e3 * warm_up['cpu_time_s'])} | {warm_up['iterations']} | "
-            f"{ms(statistics.median(drive.times('cpu_time_s')))} | "
-            f"{ms(1e3 * float(longest['cpu_time_s']))} | {longest['iterations']} | "
-            f"{longest['cycle']} | {len(drive.unsolved)} |")
-    return lines
+        text += row([f"{key[0]}, {key[1]}", drive.end(), len(drive.cycles), ms(1e3 * warm_up["cpu_time_s"]),
+                     warm_up["iterations"], ms(statistics.median(drive.times("cpu_time_s"))),
+                     ms(1e3 * float(longest["cpu_time_s"])), longest["iterations"], longest["cycle"],
+                     len(drive.unsolved)])
+    return text
 
 
 def study_table(studies):
-    lines = ["| deadline | tex [s] | outcome | cycles | solved | best iterate driven | last plan driven on |"
-             " solve: median, p99, longest [ms] | whole cycle: median, p99, longest [ms] |",
-             "|---|---|---|---|---|---|---|---|---|"]
+    text = head(["deadline", "tex [s]", "outcome", "cycles", "solved", "best iterate driven", "last plan driven on",
+                 "solve: median, p99, longest [ms]", "whole cycle: median, p99, longest [ms]"])
     for (name, tex, _, _), drive in studies.items():
         share = 100 * len(drive.solved) / len(drive.cycles)
         best = drive.summary["cycles_best_iterate"]
-        both = []
-        for column in ("cpu_time_s", "planning_cpu_s"):
-            times = drive.times(column)
-            both.append(f"{ms(statistics.median(times))}, {ms(quantile(times, 0.99))}, "
-                        f"{ms(times[-1])}")
-        lines.append(f"| {name} | {tex:g} | {drive.end()} | {len(drive.cycles)} | {share:.3f} % | "
-                     f"{best} | {len(drive.unsolved) - best} | {both[0]} | {both[1]} |")
-    return lines
+        both = [", ".join(ms(quantile(drive.times(column), q)) for q in (0.5, 0.99, 1))
+                for column in ("cpu_time_s", "planning_cpu_s")]
+        text += row([name, f"{tex:g}", drive.end(), len(drive.cycles), f"{share:.3f} %", best,
+                     len(drive.unsolved) - best, *both])
+    return text
 
 
 def overshoot_table(studies):
     """Of the thread time of a whole cycle beyond the deadline; negative: within it."""
-    lines = ["| deadline | cycles it ended | of these: least, median, p99, most beyond it [ms] | "
-             "cycles beyond it | most beyond it [ms] |", "|---|---|---|---|---|"]
+    text = head(["deadline", "cycles it ended", "of these: least, median, p99, most beyond it [ms]", "cycles beyond it",
+                 "most beyond it [ms]"])
     for (name, tex, deadline, _), drive in studies.items():
         if deadline == "off":
             continue
         cut = [c for c in drive.cycles if c["status"] == "time_limit"]
         beyond = [t - 1e3 * tex for t in drive.times("planning_cpu_s", cut)]
         everyone = [t - 1e3 * tex for t in drive.times("planning_cpu_s")]
-        spread = ", ".join(ms(t) for t in (beyond[0], statistics.median(beyond),
-                                           quantile(beyond, 0.99), beyond[-1])) if beyond else "–"
-        lines.append(f"| {name} | {len(cut)} | {spread} | {sum(t > 0 for t in everyone)} | "
-                     f"{ms(everyone[-1])} |")
-    return lines
+        spread = ", ".join(ms(quantile(beyond, q)) for q in (0, 0.5, 0.99, 1)) if beyond else "–"
+        text += row([name, len(cut), spread, sum(t > 0 for t in everyone), ms(everyone[-1])])
+    return text
 
 
 def unsolved_list(named_drives):
     lines = []
     for name, drive in named_drives:
         for c in drive.unsolved[:MOST_LISTED]:
-            lines.append(f"| {name} | {c['cycle']} | {float(c['t0']):g} | {c['status']} | "
-                         f"{c['iterations']} | {c['worst_constraint']} | "
-                         f"{float(c['worst_violation']):.2g} | "
-                         f"{'best iterate' if c['used'] == '1' else 'last plan'} |")
+            lines.append(row([name, c["cycle"], f"{float(c['t0']):g}", c["status"], c["iterations"], c["worst_constraint"],
+                              f"{float(c['worst_violation']):.2g}",
+                              "best iterate" if c["used"] == "1" else "last plan"]))
         if len(drive.unsolved) > MOST_LISTED:
-            lines.append(f"| {name} | and {len(drive.unsolved) - MOST_LISTED} more |||||||")
+            lines.append(f"| {name} | and {len(drive.unsolved) - MOST_LISTED} more |||||||\n")
     if not lines:
-        return ["None."]
-    return ["| drive | cycle | t0 [s] | status | iterations | worst constraint | violation | driven |",
-            "|---|---|---|---|---|---|---|---|", *lines]
+        return "None.\n"
+    return head(["drive", "cycle", "t0 [s]", "status", "iterations", "worst constraint", "violation", "driven"]) + "".join(lines)
 
 
 def page(drives, studies, stamped):
@@ -146,16 +128,16 @@ def page(drives, studies, stamped):
         f"| E_C, P_D, tex 0.01 s, deadline off: cycles solved | at least 99.9 % | {share:.3f} % |",
         "| the same: longest cycle, with update, guess and check | at most 10 ms | "
         f"{ms(off.times('planning_cpu_s')[-1])} ms |", "",
-        "## The ten drives of the paper's figures", "", *reproduced_table(drives), "",
+        "## The ten drives of the paper's figures", "", reproduced_table(drives),
         "By default settings, `slalom reproduce --out DIR`. The first solve is the warm-up from the",
         "straight-on guess. Cycles that were not solved do not count among the longest.", "",
-        "## E_C at short execution horizons", "", *study_table(studies), "",
+        "## E_C at short execution horizons", "", study_table(studies),
         "A deadline is the execution horizon: planning has tex of the thread's time for update, guess,",
         "solve and check together.", "", *commands, "",
-        "## Beyond the deadline", "", *overshoot_table(studies), "",
+        "## Beyond the deadline", "", overshoot_table(studies),
         "A solve takes no step that its longest one so far would carry past the deadline, and leaves room",
         "for the longest check so far.", "",
-        "## Cycles that were not solved", "", *unsolved_list(named), ""])
+        "## Cycles that were not solved", "", unsolved_list(named)])
 
 
 def main():

@@ -56,6 +56,15 @@ def setting(values):
     return "{" + ", ".join(f"{key}: {value}" for key, value in values.items()) + "}"
 
 
+def quantile(values, share):
+    """The value below which that share of `values` is, between two of them in proportion: median, least and greatest are
+    those of .5, 0 and 1."""
+    rising = sorted(values)
+    at = share * (len(rising) - 1)
+    low = rising[int(at)]
+    return low + (at - int(at)) * (rising[min(int(at) + 1, len(rising) - 1)] - low)
+
+
 def interval(k, n):
     """Exact 95 % interval of a share (Clopper and Pearson), by bisection on the binomial sum, whose terms are too
     large for numbers before they are multiplied."""

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Intervals and tests of shares, beside exact fractions."""
+"""Quantiles, and intervals and tests of shares, beside exact fractions."""
 
 import math
 import pathlib
@@ -8,7 +8,18 @@ import unittest
 from fractions import Fraction
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from sweeps import interval, mcnemar  # noqa: E402
+from sweeps import interval, mcnemar, quantile  # noqa: E402
+
+
+class Quantiles(unittest.TestCase):
+    def test_ends_and_middle_are_least_greatest_and_median(self):
+        values = [7, 1, 3, 9]
+        self.assertEqual([quantile(values, share) for share in (0, 0.5, 1)], [1, 5, 9])
+        self.assertEqual([quantile([4], share) for share in (0, 0.99, 1)], [4, 4, 4])
+
+    def test_99_of_101_values_in_proportion(self):
+        self.assertEqual(quantile(range(101), 0.99), 99)
+        self.assertAlmostEqual(quantile([0, 10], 0.95), 9.5)
 
 
 class Shares(unittest.TestCase):
