@@ -12,16 +12,27 @@ from levels import LEVELS
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
-sys.path.insert(0, str(ROOT / "tools"))  # for measured.py
+sys.path.insert(0, str(ROOT / "tools"))  # for measured.py, environments.py and sweeps.py
 BUILD = Path(os.environ.get("SLALOM_BENCH_BUILD", ROOT / "build" / "bench"))
 PEERS = BUILD / "peers"  # a virtual environment with CasADi, and the unpacked acados wheel
 WHEEL = PEERS / "acados"
 GENERATED = BUILD / "generated"
 ENVIRONMENTS = ("E_B", "E_C")
+CHUNK = 250  # cycles that a contestant is given at a time
 
 
 def python():
     return str(PEERS / "bin" / "python")
+
+
+def build_ours(*names):
+    """Builds bench_NAME for each of these names: what a page does not need may not compile on every processor."""
+    print(f"building our programs in {BUILD}", file=sys.stderr, flush=True)
+    quiet = {"check": True, "stdout": subprocess.DEVNULL}
+    subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), "-DCMAKE_BUILD_TYPE=Release",
+                    "-DSLALOM_BENCHMARKS=ON", "-DSLALOM_TESTS=OFF"], **quiet)  # fmt: skip
+    subprocess.run(["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count()), "--target",
+                    *(f"bench_{name}" for name in names)], **quiet)  # fmt: skip
 
 
 def program(name):

@@ -8,10 +8,9 @@ docs/measured/growth.md and growth.svg.
 import json
 import math
 
-from contestants import program, record_cycles, run_command
+from contestants import build_ours, program, record_cycles, run_command
 from levels import LEVELS
 from measured import page_parser, stamp, write
-from run import build_ours
 
 SEED, CYCLES, REPEATS = 1, 60, 3
 INTERVALS, OBSTACLES = (15, 30, 60, 120, 240, 480), (38, 100, 200, 400, 1000)
@@ -147,7 +146,7 @@ def page(list_of_curves, stamped):
 
 def main():
     args = page_parser("growth", __doc__).parse_args()
-    build_ours()
+    build_ours("record", "solve", "growth")
     args.work.mkdir(parents=True, exist_ok=True)
     found = curves(args.work)
     write(args.out.with_suffix(".svg"), figure(found))

@@ -251,11 +251,10 @@ def main():
     args.work = args.work.resolve()
     args.work.mkdir(parents=True, exist_ok=True)
     if args.peers != []:
-        from contestants import program
+        from contestants import build_ours, program
         from long_solves import casadi_python
-        from run import build_ours
         if not args.bench:
-            build_ours()
+            build_ours("lap")
         args.bench = args.bench or program("bench_lap")
         args.python = args.python or casadi_python(ROOT / "build/long_solves")
     began, rows = time.monotonic(), []

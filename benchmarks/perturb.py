@@ -13,9 +13,8 @@ import subprocess
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 
-from contestants import program, record_cycles
+from contestants import build_ours, program, record_cycles
 from measured import page_parser, stamp, write
-from run import build_ours
 from sweeps import quantile
 
 ENVIRONMENT, SEED, WIDTH, DEADLINE = "E_C", 1, 7, 0.002
@@ -112,7 +111,7 @@ def main():
     parser.add_argument("--count", type=int, default=10000)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     args = parser.parse_args()
-    build_ours()
+    build_ours("record", "perturb")
     args.work.mkdir(parents=True, exist_ok=True)
     cycles = record(args.work)
     with ThreadPoolExecutor(args.jobs) as pool:

@@ -22,17 +22,18 @@ import time
 
 import machine
 from contestants import (
-    BUILD, CONTESTANTS, DEFAULT, ENVIRONMENTS, GENERATED, HERE, PEERS, ROOT, WHEEL, Job, program,
+    BUILD, CHUNK, CONTESTANTS, DEFAULT, ENVIRONMENTS, GENERATED, HERE, PEERS, WHEEL, Job, build_ours, program,
     python, record_cycles, run_command)  # fmt: skip
+import environments  # on the path that contestants.py sets
 from levels import LEVELS
-from measured import FOLDER, commit, write
+from measured import FOLDER, commit_at_start, write
 from summary import summarise
 from tables import markdown
 
 STEPS = ("setup", "record", "measure", "functions", "report")
 RUNS = BUILD / "runs"
 STARTS = ("warm", "cold")
-CHUNK = 250
+PROGRAMS = ("record", "solve", "judge", "functions", "generated")
 
 
 def say(text):
@@ -43,34 +44,13 @@ def say(text):
 
 
 def install_peers():
-    wanted = (HERE / "requirements.txt").read_text()
-    stamp = PEERS / "installed.txt"
-    if stamp.exists() and stamp.read_text() == wanted:
-        return
-    say(f"installing the peers into {PEERS}")
-    subprocess.run([sys.executable, "-m", "venv", str(PEERS)], check=True)
-    pip = [python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    lines = [line for line in wanted.splitlines() if line and not line.startswith("#")]
+    wanted = environments.requirements(HERE / "requirements.txt")
     # The acados wheel carries a slim CasADi for another Python: unpacked beside, not installed.
-    beside = [line for line in lines if "acados" in line]
-    subprocess.run([*pip, *(line for line in lines if line not in beside)], check=True)
-    subprocess.run([*pip, "--no-deps", "--upgrade", "--target", str(WHEEL), *beside], check=True)
-    stamp.write_text(wanted)
-
-
-def build_ours():
-    say(f"building our programs in {BUILD}")
-    quiet = {"check": True, "stdout": subprocess.DEVNULL}
-    subprocess.run(["cmake", "-S", str(ROOT), "-B", str(BUILD), "-DCMAKE_BUILD_TYPE=Release",
-                    "-DSLALOM_BENCHMARKS=ON", "-DSLALOM_TESTS=OFF"], **quiet)  # fmt: skip
-    targets = ["bench_" + name for name in ("record", "solve", "judge", "functions", "growth", "interleaved", "perturb",
-                                          "lap", "generated")]
-    subprocess.run(["cmake", "--build", str(BUILD), "--parallel", str(os.cpu_count()), "--target",
-                    *targets], **quiet)  # fmt: skip
+    beside = [line for line in wanted if "acados" in line]
+    environments.environment(PEERS, [line for line in wanted if line not in beside], {WHEEL.name: beside})
 
 
 def setup(args):
-    build_ours()
     install_peers()
     say("checking CasADi's problem, generating and compiling the peers' C (many minutes, once)")
     subprocess.run([python(), str(HERE / "peer_ipopt.py"), "check"], check=True, stdout=sys.stderr)
@@ -103,7 +83,7 @@ def record(args):
     for environment in ENVIRONMENTS:
         say(f"recording {cycles} + {perturbed} cycles in {environment}")
         record_cycles(environment, folder / f"{environment}.cycles", cycles, perturbed, args.seed)
-    about = {"run": name, "commit": commit(), "quick": args.quick, "seed": args.seed, "recorded": cycles,
+    about = {"run": name, "commit": commit_at_start(), "quick": args.quick, "seed": args.seed, "recorded": cycles,
              "perturbed": perturbed, "machine": machine.describe()}  # fmt: skip
     (folder / "about.json").write_text(json.dumps(about, indent=1))
     (RUNS / "latest").write_text(name)
@@ -117,7 +97,7 @@ def write_result(folder, name, key, call):
     except (RuntimeError, OSError, ValueError) as error:
         result = {"error": str(error)}
         say(f"  {name}: {error}")
-    result |= key | {"run": folder.name, "version": commit(),
+    result |= key | {"run": folder.name, "version": commit_at_start(),
                      "took_s": time.time() - began, "load": os.getloadavg()[0]}  # fmt: skip
     (folder / "results" / f"{name}.json").write_text(json.dumps(result))
 
@@ -199,8 +179,11 @@ def main():
         for name in set(given) - set(known):
             sys.exit(f"run.py: '{name}', expected one of {', '.join(known)}")
     args.docs &= not args.quick
-    os.environ |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    os.environ |= environments.ONE_THREAD
     everywhere = os.sched_getaffinity(0)
+    commit_at_start()
+    if args.steps != ["report"]:  # else what is timed may be an older program than the commit says
+        build_ours(*PROGRAMS)
     for step in args.steps:
         alone = step in ("measure", "functions")
         os.sched_setaffinity(0, {args.core} if alone else everywhere)

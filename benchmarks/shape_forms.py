@@ -8,17 +8,12 @@ Builds bench_shape_forms in build/bench, or $SLALOM_BENCH_BUILD, which solves th
 """
 
 import json
-import pathlib
 import statistics
 import subprocess
-import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent
-sys.path.insert(0, str(ROOT / "tools"))
-from contestants import BUILD  # noqa: E402
-from measured import command_of, page_parser, stamp, write  # noqa: E402
-from sweeps import head, row  # noqa: E402
+from contestants import build_ours, program
+from measured import command_of, page_parser, stamp, write
+from sweeps import head, row
 
 FLOOR = 0.001  # in the objective's unit
 CLOSE = 0.08  # beyond the gap asked for, by the median: these forms are compared at an equal gap [m]
@@ -154,16 +149,13 @@ def main():
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--intervals", type=int, default=40)
     options = parser.parse_args()
-    quiet = {"check": True, "stdout": subprocess.DEVNULL}
-    subprocess.run(["cmake", "-S", ROOT, "-B", BUILD, "-DCMAKE_BUILD_TYPE=Release",
-                    "-DSLALOM_BENCHMARKS=ON", "-DSLALOM_TESTS=OFF"], **quiet)  # fmt: skip
-    subprocess.run(["cmake", "--build", BUILD, "--target", "bench_shape_forms"], **quiet)
+    build_ours("shape_forms")
     given = [f"--{name}={getattr(options, name)}" for name in SIZES]
-    found = [Results(subprocess.run([BUILD / "benchmarks/bench_shape_forms", f"--floor={floor}", *given], check=True,
-                                    capture_output=True, text=True).stdout.splitlines())
+    bench = program("bench_shape_forms")
+    found = [Results(subprocess.run([bench, f"--floor={floor}", *given], check=True, capture_output=True,
+                                    text=True).stdout.splitlines())
              for floor in (0, FLOOR)]  # fmt: skip
-    made_by = command_of(parser, options, "shape-forms", *SIZES).replace("tools/", "benchmarks/")
-    write(options.out, page(*found, stamp(made_by, BUILD / "benchmarks/bench_shape_forms"), options))
+    write(options.out, page(*found, stamp(command_of(parser, options, "shape-forms", *SIZES), bench), options))
 
 
 if __name__ == "__main__":
