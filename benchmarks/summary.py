@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 
-from contestants import CONTESTANTS, ENVIRONMENTS
+from contestants import CHUNK, CONTESTANTS, ENVIRONMENTS
 from levels import LEVELS
 from sweeps import quantile
 
@@ -16,22 +16,40 @@ def solved(entry, level):
 
 
 class Measured:
-    """The cycles of all results: [environment, level, start][contestant][cycle] -> entry."""
+    """The cycles of all results: [environment, level, start][contestant][cycle] -> entry. `total` cycles were recorded
+    in each environment."""
 
-    def __init__(self, results):
-        self.table, self.setup, self.errors = defaultdict(lambda: defaultdict(dict)), {}, {}
+    def __init__(self, results, total):
+        self.table, self.setup, self.errors = defaultdict(lambda: defaultdict(dict)), {}, defaultdict(list)
         for result in results.values():
             if "contestant" not in result:
                 continue
-            name, environment = result["contestant"], result["environment"]
+            of = result["contestant"], result["environment"]
             if "error" in result:
-                self.errors[name] = result["error"]
+                self.errors[of].append(result)
                 continue
-            key = environment, result["level"], result["start"]
-            self.setup.setdefault((name, environment), result["setup_s"])
+            self.setup.setdefault(of, result["setup_s"])
             for entry in result["cycles"]:
                 entry["solved"] = solved(entry, result["level"])
-                self.table[key][name][entry["cycle"]] = entry
+                self.table[of[1], result["level"], result["start"]][of[0]][entry["cycle"]] = entry
+        for of, failed in self.errors.items():
+            if of in self.setup:
+                self.count_unsolved(of[0], failed, total)
+
+    def count_unsolved(self, name, failed, total):
+        """The cycles of chunks in which a contestant broke down: without them its figures would be of fewer cycles, and
+        of easier ones. One that never ran in an environment has no figures there."""
+        for result in failed:
+            cycles = self.table[result["environment"], result["level"], result["start"]][name]
+            for cycle in range(result["first"], min(result["first"] + CHUNK, total)):
+                cycles[cycle] = {"cycle": cycle, "claimed": False, "solved": False, "cpu_s": 0.0, "wall_s": 0.0}
+
+    def failures(self):
+        """A sentence for each contestant and environment where something failed."""
+        for (name, environment), failed in sorted(self.errors.items()):
+            what = (f"failed in {len(failed)} of its chunks of {CHUNK} cycles in {environment}, which count as not solved"
+                    if (name, environment) in self.setup else f"did not run in {environment}")  # fmt: skip
+            yield f"{CONTESTANTS[name].title} {what}: {failed[-1]['error']}"
 
     def feasible(self, environment, same_problem):
         """Cycles that a contestant with this problem solved, at any level from any start."""
@@ -111,8 +129,8 @@ def functions(results):
 
 
 def summarise(about, results):
-    measured = Measured(results)
-    summary = {"about": about, "errors": measured.errors, "limit_ms": LIMIT_MS,
+    measured = Measured(results, about["recorded"] + about["perturbed"])
+    summary = {"about": about, "errors": list(measured.failures()), "limit_ms": LIMIT_MS,
                "versions": sorted({r["version"] for r in results.values()}),
                "load": max((r["load"] for r in results.values()), default=0),
                "environments": {}, "functions": functions(results)}  # fmt: skip

@@ -3,6 +3,7 @@
 from contestants import CONTESTANTS
 from levels import LEVELS
 from measured import stamp
+from sweeps import head, row
 
 QUANTITIES = {
     "all_first": "values, gradient, Jacobian",
@@ -22,8 +23,7 @@ def number(value):
 
 
 def table(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+    return (head(header) + "".join(map(row, rows))).rstrip("\n")
 
 
 def title(name):
@@ -115,7 +115,7 @@ def markdown(summary, program):
     machine = about["machine"] | {
         "slalom": ", ".join(summary["versions"]), "our kernel set": summary["kernels"],
         "highest load while measuring": f"{summary['load']:.2f}"}  # fmt: skip
-    warnings = [f"{title(n)} did not run everywhere: {e}" for n, e in summary["errors"].items()]
+    warnings = list(summary["errors"])
     if len(summary["versions"]) > 1:
         warnings.append("**Several versions of slalom were measured in this run.**")
     environments = "\n\n".join(environment_markdown(n, p)
