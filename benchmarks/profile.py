@@ -8,17 +8,21 @@ Needs perf (Debian: linux-perf).
 """
 
 import json
+import pathlib
+import platform
 import re
 import statistics
 import subprocess
+import sys
 import tempfile
 
-from contestants import ENVIRONMENTS, program, record_cycles
+from contestants import ENVIRONMENTS, build_ours, program, record_cycles
 from levels import LEVELS
-from measured import page_parser, stamp, write
-from run import build_ours
+from measured import command_of, page_parser, stamp, write
+from sweeps import head, row
 
-SEED, FLOOR = 1, LEVELS["floor"].floor
+SEED, CYCLES, FLOOR = 1, 500, LEVELS["floor"].floor
+INTERLEAVED = platform.machine() in ("x86_64", "AMD64")  # bench_interleaved is of AVX2
 SHORT = 8  # iterations of a solve that counts for the median
 FRONTS = (18, 28, 38)  # rows; an inner stage's of E_B and E_C has about as many as the second
 
@@ -35,11 +39,18 @@ PARTS = (
     ("the independent check", r"slalom::nlp::check|nlp::.*Residual"),
     ("planner: request, shift, guess", r"slalom::(planner|bench|vehicle)"),
     ("memory (moves, zeros)", r"mem(set|move|cpy)"),
+    ("other functions of the library", r"slalom::"),
 )
 
 
 def run(command):
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    """What it prints. What perf says where it may not sample has the reason."""
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        hint = ("\nperf may sample where /proc/sys/kernel/perf_event_paranoid is 2 or less (sysctl "
+                "kernel.perf_event_paranoid=2)" if command[0] == "perf" else "")  # fmt: skip
+        sys.exit(f"{' '.join(map(str, command))}: ended with {done.returncode}\n{done.stderr.strip()}{hint}")
+    return done.stdout
 
 
 def samples(command):
@@ -54,10 +65,10 @@ def samples(command):
             yield float(found[1]), found[2]
 
 
-def shares(command):
+def shares(sampled):
     """Of the time in the library, by part: reading the cycles and writing JSON are left out."""
     sums = dict.fromkeys([name for name, _ in PARTS], 0.0)
-    for percent, symbol in samples(command):
+    for percent, symbol in sampled:
         for name, pattern in PARTS:
             if re.search(pattern, symbol):
                 sums[name] += percent
@@ -73,7 +84,7 @@ def measure(environment, cycles):
     solved = [c for c in json.loads(run(command))["cycles"] if c["status"] == "solved"]
     short = [c for c in solved if c["iterations"] <= SHORT]
     return (1e6 * statistics.median(c["cpu_s"] for c in short),
-            statistics.median(c["iterations"] for c in short), shares(command))  # fmt: skip
+            statistics.median(c["iterations"] for c in short), shares(samples(command)))  # fmt: skip
 
 
 def interleaved():
@@ -84,47 +95,49 @@ def interleaved():
 
 def together(columns, ratios):
     """What solving several problems together could win."""
-    lines = ["", "## Several problems together", "",
-             "Fronts of several problems can be factorised together, each lane of a vector for one of them",
-             "(`benchmarks/interleaved.cpp`, AVX2). One after the other, a front's columns fill the vectors.", "",
-             "| rows of a front | " + " | ".join(map(str, ratios)) + " |", "|---" * (1 + len(ratios)) + "|",
-             "| four interleaved, times as fast | " + " | ".join(f"{r:.2f}" for r in ratios.values()) + " |", ""]  # fmt: skip
+    text = ("\n## Several problems together\n\n"
+            "Fronts of several problems can be factorised together, each lane of a vector for one of them\n"
+            "(`benchmarks/interleaved.cpp`, AVX2). One after the other, a front's columns fill the vectors.\n\n"
+            + head(["rows of a front", *ratios])
+            + row(["four interleaved, times as fast", *(f"{r:.2f}" for r in ratios.values())]))  # fmt: skip
     ratio = ratios[FRONTS[1]]
-    lines += [f"{ratio:.2f} times as fast in all that is done with fronts, and no other gain, for functions, products and loops",
-              "over bounds run over whole vectors already, makes a solve:", ""]  # fmt: skip
+    text += (f"\nIf all that is done with fronts were {ratio:.2f} times as fast, and all else as fast as it is, a solve would "
+             "be:\n\n")  # fmt: skip
     for environment, (_, _, share) in columns.items():
         fronts = share["factorisation"] + share["search for pivots"] + share["solves with the factors"]
-        lines.append(f"- in {environment}, {100 * fronts:.0f} % of it spent on fronts, {1 / (1 - fronts + fronts / ratio):.2f} times as fast.")
-    return lines
+        text += (f"- in {environment}, {100 * fronts:.0f} % of it spent on fronts, "
+                 f"{1 / (1 - fronts + fronts / ratio):.2f} times as fast.\n")  # fmt: skip
+    return text
 
 
 def page(columns, ratios, stamped):
-    text = ["# Profile of one solve", "", stamped,
-            f"Recorded planning cycles at a floor of {FLOOR:g}, warm, each from request to checked answer, sampled by",
-            f"perf; microseconds are the share of the median cycle of up to {SHORT} iterations.", "",
-            "| | " + " | ".join(f"{e} [µs] | {e}" for e in columns) + " |",
-            "|---" * (1 + 2 * len(columns)) + "|"]  # fmt: skip
+    """`ratios`: none where fronts of several problems were not timed."""
+    text = "\n".join([
+        "# Profile of one solve", "", stamped,
+        f"Recorded planning cycles at a floor of {FLOOR:g}, warm, each from request to checked answer, sampled by",
+        f"perf; microseconds are the share of the median cycle of up to {SHORT} iterations.", "", ""])  # fmt: skip
+    text += head(["", *(cell for e in columns for cell in (f"{e} [µs]", e))])
     for name, _ in PARTS:
-        text.append(f"| {name} | " + " | ".join(
-            f"{time * share[name]:.0f} | {100 * share[name]:.0f} %"
-            for time, _, share in columns.values()) + " |")  # fmt: skip
-    text.append("| all | " + " | ".join(f"{time:.0f} | {iterations:g} iterations"
-                                        for time, iterations, _ in columns.values()) + " |")  # fmt: skip
-    return "\n".join([*text, *together(columns, ratios)]) + "\n"
+        text += row([name, *(cell for time, _, share in columns.values()
+                             for cell in (f"{time * share[name]:.0f}", f"{100 * share[name]:.0f} %"))])  # fmt: skip
+    text += row(["all", *(cell for time, iterations, _ in columns.values()
+                          for cell in (f"{time:.0f}", f"{iterations:g} iterations"))])  # fmt: skip
+    return text + (together(columns, ratios) if ratios else "")
 
 
 def main():
-    parser = page_parser("solver-profile", __doc__)
-    parser.add_argument("--cycles", type=int, default=500, help="recorded in each environment")
+    parser = page_parser("solver-profile", __doc__, keeps=False)
+    parser.add_argument("--cycles", type=int, default=CYCLES, help="recorded in each environment")
     args = parser.parse_args()
-    build_ours()
-    args.work.mkdir(parents=True, exist_ok=True)
+    build_ours("record", "solve", *["interleaved"] * INTERLEAVED)
     columns = {}
-    for environment in ENVIRONMENTS:
-        cycles = args.work / f"{environment}.cycles"
-        record_cycles(environment, cycles, args.cycles, 0, SEED)
-        columns[environment] = measure(environment, cycles)
-    write(args.out, page(columns, interleaved(), stamp("make solver-profile", program("bench_solve"))))
+    with tempfile.TemporaryDirectory() as folder:
+        for environment in ENVIRONMENTS:
+            cycles = pathlib.Path(folder) / f"{environment}.cycles"
+            record_cycles(environment, cycles, args.cycles, 0, SEED)
+            columns[environment] = measure(environment, cycles)
+    ratios = interleaved() if INTERLEAVED else {}
+    write(args.out, page(columns, ratios, stamp(command_of(parser, args, "solver-profile", "cycles"), program("bench_solve"))))
 
 
 if __name__ == "__main__":
