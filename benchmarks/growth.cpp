@@ -2,6 +2,7 @@
 // interval, on a problem that has all a structured solver may stumble over; JSON.
 //
 //   bench_growth [--N 10,20,40,80] [--phases 1,2,4,8] [--scheme hermite_simpson] [--points 3,5,10]
+//                [--solves 5] [--iterations 25]
 //
 // Each phase is a chain of four oscillators driven by two forces, with a free final time, static
 // parameters that all phases share by links, an integral constraint, and, from the last phase to
@@ -73,8 +74,13 @@ ocp::PhasedProblem problem(std::size_t phases) {
   return all;
 }
 
-/// Least thread time of an iteration, of five solves of up to 25.
-nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme) {
+struct Solves {
+  int count = 5;
+  int iterations = 25;  ///< of one at the most
+};
+
+/// Least thread time of an iteration of these solves.
+nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme, const Solves& solves) {
   ocp::PhasedTranscription transcription(
       problem(phases), {phases, ocp::PhasedTranscription::Grid{ocp::Mesh::uniform(N), scheme}});
   nlp::Start start;
@@ -84,12 +90,12 @@ nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme) {
     start.x.insert(start.x.end(), x.begin(), x.end());
   }
   nlp::Options options;
-  options.max_iterations = 25;
+  options.max_iterations = solves.iterations;
   options.floor = 1e-2;
   const auto solver = nlp::make_solver("interior_point");
   nlp::Answer answer;
   double least = 1e9;
-  for (int repeat = 0; repeat < 5; ++repeat) {
+  for (int repeat = 0; repeat < solves.count; ++repeat) {
     solver->solve(transcription, start, options, answer);
     least = std::min(least, answer.cpu_s / std::max(1, answer.iterations));
   }
@@ -114,17 +120,20 @@ int main(int argc, char** argv) try {
   std::vector<std::size_t> phases = {1, 2, 4, 8};
   std::vector<int> points = {};
   std::string scheme = "hermite_simpson";
+  Solves solves;
   CLI::App app("Times an iteration against intervals and phases.");
   app.add_option("--N", N, "numbers of intervals of each of four phases")->delimiter(',');
   app.add_option("--phases", phases, "numbers of phases of 20 intervals")->delimiter(',');
   app.add_option("--scheme", scheme, "collocation scheme");
   app.add_option("--points", points, "LGR points in each of four intervals of one phase")
       ->delimiter(',');
+  app.add_option("--solves", solves.count, "of each problem");
+  app.add_option("--iterations", solves.iterations, "of a solve at the most");
   CLI11_PARSE(app, argc, argv);
   nlohmann::json all = nlohmann::json::array();
-  for (const int n : N) all.push_back(measure(4, n, ocp::scheme(scheme)));
-  for (const std::size_t p : phases) all.push_back(measure(p, 20, ocp::scheme(scheme)));
-  for (const int n : points) all.push_back(measure(1, 4, ocp::lgr(n)));
+  for (const int n : N) all.push_back(measure(4, n, ocp::scheme(scheme), solves));
+  for (const std::size_t p : phases) all.push_back(measure(p, 20, ocp::scheme(scheme), solves));
+  for (const int n : points) all.push_back(measure(1, 4, ocp::lgr(n), solves));
   std::cout << all.dump() << "\n";
   return 0;
 } catch (const std::exception& error) {

@@ -7,21 +7,28 @@ docs/measured/growth.md and growth.svg.
 
 import json
 import math
+import pathlib
+import tempfile
 
 from contestants import build_ours, program, record_cycles, run_command
 from levels import LEVELS
 from measured import page_parser, stamp, write
+from robustness import text_at
+from sweeps import head, row
 
 SEED, CYCLES, REPEATS = 1, 60, 3
+SOLVES, ITERATIONS = 5, 25  # of the oscillators, and of one solve at the most
 INTERVALS, OBSTACLES = (15, 30, 60, 120, 240, 480), (38, 100, 200, 400, 1000)
 PHASES, POINTS = (1, 2, 4, 8), (3, 5, 8, 12, 20, 30)
 
 
 class Curve:
-    """Microseconds an iteration by size; `base`: what the sizes count, for the axis and the table."""
+    """Microseconds an iteration by size; `base`: what the sizes count, for the axis and the table; `rows`: of the problem
+    of each size; `without`: a word on each size that has no time."""
 
-    def __init__(self, base, note, points):
+    def __init__(self, base, note, points, rows=None, without=()):
         self.base, self.note, self.points = base, note, sorted(points.items())
+        self.rows, self.without = rows or {}, without
 
     def exponent(self, first=0):
         """Slope of the logarithms, by least squares, of the points from `first` on."""
@@ -34,26 +41,38 @@ class Curve:
 
 
 def of_cycles(cycles, option, sizes):
-    """Least over a few runs of the mean microseconds an iteration of solved cycles, by size."""
-    least = {}
+    """Least over a few runs of the mean microseconds an iteration of solved cycles, and the rows, by size; and what is
+    to be said of sizes at which none was solved."""
+    least, rows = {}, {}
     command = [program("bench_solve"), "--environment", "E_C", "--cycles", str(cycles), "--backend",
                "interior_point", "--floor", str(LEVELS["floor"].floor), "--growth", f"--{option}",
                ",".join(map(str, sizes))]  # fmt: skip
     for _ in range(REPEATS):
         for entry in json.loads(run_command(command))["growth"]:
             good = [c for c in entry["cycles"] if c["status"] == "solved"]
+            rows[entry[option]] = entry["rows"]
             if good:
                 time = 1e6 * sum(c["cpu_s"] for c in good) / sum(c["iterations"] for c in good)
                 size = entry[option]
                 least[size] = min(time, least.get(size, math.inf))
-    return {size: time for size, time in least.items() if size in sizes}
+    return least, rows, [f"{size} {option}: no cycle was solved" for size in sizes if size not in least]
 
 
 def of_oscillators():
     """Entries of bench_growth."""
     command = [program("bench_growth"), "--N", "20", "--phases", ",".join(map(str, PHASES)),
-               "--points", ",".join(map(str, POINTS))]  # fmt: skip
+               "--points", ",".join(map(str, POINTS)), "--solves", str(SOLVES),
+               "--iterations", str(ITERATIONS)]  # fmt: skip
     return json.loads(run_command(command))
+
+
+def timed(entries, field):
+    """Microseconds an iteration by a field of the oscillators' entries, of solves that went as far as they might; and
+    what is to be said of the others."""
+    ended = {e[field]: e for e in entries if e["status"] in ("solved", "iteration_limit")}
+    return ({size: 1e6 * e["iteration_s"] for size, e in ended.items()}, {},
+            [f"{e[field]} {field}: {e['status']} after {e['iterations']} iterations" for e in entries
+             if e[field] not in ended])  # fmt: skip
 
 
 def curves(work):
@@ -61,22 +80,18 @@ def curves(work):
     record_cycles("E_C", cycles, CYCLES, 0, SEED)
     entries = of_oscillators()
     return [
-        Curve("intervals", "E_C at the floor, 38 obstacles", of_cycles(cycles, "N", INTERVALS)),
-        Curve("obstacles", "E_C at the floor, 15 intervals", of_cycles(cycles, "obstacles", OBSTACLES)),
+        Curve("intervals", "E_C at the floor, 38 obstacles", *of_cycles(cycles, "N", INTERVALS)),
+        Curve("obstacles", "E_C at the floor, 15 intervals", *of_cycles(cycles, "obstacles", OBSTACLES)),
         Curve("phases", "oscillators, 20 intervals of Hermite-Simpson in each",
-              {e["phases"]: 1e6 * e["iteration_s"] for e in entries if e["scheme"] != "lgr" and e["N"] == 20}),
+              *timed([e for e in entries if e["scheme"] != "lgr" and e["N"] == 20], "phases")),
         Curve("LGR points", "oscillators, one phase of 4 intervals",
-              {e["points"]: 1e6 * e["iteration_s"] for e in entries if e["scheme"] == "lgr"}),
+              *timed([e for e in entries if e["scheme"] == "lgr"], "points")),
     ]  # fmt: skip
 
 
 # --- the figure -----------------------------------------------------------------------------------
 
 WIDTH, HEIGHT, LEFT, TOP, GAP = 230, 190, 52, 34, 74  # of a panel [px]
-
-
-def text_at(x, y, words, anchor="middle", size=11):
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="{size}">{words}</text>'
 
 
 def panel(curve, x0, y0):
@@ -90,9 +105,9 @@ def panel(curve, x0, y0):
                 y0 + HEIGHT * (1 - (math.log(time) - bottom) / (top - bottom)))  # fmt: skip
 
     parts = [f'<rect x="{x0}" y="{y0}" width="{WIDTH}" height="{HEIGHT}" fill="none" stroke="#888"/>',
-             text_at(x0 + WIDTH / 2, y0 - 8, f"{curve.base}: exponent {curve.exponent():.2f}", size=12)]  # fmt: skip
+             text_at(x0 + WIDTH / 2, y0 - 8, f"{curve.base}: exponent {curve.exponent():.2f}")]  # fmt: skip
     for size in sizes:
-        parts.append(text_at(place(size, times[0])[0], y0 + HEIGHT + 15, f"{size:g}"))
+        parts.append(text_at(place(size, times[0])[0], y0 + HEIGHT + 15, f"{size:g}", size=11))
     for power in range(-1, 6):
         for time in (10**power, 3 * 10**power):
             if bottom <= math.log(time) <= top:
@@ -123,32 +138,37 @@ def figure(list_of_curves):
 
 
 def page(list_of_curves, stamped):
-    text = ["# Growth", "", stamped,
-            "Processor time of an iteration of the interior-point method, all of a solve counted, from the least of",
-            f"{REPEATS} runs. In E_C, recorded cycles of P_D at the floor, each from the last one's plan, on other meshes or",
-            "with further obstacles beside the road; the oscillators (`benchmarks/growth.cpp`) have free times,",
-            "15 static parameters linked through all phases, an integral constraint and a periodic link.", "",
-            "![Time of an iteration against size, both axes logarithmic; dashed: in proportion](growth.svg)", "",
-            "| of | what | exponent over all | between the two largest | sizes: µs an iteration |",
-            "|---|---|---|---|---|"]  # fmt: skip
+    text = "\n".join([
+        "# Growth", "", stamped,
+        "Processor time of an iteration of the interior-point method. In E_C: recorded cycles of P_D at the floor, each",
+        "from the last one's plan, on other meshes or with further obstacles beside the road; update, shift, solve and",
+        f"check of the cycles that were solved, over their iterations, the least of {REPEATS} runs. The oscillators",
+        "(`benchmarks/growth.cpp`) have free times, 15 static parameters linked through all phases, an integral",
+        f"constraint and a periodic link; the solver alone, the least of {SOLVES} solves of up to {ITERATIONS} iterations.", "",
+        "![Time of an iteration against size, both axes logarithmic; dashed: in proportion](growth.svg)", "", ""])  # fmt: skip
+    text += head(["of", "what", "exponent over all", "between the two largest", "sizes: µs an iteration"])
     for curve in list_of_curves:
         sizes = ", ".join(f"{size}: {time:.0f}" for size, time in curve.points)
-        text.append(f"| {curve.base} | {curve.note} | {curve.exponent():.2f} | {curve.exponent(-2):.2f} | {sizes} |")
-    by_base = {curve.base: dict(curve.points) for curve in list_of_curves}
-    n, o = by_base["intervals"], by_base["obstacles"]
+        text += row([curve.base, curve.note, f"{curve.exponent():.2f}", f"{curve.exponent(-2):.2f}", sizes])
+    without = [word for curve in list_of_curves for word in curve.without]
+    if without:
+        text += f"\nWithout a time: {'; '.join(without)}.\n"
+    by_base = {curve.base: curve for curve in list_of_curves}
+    n, o = dict(by_base["intervals"].points), dict(by_base["obstacles"].points)
     if 15 in n and 240 in n:
-        text += ["", f"240 intervals take {n[240] / n[15]:.1f} times as long as 15."]
+        text += f"\n240 intervals take {n[240] / n[15]:.1f} times as long as 15.\n"
     if 38 in o and 1000 in o:
-        each = 1e3 * (o[1000] - o[38]) / ((1000 - 38) * 16)
-        text += [f"From 38 to 1000 obstacles a row, of one obstacle at one of the 16 nodes, takes {each:.0f} ns an iteration."]
-    return "\n".join(text) + "\n"
+        more = by_base["obstacles"].rows[1000] - by_base["obstacles"].rows[38]
+        text += (f"From 38 to 1000 obstacles a row, of which each obstacle has {more / (1000 - 38):g}, takes "
+                 f"{1e3 * (o[1000] - o[38]) / more:.0f} ns an iteration.\n")  # fmt: skip
+    return text
 
 
 def main():
-    args = page_parser("growth", __doc__).parse_args()
+    args = page_parser("growth", __doc__, keeps=False).parse_args()
     build_ours("record", "solve", "growth")
-    args.work.mkdir(parents=True, exist_ok=True)
-    found = curves(args.work)
+    with tempfile.TemporaryDirectory() as folder:
+        found = curves(pathlib.Path(folder))
     write(args.out.with_suffix(".svg"), figure(found))
     write(args.out, page(found, stamp("make growth", program("bench_solve"))))
 

@@ -127,6 +127,7 @@ json solve_chain(const Arguments& a, const std::vector<Cycle>& cycles, std::opti
   prepare(planner, *solver, false, start, answer);
   json result = {{"N", planner.scenario().planner.N},
                  {"obstacles", planner.scenario().obstacles.size()},
+                 {"rows", planner.form(false).transcription.structure().rows},
                  {"setup_s", timer.cpu()}};
   json solves = json::array();
   std::optional<bench::Last> last;
