@@ -31,7 +31,6 @@ struct Arguments {
   std::uint64_t seed = 1;
   double width = 4, deadline = 0.002, floor = 0.9;
   std::size_t first = 0, count = 100;
-  bool log = false, ours_only = false;
 };
 
 /// Cycle `i` of the study: a recorded one with another predicted state.
@@ -83,16 +82,13 @@ class Study {
     place(cycle, true);
     json line = {{"cycle", i}, {"warm", options_.warm_start}};
     std::size_t allocations = 0;
-    options_.print_level = arguments_.log ? 1 : 0;
     line["ours"] = solve_ours(options_, allocations);
-    options_.print_level = 0;
     const nlp::Answer found = answer_;
     nlp::Options limited = options_;
     limited.time_limit = arguments_.deadline;
     line["deadline"] = solve_ours(limited, allocations);
     line["deadline"]["longest_step_s"] = answer_.longest_step_s;
     line["allocations"] = allocations;
-    if (arguments_.ours_only) return line;
     line["ipopt"] = solve_ipopt();
     if (found.status == nlp::Status::infeasible) {
       place(cycle, false);
@@ -115,7 +111,6 @@ class Study {
       AllocationCount count;
       ours_->solve(form_->transcription, start_, options, answer_);
       allocations += count.allocations();
-      if (arguments_.log && count.allocations() > 0) std::cerr << count.first() << "\n";
     }
     return verdict(form_->transcription, answer_, options);
   }
@@ -144,8 +139,6 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--first", a.first, "cycle to begin with");
   app.add_option("--count", a.count, "cycles to solve");
   app.add_option("--deadline", a.deadline, "of the second solve by ours [s]");
-  app.add_flag("--ours-only", a.ours_only, "without Ipopt");
-  app.add_flag("--log", a.log, "prints the iterations of ours before each line");
   app.add_option("--floor", a.floor, "barrier floor");
   bench::parse_or_exit(app, argc, argv);
   return a;

@@ -7,37 +7,59 @@ Verdicts and iterations, not speed: it may run on a busy machine. Width and seed
 draws (seed 77, 200 cycles), so that a tenth is infeasible and a fifth costs Ipopt more than 30 iterations.
 """
 
+import hashlib
 import json
 import os
+import pathlib
 import subprocess
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 
 from contestants import build_ours, program, record_cycles
-from measured import page_parser, stamp, write
-from sweeps import quantile
+from measured import command_of, page_parser, stamp, write
+from sweeps import head, quantile, row
 
 ENVIRONMENT, SEED, WIDTH, DEADLINE = "E_C", 1, 7, 0.002
 CHUNK = 250
 
 
+def folder_of(work):
+    """Of what this bench_perturb has solved: at a commit with changes there may be several."""
+    folder = work / hashlib.sha256(pathlib.Path(program("bench_perturb")).read_bytes()).hexdigest()[:8]
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 def record(folder):
     cycles = folder / f"{ENVIRONMENT}.cycles"
     if not cycles.exists():
-        record_cycles(ENVIRONMENT, cycles, 1000, 0, SEED)
+        record_cycles(ENVIRONMENT, cycles.with_suffix(".part"), 1000, 0, SEED)
+        cycles.with_suffix(".part").rename(cycles)
     return cycles
 
 
 def solve(folder, cycles, first, count):
+    """So many cycles from the first on; a chunk that is there is solved again where it has fewer, of an earlier run of
+    fewer cycles."""
     out = folder / f"{first}.jsonl"
-    if out.exists():
-        return
+    if out.exists() and len(lines := out.read_text().splitlines()) >= count:
+        return [json.loads(line) for line in lines[:count]]
     with open(out.with_suffix(".part"), "w") as file:
         subprocess.run([program("bench_perturb"), "--environment", ENVIRONMENT, "--cycles",
                         str(cycles), "--seed", str(SEED), "--width", str(WIDTH), "--deadline",
                         str(DEADLINE), "--first", str(first), "--count", str(count)],
                        check=True, stdout=file)  # fmt: skip
     out.with_suffix(".part").rename(out)
+    return [json.loads(line) for line in out.read_text().splitlines()]
+
+
+def solve_all(work, count, jobs):
+    """The lines of bench_perturb, in order of the cycles."""
+    folder = folder_of(work)
+    cycles = record(folder)
+    with ThreadPoolExecutor(jobs) as pool:
+        chunks = [pool.submit(solve, folder, cycles, first, min(CHUNK, count - first)) for first in range(0, count, CHUNK)]
+        return [line for chunk in chunks for line in chunk.result()]
 
 
 def share(part, whole):
@@ -87,23 +109,22 @@ def markdown(lines, stamped):
         ("iterations of Ipopt: median, p95, max",
          ", ".join(f"{quantile([x['ipopt']['iterations'] for x in lines], q):g}" for q in (0.5, 0.95, 1))),
     ]  # fmt: skip
-    text = ["# Perturbed cycles", "", stamped,
-            f"Planning cycles of {ENVIRONMENT} with P_D, recorded in closed loop, each with another predicted",
-            f"state: up to {WIDTH} × (0.3 m, 0.3 m, 0.1 m/s, 0.02 rad/s,",
-            "0.02 rad, 0.01 rad, 0.5 m/s, 0.2 m/s²) away in (x, y, v, r, ψ, δ, u, a). Seed and width were fixed",
-            "beforehand. Both solvers start from the shifted plan, at a floor of 0.9; `nlp::check` judges both.",
-            "", "| | |", "|---|---|"]
-    text += [f"| {name} | {value} |" for name, value in rows]
-    text += ["", "Statuses, ours down, Ipopt across:", "",
-             "| | " + " | ".join(statuses) + " |", "|---" * (len(statuses) + 1) + "|"]
+    text = "\n".join([
+        "# Perturbed cycles", "", stamped,
+        f"Planning cycles of {ENVIRONMENT} with P_D, recorded in closed loop, each with another predicted",
+        f"state: up to {WIDTH} × (0.3 m, 0.3 m, 0.1 m/s, 0.02 rad/s,",
+        "0.02 rad, 0.01 rad, 0.5 m/s, 0.2 m/s²) away in (x, y, v, r, ψ, δ, u, a). Seed and width were fixed",
+        "beforehand. Both solvers start from the shifted plan, at a floor of 0.9; `nlp::check` judges both.", "", ""])  # fmt: skip
+    text += head(["", ""]) + "".join(map(row, rows))
+    text += "\nStatuses, ours down, Ipopt across:\n\n" + head(["", *statuses])
     pairs = Counter((x["ours"]["status"], x["ipopt"]["status"]) for x in lines)
-    text += [f"| {a} | " + " | ".join(str(pairs[a, b]) for b in statuses) + " |" for a in statuses]
-    text += ["", "\"Infeasible\" means a point from where the violation cannot be lessened nearby; another start",
-             "may still find a way."]
+    text += "".join(row([a, *(pairs[a, b] for b in statuses)]) for a in statuses)
+    text += ("\n\"Infeasible\" means a point from where the violation cannot be lessened nearby; another start\n"
+             "may still find a way.")
     if refuted:
-        text[-1] += " Ipopt did in the cycles " + ", ".join(map(str, refuted[:40])) + (
+        text += " Ipopt did in the cycles " + ", ".join(map(str, refuted[:40])) + (
             f" and {len(refuted) - 40} more." if len(refuted) > 40 else ".")
-    return "\n".join(text) + "\n"
+    return text + "\n"
 
 
 def main():
@@ -112,17 +133,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     args = parser.parse_args()
     build_ours("record", "perturb")
-    args.work.mkdir(parents=True, exist_ok=True)
-    cycles = record(args.work)
-    with ThreadPoolExecutor(args.jobs) as pool:
-        chunks = [pool.submit(solve, args.work, cycles, first, min(CHUNK, args.count - first))
-                  for first in range(0, args.count, CHUNK)]  # fmt: skip
-        for chunk in chunks:
-            chunk.result()
-    lines = [json.loads(line) for path in args.work.glob("*.jsonl")
-             for line in path.read_text().splitlines()]  # fmt: skip
-    lines = sorted((x for x in lines if x["cycle"] < args.count), key=lambda x: x["cycle"])
-    write(args.out, markdown(lines, stamp("make perturbed", program("bench_perturb"))))
+    lines = solve_all(args.work, args.count, args.jobs)
+    write(args.out, markdown(lines, stamp(command_of(parser, args, "perturbed", "count"), program("bench_perturb"))))
 
 
 if __name__ == "__main__":
