@@ -256,7 +256,7 @@ def main():
         if not args.bench:
             build_ours("lap")
         args.bench = args.bench or program("bench_lap")
-        args.python = args.python or casadi_python(ROOT / "build/long_solves")
+        args.python = args.python or casadi_python()
     began, rows = time.monotonic(), []
     for track in tracks:
         if time.monotonic() - began > 60 * args.minutes:

@@ -1,38 +1,38 @@
 #!/usr/bin/env python3
 """One long cold solve each, by ours and by CasADi with Ipopt, into docs/measured/long-solves.md.
 
-    long_solves.py [--program build/slalom] [--python PYTHON] [--folder DIR]
+    long_solves.py [--program build/slalom] [--python PYTHON] [--work DIR]
 
 The paper's table of long solve times: obstacle constraints hard or soft, 3 or 17 moving obstacles, the
 goal in range, one plan from a cold start by backward Euler. The three obstacles are E_B's; the 17 are
-drawn, one field a seed. --python takes an interpreter that has CasADi; else one is made in DIR/venv from
-requirements.txt. Standard library only.
+drawn, one field a seed. --python takes an interpreter that has CasADi; else one is made from requirements.txt.
+CasADi's answers stay in --work. Standard library only.
 """
 
+import hashlib
 import json
 import math
-import os
 import random
 import re
 import statistics
 import subprocess
 import sys
 import time
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent
-sys.path.insert(0, str(ROOT / "tools"))
-from measured import page_parser, stamp, write  # noqa: E402
+from contestants import BUILD, HERE
+from environments import environment, one_thread, requirements
+from measured import command_of, output_of, page_parser, stamp, write
+from sweeps import head, row
 
 PAPER = {("hard", 3): 44.4, ("hard", 17): 193.0, ("soft", 3): 110.0, ("soft", 17): 2190.0}
 INTERVALS = (60, 200)
 SEEDS = (1, 2, 3)
 RUNS = 9  # of ours; medians
 THREE = [[205, 57, 5, -2, 0], [180, 75, 4, -1, 1], [200, 63, 2, -0.5, 6]]  # E_B's: x, y, r, vx, vy
-REACH, SM_END, SM_CRASH = 200, 4.0, 2.0
+REACH, SM_END = 200, 4.0
 MODES = ("vm", "c")
 RULES = ("adaptive", "monotone")
+SCRIPTS = ("long_casadi.py", "planner_casadi.py", "compiled.py")  # what states and solves the problem in CasADi
 
 
 def field(seed):
@@ -84,28 +84,36 @@ def ours(program, scenario, N, constraint):
             "setup_s": statistics.median(whole) - statistics.median(cpu)}  # fmt: skip
 
 
-def casadi(python, folder, name, case, mode, rule, limit):
-    """One way of CasADi's on a case, in a process of its own; kept in the folder."""
-    case_file, out = folder / f"{name}.json", folder / f"{name}_{mode}_{rule}.json"
-    text = json.dumps(case)
-    if out.is_file() and case_file.is_file() and case_file.read_text() == text:
-        return json.loads(out.read_text())
-    case_file.write_text(text)
-    command = [python, HERE / "long_casadi.py", case_file, out, "--mode", mode, "--rule", rule,
-               "--limit", str(limit)]  # fmt: skip
-    environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+def digest_of(*parts):
+    """Of what an answer of CasADi's belongs to, and of the scripts that find it."""
+    text = json.dumps([*parts, *((HERE / name).read_text() for name in SCRIPTS)])
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def casadi(args, name, case, mode, rule):
+    """One way of CasADi's on a case, in a process of its own; kept, with what it is the answer to."""
+    case_file, out = args.work / f"{name}.json", args.work / f"{name}_{mode}_{rule}.json"
+    of = digest_of(case, mode, rule, args.limit, args.casadi)
+    if out.is_file() and (kept := json.loads(out.read_text())).get("of") == of:
+        return kept
+    out.unlink(missing_ok=True)
+    case_file.write_text(json.dumps(case))
+    command = [args.python, HERE / "long_casadi.py", case_file, out, "--mode", mode, "--rule", rule,
+               "--limit", str(args.limit)]  # fmt: skip
     try:
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True,
-                              timeout=3 * limit + 900, env=environment)  # fmt: skip
+                              timeout=3 * args.limit + 900, env=one_thread())  # fmt: skip
         if done.returncode != 0:
             raise RuntimeError(done.stderr.strip().splitlines()[-1] if done.stderr else "no word")
     except (subprocess.TimeoutExpired, RuntimeError) as error:
         return {"solved": False, "status": str(error)[:60], "cpu_s": [], "setup_s": math.nan,
                 "iterations": 0, "cost": math.nan}  # fmt: skip
-    return json.loads(out.read_text())
+    answer = json.loads(out.read_text()) | {"of": of}
+    write(out, json.dumps(answer))
+    return answer
 
 
-def measure(args, folder):
+def measure(args):
     """A row for each mesh, constraint and field: ours, and CasADi's ways."""
     fields = [("3 (E_B)", 3, THREE)] + [(f"17, seed {s}", 17, field(s)) for s in args.seeds]
     rows = []
@@ -113,7 +121,7 @@ def measure(args, folder):
         for constraint in ("hard", "soft"):
             for label, count, obstacles in fields:
                 name = f"N{N}_{constraint}_{re.sub('[^0-9a-zA-Z]+', '_', label).strip('_')}"
-                scenario = folder / f"{name}.yaml"
+                scenario = args.work / f"{name}.yaml"
                 scenario.write_text(scenario_text(obstacles))
                 mine = ours(args.program, scenario, N, constraint)
                 case = {"N": N, "soft": constraint == "soft", "w_obstacle": 1000,
@@ -122,9 +130,9 @@ def measure(args, folder):
                         "obstacles": [[x, y, r, r, vx, vy] for x, y, r, vx, vy in obstacles]}  # fmt: skip
                 theirs = {}
                 for rule in RULES:
-                    theirs["vm", rule] = casadi(args.python, folder, name, case, "vm", rule, args.limit)
+                    theirs["vm", rule] = casadi(args, name, case, "vm", rule)
                 _, rule = best(mine, theirs)[0]
-                theirs["c", rule] = casadi(args.python, folder, name, case, "c", rule, args.limit)
+                theirs["c", rule] = casadi(args, name, case, "c", rule)
                 rows.append({"N": N, "constraint": constraint, "label": label, "count": count,
                              "ours": mine, "casadi": theirs})  # fmt: skip
                 print(name, "ours", brief(mine), "|",
@@ -164,40 +172,37 @@ def time_cell(answer, limit):
 
 
 def details(rows, limit):
-    lines = ["| N | rows | obstacles | ours: time, iterations | CasADi, best: time, iterations | way | "
-             "ours faster by | costs: ours, CasADi's | apart |",
-             "|---|---|---|---|---|---|---|---|---|"]  # fmt: skip
-    for row in rows:
-        mine = row["ours"]
-        (mode, rule), theirs = best(mine, row["casadi"])
+    text = head(["N", "rows", "obstacles", "ours: time, iterations", "CasADi, best: time, iterations", "way",
+                 "ours faster by", "costs: ours, CasADi's", "apart"])  # fmt: skip
+    for each in rows:
+        mine = each["ours"]
+        (mode, rule), theirs = best(mine, each["casadi"])
         both = mine["solved"] and theirs["solved"]
         ratio = f"× {seconds(theirs) / seconds(mine):.1f}" if same(mine, theirs) else "–"
         apart = abs(theirs["cost"] / mine["cost"] - 1) if both else math.nan
         agree = "–" if not both else f"{apart:.1e}" if same(mine, theirs) else "another optimum"
         way = ("C" if mode == "c" else "virtual machine") + f", {rule}"
-        lines.append(f"| {row['N']} | {row['constraint']} | {row['label']} | {time_cell(mine, limit)} | "
-                     f"{time_cell(theirs, limit)} | {way} | {ratio} | "
-                     f"{mine['cost']:.5f}, {theirs['cost']:.5f} | {agree} |")  # fmt: skip
-    return lines
+        text += row([each["N"], each["constraint"], each["label"], time_cell(mine, limit), time_cell(theirs, limit), way,
+                     ratio, f"{mine['cost']:.5f}, {theirs['cost']:.5f}", agree])  # fmt: skip
+    return text
 
 
 def summary(rows):
     """The paper's table: medians over the fields of one size."""
-    lines = ["| rows | obstacles | paper, MATLAB + IPOPT |"
-             + "".join(f" ours, N = {N} | CasADi, N = {N} |" for N in sorted({r["N"] for r in rows})),
-             "|---|---|---|" + "---|---|" * len({r["N"] for r in rows})]  # fmt: skip
+    meshes = sorted({r["N"] for r in rows})
+    text = head(["rows", "obstacles", "paper, MATLAB + IPOPT",
+                 *(cell for N in meshes for cell in (f"ours, N = {N}", f"CasADi, N = {N}"))])  # fmt: skip
     for (constraint, count), printed in PAPER.items():
-        line = f"| {constraint} | {count} | {printed:g} s |"
-        for N in sorted({r["N"] for r in rows}):
+        cells = [constraint, count, f"{printed:g} s"]
+        for N in meshes:
             own = [r for r in rows if (r["N"], r["constraint"], r["count"]) == (N, constraint, count)]
             for answers in ([r["ours"] for r in own], [best(r["ours"], r["casadi"])[1] for r in own]):
                 solved = [seconds(a) for a in answers if a["solved"]]
-                text = f"{statistics.median(solved):.3g} s" if solved else "none"
+                cells.append(f"{statistics.median(solved):.3g} s" if solved else "none")
                 if len(solved) < len(answers):
-                    text += f" ({len(solved)} of {len(answers)} solved)"
-                line += f" {text} |"
-        lines.append(line)
-    return lines
+                    cells[-1] += f" ({len(solved)} of {len(answers)} solved)"
+        text += row(cells)
+    return text
 
 
 def slower_line(rows):
@@ -226,16 +231,16 @@ def setup_line(rows):
             f"derivatives, transcription, printing); CasADi {vm}, with C {c}.")  # fmt: skip
 
 
-def page(rows, args):
+def page(rows, args, stamped):
     version = next((a["casadi"] for r in rows for a in r["casadi"].values() if "casadi" in a), "?")
     return "\n".join([
-        "# Long cold solves", "", stamp("make long-solves", args.program),
+        "# Long cold solves", "", stamped,
         "The paper's table of long solve times (MATLAB with IPOPT, of earlier work on a simpler problem) and",
         "ours: one plan from a cold start, the goal in range, backward Euler on N intervals, moving obstacles,",
         "obstacle rows hard or soft (l1). The paper states neither N nor its field of 17; ours are E_B's three",
         f"obstacles and {len(args.seeds)} drawn fields of 17. Solved to 1e-8 without barrier floor. Times are CPU",
         "time of the solve, medians.", "",
-        *summary(rows), "",
+        summary(rows),
         "One thread. Where the table has 17 obstacles, the median is over the fields.",
         "The paper's is an Intel i7-4910MQ, and its problem and N are not ours: the ratio of the times is not one of",
         "solvers alone. CasADi's, here, is.", "",
@@ -245,34 +250,29 @@ def page(rows, args):
         "ways tried (barrier rule adaptive or monotone by the virtual machine, and compiled C, -O3",
         "-march=native, with the better rule) the fastest stands here, of those that ended in our optimum or, where",
         f"none did, in their lowest. Limit: {args.limit:g} s a solve.", "",
-        *details(rows, args.limit), "",
+        details(rows, args.limit),
         "Costs are the same problem's where both ended in the same optimum: passing obstacles on another side is",
         "another one. " + slower_line(rows) + " " + setup_line(rows), ""])  # fmt: skip
 
 
-def casadi_python(folder):
-    """A virtual environment with CasADi, at the version of requirements.txt."""
-    python = folder / "venv" / "bin" / "python"
-    if not python.is_file():
-        wanted = [line for line in (HERE / "requirements.txt").read_text().split()
-                  if line.startswith(("casadi", "numpy"))]  # fmt: skip
-        subprocess.run([sys.executable, "-m", "venv", folder / "venv"], check=True)
-        subprocess.run([python, "-m", "pip", "install", "--quiet", *wanted], check=True)
-    return str(python)
+def casadi_python():
+    """An interpreter that has CasADi, at the version of requirements.txt."""
+    return environment(BUILD / "casadi", requirements(HERE / "requirements.txt", "casadi", "numpy"))
 
 
 def main():
-    parser = page_parser("long-solves", __doc__, keeps=False)
+    parser = page_parser("long-solves", __doc__)
     parser.add_argument("--python", help="an interpreter that has CasADi")
-    parser.add_argument("--folder", default=str(ROOT / "build/long_solves"), help="what was measured of CasADi")
     parser.add_argument("--limit", type=float, default=600, help="of one solve of CasADi's [s]")
     parser.add_argument("--intervals", type=int, nargs="+", default=list(INTERVALS))
     parser.add_argument("--seeds", type=int, nargs="+", default=list(SEEDS))
     args = parser.parse_args()
-    folder = Path(args.folder).resolve()
-    folder.mkdir(parents=True, exist_ok=True)
-    args.python = args.python or casadi_python(folder)
-    write(args.out, page(measure(args, folder), args))
+    args.work = args.work.resolve()
+    args.work.mkdir(parents=True, exist_ok=True)
+    args.python = args.python or casadi_python()
+    args.casadi = output_of(args.python, "-c", "import casadi; print(casadi.__version__)")
+    made_by = command_of(parser, args, "long-solves", "limit", "intervals", "seeds")
+    write(args.out, page(measure(args), args, stamp(made_by, args.program)))
 
 
 if __name__ == "__main__":

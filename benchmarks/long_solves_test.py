@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """What long_solves.py measures with, on the program at $SLALOM and on answers made up for it."""
 
+import json
 import math
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
+from unittest import mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import long_solves  # noqa: E402
@@ -29,6 +32,65 @@ class Fields(unittest.TestCase):
         self.assertNotEqual(long_solves.field(1), long_solves.field(2))
 
 
+STAND_IN = """#!{python}
+import json, os, sys
+answer = {{"solved": True, "iterations": len(open("{log}").read()), "threads": os.environ["OMP_NUM_THREADS"]}}
+open("{log}", "a").write("x")
+json.dump(answer, open(sys.argv[3], "w"))
+"""
+
+
+class Kept(unittest.TestCase):
+    """By a stand-in for the interpreter that has CasADi, which counts what it is asked to solve."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        folder = pathlib.Path(scratch.name)
+        (folder / "log").touch()
+        python = folder / "python"
+        python.write_text(STAND_IN.format(python=sys.executable, log=folder / "log"))
+        python.chmod(0o755)
+        self.log = folder / "log"
+        self.args = types.SimpleNamespace(work=folder, python=python, limit=600, casadi="3.8.2")
+
+    def solves(self, case, mode="vm", rule="adaptive"):
+        before = len(self.log.read_text())
+        self.answer = long_solves.casadi(self.args, "name", case, mode, rule)
+        return len(self.log.read_text()) - before
+
+    def test_a_case_that_changed_is_solved_anew_by_every_way(self):
+        ways = [("vm", "adaptive"), ("vm", "monotone"), ("c", "monotone")]
+        for case in ({"N": 60}, {"N": 61}):
+            self.assertEqual([self.solves(case, *way) for way in ways], [1, 1, 1])
+            self.assertEqual([self.solves(case, *way) for way in ways], [0, 0, 0])
+        self.assertEqual((self.answer["iterations"], self.answer["threads"]), (5, "1"))
+
+    def test_another_casadi_limit_or_script_solves_anew(self):
+        self.solves({})
+        self.args.casadi = "3.9.0"
+        self.assertEqual(self.solves({}), 1)
+        self.args.limit = 300
+        self.assertEqual(self.solves({}), 1)
+        scripts = self.args.work / "scripts"
+        scripts.mkdir()
+        for name in long_solves.SCRIPTS:
+            (scripts / name).write_text("# changed\n")
+        with mock.patch.object(long_solves, "HERE", scripts):
+            self.assertEqual((self.solves({}), self.solves({})), (1, 0))
+
+    def test_an_answer_that_does_not_say_to_what_is_not_taken(self):
+        self.solves({})
+        out = self.args.work / "name_vm_adaptive.json"
+        out.write_text(json.dumps({"solved": True}))
+        self.assertEqual(self.solves({}), 1)
+
+    def test_a_solve_that_fails_leaves_no_answer_of_another_case(self):
+        self.solves({})
+        self.args.python = "false"
+        self.assertFalse(long_solves.casadi(self.args, "name", {"N": 3}, "vm", "adaptive")["solved"])
+        self.assertFalse((self.args.work / "name_vm_adaptive.json").exists())
+
 
 class Judgement(unittest.TestCase):
     def test_the_fastest_way_to_our_optimum_counts(self):
@@ -43,7 +105,7 @@ class Judgement(unittest.TestCase):
     def test_tables(self):
         row = {"N": 60, "constraint": "hard", "count": 3, "label": "3 (E_B)", "ours": answer(500.0, 0.01),
                "casadi": {("vm", "adaptive"): answer(500.0001, 0.25)}}  # fmt: skip
-        text = "\n".join(long_solves.details([row], 600))
+        text = long_solves.details([row], 600)
         self.assertIn("| 0.01 s, 10 | 0.25 s, 10 | virtual machine, adaptive | × 25.0 |", text)
         self.assertIn("2.0e-07", text)
         self.assertEqual(long_solves.slower_line([row]),
@@ -54,10 +116,10 @@ class Judgement(unittest.TestCase):
                          "(N = 60, hard, 3 (E_B)).")
         row["ours"] = answer(500.0, 0.01)
         row["casadi"]["vm", "adaptive"] = answer(math.nan, 600, solved=False)
-        text = "\n".join(long_solves.details([row], 600))
+        text = long_solves.details([row], 600)
         self.assertIn("no: Maximum WallTime Exceeded after 600 s", text)
         self.assertIn("| hard | 3 | 44.4 s | 0.01 s | none (0 of 1 solved) |",
-                      "\n".join(long_solves.summary([row])))
+                      long_solves.summary([row]))
 
 
 @unittest.skipUnless(os.environ.get("SLALOM"), "needs the program")
