@@ -1,7 +1,7 @@
 // The fastest lap of a scenario's road on one mesh, solved by ours, with all that another solver
 // needs to solve the same: numbers of road, vehicle, mesh and start. JSON into a file.
 //
-//   bench_lap SCENARIO OUT.json [--vehicle NAME] [--intervals N | --interval 6] [--runs R] [--log]
+//   bench_lap SCENARIO OUT.json --intervals N
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -65,29 +65,22 @@ json statement_of(const planner::LapProblem& lap, const planner::LapSettings& se
           {"guess", points_of(guess)}};
 }
 
-int run(const io::ScenarioRequest& request, const std::string& out, int intervals, double interval,
-        int runs, bool log) {
-  const auto scenario = io::load_scenario(request);
+int run(const std::string& name, const std::string& out, int intervals) {
+  const auto scenario = io::load_scenario({name, {}, {}, {}, {}});
   if (!scenario.road) throw InvalidValue(scenario.name, "no road", "a closed one", {"road"});
   const planner::LapSettings settings;
   const planner::LapProblem lap(*scenario.road, scenario.vehicle, settings);
-  if (intervals == 0) intervals = static_cast<int>(std::ceil(scenario.road->length() / interval));
-  auto solve = lap.solve_on(intervals);
-  solve.options.print_level = log ? 1 : 0;
+  const auto solve = lap.solve_on(intervals);
   json file = {{"statement", statement_of(lap, settings, scenario.vehicle, solve)}};
-  json cpu = json::array();  // transcription and check included
-  ocp::Solution solution;
-  for (int run = 0; run < runs; ++run) {
-    const Timer timer;
-    solution = ocp::solve(lap.problem(), solve);
-    cpu.push_back(timer.cpu());
-  }
+  const Timer timer;
+  const ocp::Solution solution = ocp::solve(lap.problem(), solve);
+  const double cpu_s = timer.cpu();  // transcription and check included
   file["ours"] = {{"solved", solution.solved()},
                   {"status", nlp::to_string(solution.status)},
                   {"iterations", solution.iterations},
                   {"cost", solution.objective},
                   {"time_s", solution.cost_term("time")},
-                  {"cpu_s", cpu},
+                  {"cpu_s", cpu_s},
                   {"points", points_of(solution.trajectory)}};
   std::ofstream(out) << file.dump() << "\n";
   return solution.solved() ? EXIT_SUCCESS : EXIT_FAILURE;
@@ -97,22 +90,14 @@ int run(const io::ScenarioRequest& request, const std::string& out, int interval
 
 int main(int argc, char** argv) {
   CLI::App app{"The fastest lap on one mesh, and what it takes to solve the same elsewhere"};
-  std::string scenario, out, vehicle;
-  int intervals = 0, runs = 1;
-  bool log = false;
-  double interval = slalom::planner::LapSettings{}.interval;
+  std::string scenario, out;
+  int intervals = 0;
   app.add_option("scenario", scenario)->required();
   app.add_option("out", out)->required();
-  app.add_option("--vehicle", vehicle);
-  app.add_option("--intervals", intervals);
-  app.add_option("--interval", interval, "[m]");
-  app.add_option("--runs", runs);
-  app.add_flag("--log", log);
+  app.add_option("--intervals", intervals)->required();
   CLI11_PARSE(app, argc, argv);
   try {
-    slalom::io::ScenarioRequest request{scenario, {}, {}, {}, {}};
-    if (!vehicle.empty()) request.vehicle = vehicle;
-    return run(request, out, intervals, interval, runs, log);
+    return run(scenario, out, intervals);
   } catch (const std::exception& error) {
     std::cerr << "bench_lap: " << error.what() << "\n";
     return EXIT_FAILURE;

@@ -12,15 +12,15 @@ import json
 import math
 import os
 import pathlib
-import statistics
 import subprocess
 import sys
 import time
 
-HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent
-sys.path.insert(0, str(ROOT / "tools"))
-from measured import page_parser, stamp, write  # noqa: E402
+from contestants import HERE, build_ours, program
+from environments import one_thread
+from long_solves import casadi_python
+from measured import command_of, page_parser, stamp, write
+from sweeps import head, row
 
 BUILT_IN = "circuit"
 SAME_TIME = 1e-4
@@ -53,72 +53,87 @@ def scenario_of(track, vehicle, folder):
     return str(file)
 
 
+def failure(done):
+    """What is kept of a program that gave no answer: its last words."""
+    return {"failure": (done.stderr.strip().splitlines() or [f"ended with {done.returncode}"])[-1]}
+
+
 def output_of(*command):
-    """The JSON that a program prints, or its message."""
+    """The JSON that a program prints, or why it printed none."""
     done = subprocess.run([*command, "--json"], capture_output=True, text=True)
-    return json.loads(done.stdout) if done.stdout.startswith("{") else {"message": done.stderr.strip()}
+    return json.loads(done.stdout) if done.stdout.startswith("{") else failure(done)
 
 
-def peer_of(args, scenario, intervals, folder, name):
+def peer_of(args, scenario, intervals, name):
     """Ours and CasADi's solves of the last mesh's problem, one after the other."""
-    case, answer = folder / f"{name}.case.json", folder / f"{name}.casadi.json"
-    answer.unlink(missing_ok=True)
-    subprocess.run([args.bench, scenario, str(case), "--intervals", str(intervals)], check=False)
+    case, answer = args.work / f"{name}.case.json", args.work / f"{name}.casadi.json"
+    for file in (case, answer):
+        file.unlink(missing_ok=True)
+    done = subprocess.run([args.bench, scenario, str(case), "--intervals", str(intervals)], capture_output=True, text=True)
     if not case.exists():
-        return None
-    subprocess.run([args.python, str(HERE / "lap_casadi.py"), str(case), str(answer), "--limit", str(args.limit)],
-                   cwd=folder, check=False)  # fmt: skip
+        return failure(done)
+    done = subprocess.run([args.python, str(HERE / "lap_casadi.py"), str(case), str(answer), "--limit", str(args.limit)],
+                          cwd=args.work, env=one_thread(), capture_output=True, text=True)  # fmt: skip
     ours = json.loads(case.read_text())["ours"]
     del ours["points"]
     case.unlink()
-    return {"ours": ours, "casadi": json.loads(answer.read_text()) if answer.exists() else None}
+    return {"ours": ours, "limit": args.limit, "casadi": json.loads(answer.read_text()) if answer.exists() else failure(done)}
+
+
+def failed(part):
+    """Whether a part of a row is none to keep: what broke down is tried again by the next run."""
+    return isinstance(part, dict) and ("failure" in part or "failure" in part.get("casadi", {}))
 
 
 def measured_row(args, track):
     """One track's; what was measured before is not measured again."""
     name = track if track == BUILT_IN else track.stem
-    kept = args.work / f"{name}.json"
-    row = json.loads(kept.read_text()) if kept.exists() else {"track": name}
+    file = args.work / f"{name}.json"
+    found = json.loads(file.read_text()) if file.exists() else {}
+    if found.get("vehicle") != args.vehicle:
+        found = {"track": name, "vehicle": args.vehicle}
+    if "peer" in found and found["peer"]["limit"] != args.limit:
+        del found["peer"]
 
     def keep(**more):
-        row.update(more)
-        row["loads"] = [*row.get("loads", []), os.getloadavg()[0]]
-        write(kept, json.dumps(row))
+        found.update(more)
+        found["loads"] = [*found.get("loads", []), os.getloadavg()[0]]
+        write(file, json.dumps({part: value for part, value in found.items() if not failed(value)}))
 
     scenario = scenario_of(track, args.vehicle, args.work)
-    if "lap" not in row:
+    if "lap" not in found:
         keep(lap=output_of(args.program, "lap", scenario))
-    meshes = row["lap"].get("meshes", [])
+    meshes = found["lap"].get("meshes", [])
     wanted = args.peers is None or name in args.peers
-    if "peer" not in row and wanted and meshes:
-        keep(peer=peer_of(args, scenario, meshes[-1]["intervals"], args.work, name))
-    if "drive" not in row and not args.no_drives:
+    if "peer" not in found and wanted and meshes:
+        keep(peer=peer_of(args, scenario, meshes[-1]["intervals"], name))
+    if "drive" not in found and not args.no_drives:
         keep(drive=output_of(args.program, "simulate", scenario))
-    return row
+    return found
 
 
 # --- the page -----------------------------------------------------------------------------------
 
 
-def figures_of(row):
+def figures_of(measured):
     """What the tables say of a track; None for what is not known."""
-    lap, drive, peer = row["lap"], row.get("drive") or {}, row.get("peer") or {}
+    lap, drive, peer = measured["lap"], measured.get("drive", {}), measured.get("peer", {})
     meshes = lap.get("meshes", [])
     ends = drive.get("lap_ends_s", [])
     flying = ends[1] - ends[0] if len(ends) > 1 else None
     best = lap.get("time_s") or None
-    ours, casadi = peer.get("ours"), peer.get("casadi") or {}
+    ours, casadi = peer.get("ours"), peer.get("casadi", {})
     both = bool(ours and ours["solved"] and casadi.get("solved"))
     return {
-        "track": row["track"], "length": lap.get("length_m"), "best": best,
-        "status": (lap.get("status") or lap.get("message", "")).replace("_", " "),
+        "track": measured["track"], "length": lap.get("length_m"), "best": best,
+        "status": (lap.get("status") or lap.get("failure", "")).replace("_", " "),
         "intervals": [mesh["intervals"] for mesh in meshes], "iterations": [mesh["iterations"] for mesh in meshes],
         "solves": sum(mesh["solve_s"] for mesh in meshes) if meshes else None,
-        "ours": ours, "casadi": casadi or None, "both": both,
-        "ratio": statistics.median(casadi["cpu_s"]) / statistics.median(ours["cpu_s"]) if both else None,
+        "ours": ours, "casadi": casadi or None, "both": both, "not_compared": peer.get("failure"),
+        "ratio": casadi["cpu_s"] / ours["cpu_s"] if both else None,
         "apart": abs(casadi["time_s"] / ours["time_s"] - 1) if both else None,
         "flying": flying, "slower": flying / best - 1 if flying and best else None,
-        "outcome": drive.get("outcome", drive.get("message")), "edge": drive.get("least_edge_distance_m"),
+        "outcome": drive.get("outcome", drive.get("failure")), "edge": drive.get("least_edge_distance_m"),
     }  # fmt: skip
 
 
@@ -126,9 +141,8 @@ def cell(value, form="{}"):
     return "–" if value is None else form.format(value)
 
 
-def table(head, rows):
-    return "\n".join(["| " + " | ".join(head) + " |", "|---" * len(head) + "|",
-                      *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"  # fmt: skip
+def table(names, rows):
+    return head(names) + "".join(map(row, rows))
 
 
 def optima(figures):
@@ -140,10 +154,10 @@ def optima(figures):
 
 
 def solve_cell(answer):
-    if answer is None:
-        return "–"
+    if "failure" in answer:
+        return f"failed: {answer['failure'].replace('|', '/')}"
     end = "" if answer["solved"] else f", {answer['status'].replace('_', ' ')}"
-    return f"{statistics.median(answer['cpu_s']):.2f} s, {answer['iterations']}{end}"
+    return f"{answer['cpu_s']:.2f} s, {answer['iterations']}{end}"
 
 
 def peers(figures):
@@ -152,9 +166,9 @@ def peers(figures):
          "lap times: ours, CasADi's [s]", "apart", "violation of ours, by CasADi"],
         [[f["track"], str(f["intervals"][-1]), solve_cell(f["ours"]), solve_cell(f["casadi"]),
           cell(f["ratio"], "× {:.1f}"),
-          f"{f['ours']['time_s']:.4f}, {cell(f['casadi'] and f['casadi'].get('time_s'), '{:.4f}')}",
+          f"{f['ours']['time_s']:.4f}, {cell(f['casadi'].get('time_s'), '{:.4f}')}",
           cell(f["apart"], "{:.1e}"),
-          cell(f["casadi"] and f["casadi"]["ours_here"]["violation"], "{:.1e}")]
+          cell(f["casadi"].get("ours_here", {}).get("violation"), "{:.1e}")]
          for f in figures if f["ours"]])  # fmt: skip
 
 
@@ -171,6 +185,7 @@ def counts(figures):
     driven = [f for f in figures if f["outcome"]]
     lines = [f"Laps solved: {sum(f['best'] is not None for f in figures)} of {len(figures)}, refined until the cost "
              f"changes by less than the tolerance: {sum(f['status'] == 'converged' for f in figures)}."]  # fmt: skip
+    lines += [f"{f['track']} was not compared with CasADi: {f['not_compared']}." for f in figures if f["not_compared"]]
     if compared:
         ratios = sorted(f["ratio"] for f in compared if f["both"])
         lines.append(
@@ -188,13 +203,13 @@ def counts(figures):
 
 def load_line(rows):
     """How busy the machine was."""
-    loads = sorted(load for row in rows for load in row.get("loads", []))
+    loads = sorted(load for each in rows for load in each.get("loads", []))
     return (f"Load of the machine meanwhile: {loads[0]:.1f} to {loads[-1]:.1f} on {os.cpu_count()} cores."
             if loads else "")  # fmt: skip
 
 
 def page(rows, stamped, limit, casadi):
-    figures = [figures_of(row) for row in rows]
+    figures = [figures_of(each) for each in rows]
     text = ["# Laps", "", stamped,
             "The fastest flying lap by `slalom lap` ([laps.md](../laps.md)), the same statement by CasADi with Ipopt, and",
             "two laps in closed loop by planner P_L, of which the second is the flying lap. `circuit` is built in; the",
@@ -228,14 +243,7 @@ def wanted_tracks(args):
             if not args.tracks or (track if track == BUILT_IN else track.stem) in args.tracks]  # fmt: skip
 
 
-def command_of(args):
-    """What makes this page: make's target, or the tool where it was told to leave something out."""
-    less = [f"--{name} {' '.join(values)}" for name in ("tracks", "peers") if (values := getattr(args, name)) is not None]
-    less += ["--no-drives"] * args.no_drives + [f"--minutes {args.minutes:g}"] * math.isfinite(args.minutes)
-    return " ".join(["benchmarks/laps.py FOLDER", *less]) if less else "make laps TRACKS=folder"
-
-
-def main():
+def parser_of():
     parser = page_parser("laps", __doc__)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--vehicle", default="bmw_320i")
@@ -246,13 +254,20 @@ def main():
     parser.add_argument("--bench", help="bench_lap; built where it is not given")
     parser.add_argument("--limit", type=float, default=600, help="of one solve of CasADi's [s]")
     parser.add_argument("--minutes", type=float, default=math.inf, help="no further track is begun after so many")
+    return parser
+
+
+def made_by(parser, args):
+    return command_of(parser, args, "laps TRACKS=folder", "vehicle", "tracks", "peers", "no_drives", "limit", "minutes")
+
+
+def main():
+    parser = parser_of()
     args = parser.parse_args()
     tracks = wanted_tracks(args)
     args.work = args.work.resolve()
     args.work.mkdir(parents=True, exist_ok=True)
     if args.peers != []:
-        from contestants import build_ours, program
-        from long_solves import casadi_python
         if not args.bench:
             build_ours("lap")
         args.bench = args.bench or program("bench_lap")
@@ -264,8 +279,8 @@ def main():
         rows.append(measured_row(args, track))
         print(json.dumps({k: v for k, v in figures_of(rows[-1]).items() if k not in ("ours", "casadi")}), flush=True)
     rows[-1]["loads"] = [*rows[-1].get("loads", []), os.getloadavg()[2]]  # of the last quarter of an hour
-    casadi = next((r["peer"]["casadi"]["casadi"] for r in rows if (r.get("peer") or {}).get("casadi")), "")
-    write(args.out, page(rows, stamp(command_of(args), args.program), args.limit, casadi))
+    casadi = next((peer["casadi"]["casadi"] for r in rows if (peer := r.get("peer")) and not failed(peer)), "")
+    write(args.out, page(rows, stamp(made_by(parser, args), args.program), args.limit, casadi))
 
 
 if __name__ == "__main__":

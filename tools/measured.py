@@ -242,7 +242,8 @@ def command_of(parser, options, target, *names, given=""):
     for name in names:
         value = getattr(options, name)
         if value != parser.get_default(name):
-            words += ["--" + name.replace("_", "-"), *(value if isinstance(value, list) else [value])]
+            values = [] if value is True else value if isinstance(value, list) else [value]
+            words += ["--" + name.replace("_", "-"), *values]
     if not words:
         return f"make {target}"
     given = given or ("FOLDER" if "=" in target else "")
