@@ -1,6 +1,7 @@
 // Ways to keep a vehicle's rectangle off rectangles in an OCP, on the same problems: discs that
-// cover the body, as the planner has them; superellipses; a separating line as variables; the dual
-// of the distance. One line of JSON for each problem and way.
+// cover the body; superellipses; how far they are apart along the axes of both, as the planner has
+// it; a separating line as variables; the dual of the distance. One line of JSON for each problem
+// and way.
 //
 //   bench_shape_forms [--forms discs-0.2,line] [--scenes gap] [--seeds 6] [--runs 5]
 //                     [--intervals 40] [--floor 0]

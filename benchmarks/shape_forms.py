@@ -45,9 +45,9 @@ Forms (`benchmarks/shape_rows.cpp`):
 
 *Solved* counts answers from a way that passes on the right side, and from a straight line. The *gap* is the exact one
 between the rectangles, along the answer and between its points: least of all draws, and median. *Cost* is the median of how
-much the answer costs above the least that any form has for the same draw. Times are processor time, medians of {runs} runs
-and of the draws that were solved, transcription left out: *first* from the way, *again* from that answer with its multipliers,
-begun .1 m to the left and .1 m/s slower. *At a floor* of {floor} the solve ends at that central point, as the planner's do.
+much the answer costs above the least that any form has for the same draw. Times are processor time, medians of up to
+{runs} runs, fewer where they take longer than .5 s together, and of the draws that were solved, transcription left out: *first*
+from the way, *again* from that answer with its multipliers, begun .1 m to the left and .1 m/s slower. *At a floor* of {floor} the solve ends at that central point, as the planner's do.
 
 """
 

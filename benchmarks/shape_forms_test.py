@@ -33,6 +33,7 @@ class Page(unittest.TestCase):
         self.assertIn("| `line` | 8, 2 | 2, 2 of 2 | 0.300, 0.300 | +0.0% | 20, 10.0 | 5, 2.0 | 0.300 | 10.0, 2.0 |", text)
         self.assertIn("| `discs-0.2` | 8, 2 | 2, 1 of 2 | 0.400, 0.450 | +7.5% |", text)
         self.assertIn("a vehicle of 4.6 m by 2 m", text)
+        self.assertIn("medians of up to\n3 runs, fewer where they take longer than .5 s together", text)
 
     def test_only_forms_of_an_equal_gap_are_compared(self):
         text = page(answer("line"), answer("line", start="straight"), answer("dual", solve_s=0.03, gap=0.31),

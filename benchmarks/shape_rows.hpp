@@ -48,7 +48,7 @@ class ShapeRows {
 /// The names that make_rows knows, as the page has them.
 const std::vector<std::string>& shape_forms();
 /// Adds them to a problem, with the states of the vehicle's pose: "discs-E" of cover excess E [m],
-/// "superellipse-P" of exponent P, "line", or "dual".
+/// "superellipse-P" of exponent P, "axes", "line", or "dual".
 std::unique_ptr<ShapeRows> make_rows(const std::string& form, const ShapeScene& scene,
                                      ocp::Problem& problem, const Vehicle& vehicle,
                                      const ocp::Expr& x, const ocp::Expr& y, const ocp::Expr& psi);

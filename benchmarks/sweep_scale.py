@@ -20,16 +20,9 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
-from measured import page_parser, stamp, write  # noqa: E402
+from kills import SCENARIO  # noqa: E402
+from measured import command_of, page_parser, stamp, write  # noqa: E402
 
-SCENARIO = """
-name: at the goal
-vehicle: hmmwv
-planner: {base: P_D, N: 5, w_t: 0}
-start: {x: 0, y: 0, ux: 10}
-goal: {x: 0, y: 3, sigma: 5}
-loop: {tex: 0.1, warm_up: false}
-"""
 STUDY = """
 title: very short trials
 scenario: scenario.yaml
@@ -157,6 +150,7 @@ def main():
     parser.add_argument("--trials", type=int, default=100_000)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     given = parser.parse_args()
+    made_by = command_of(parser, given, "sweep-scale", "trials", "jobs")
     found = []
     with tempfile.TemporaryDirectory(prefix="sweep-scale-") as folder:
         folder = pathlib.Path(folder)
@@ -165,7 +159,7 @@ def main():
         for line in measure(given.program, folder, given.trials, given.jobs):
             print(line, flush=True)
             found.append(line)
-    write(given.out, page(found, given.trials, stamp("make sweep-scale", given.program)))
+    write(given.out, page(found, given.trials, stamp(made_by, given.program)))
 
 
 if __name__ == "__main__":
