@@ -1,10 +1,9 @@
 // Times the functions of the planner's problem at a recorded cycle: from straight on, and at its
 // shifted plan. Prints JSON; run.py makes the table.
 //
-//   bench_functions --environment E_C --cycles FILE [--cycle 4] [--repeats 200] [--profile]
+//   bench_functions --environment E_C --cycles FILE [--cycle 4] [--repeats 200]
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -12,11 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "builder.hpp"
 #include "command_line.hpp"
 #include "cycle_file.hpp"
 #include "slalom/base/kernels.hpp"
-#include "slalom/ocp/scheme.hpp"
 #include "slalom/ocp/transcription.hpp"
 
 namespace {
@@ -28,7 +25,6 @@ struct Arguments {
   std::string environment = "E_C", cycles;
   std::size_t cycle = 4;
   int repeats = 200;
-  bool profile = false;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -38,7 +34,6 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--cycles", a.cycles, "of bench_record")->required();
   app.add_option("--cycle", a.cycle, "which of them");
   app.add_option("--repeats", a.repeats, "calls of each function");
-  app.add_flag("--profile", a.profile, "batch by batch");
   bench::parse_or_exit(app, argc, argv);
   return a;
 }
@@ -56,13 +51,6 @@ std::vector<double> times_us(int repeats, F call) {
   }
   return times;
 }
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
-// --- evaluations ---------------------------------------------------------------------------------
 
 std::vector<KernelSet> kernel_sets() {
   std::vector<KernelSet> sets{KernelSet::baseline};
@@ -90,66 +78,6 @@ json time_functions(ocp::Transcription& transcription, const std::vector<double>
   return result;
 }
 
-/// Where one evaluation's time goes, batch by batch.
-json profile(const ocp::Problem& problem, int N, const std::vector<double>& x, int repeats) {
-  auto data = ocp::transcribe(problem, ocp::Mesh::uniform(N), ocp::trapezoidal());
-  const std::vector<double> y(data.structure.rows, 1.0);
-  std::vector<double> rows(data.structure.rows), terms(data.terms.size());
-  std::vector<double> gradient(data.structure.variables),
-      jacobian(data.structure.jacobian_row.size());
-  std::vector<double> hessian(data.structure.hessian_row.size());
-  json result;
-  for (const auto set : kernel_sets()) {
-    select_kernels(set);
-    json batches = json::array();
-    for (auto& batch : data.batches) {
-      const auto us = [&](auto call) { return median(times_us(repeats, call)); };
-      const nlp::Parts values{.values = true}, first{.values = true, .derivatives = true},
-          second{.hessian = true}, all{.values = true, .derivatives = true, .hessian = true};
-      const auto count = [&](nlp::Parts p) {
-        return batch.function.instructions({p.values, p.derivatives, p.hessian});
-      };
-      batch.load(x);
-      batch.set_weights(1, y);
-      batches.push_back({{"first_output", batch.outputs.front()},
-                         {"outputs", batch.outputs.size()},
-                         {"lanes", batch.lanes},
-                         {"variables", batch.function.variables()},
-                         {"data", batch.function.data()},
-                         {"instructions",
-                          {{"values", count(values)},
-                           {"first", count(first)},
-                           {"hessian", count(second)},
-                           {"all", count(all)}}},
-                         {"runs",
-                          {{"rows", batch.to_rows.runs()},
-                           {"jacobian", batch.to_jacobian.runs()},
-                           {"gradient", batch.to_gradient.runs()},
-                           {"hessian", batch.to_hessian.runs()}}},
-                         {"us",
-                          {{"load", us([&] { batch.load(x); })},
-                           {"weights", us([&] { batch.set_weights(1, y); })},
-                           {"run_values", us([&] { batch.run(values); })},
-                           {"run_first", us([&] { batch.run(first); })},
-                           {"run_hessian", us([&] { batch.run(second); })},
-                           {"run_all", us([&] { batch.run(all); })},
-                           {"scatter_values", us([&] {
-                              batch.to_rows.scatter(batch.evaluator->values(), rows);
-                              batch.to_terms.scatter(batch.evaluator->values(), terms);
-                            })},
-                           {"scatter_first", us([&] {
-                              batch.to_jacobian.scatter(batch.evaluator->jacobian(), jacobian);
-                              batch.to_gradient.scatter(batch.evaluator->jacobian(), gradient);
-                            })},
-                           {"scatter_hessian", us([&] {
-                              batch.to_hessian.scatter(batch.evaluator->hessian(), hessian);
-                            })}}}});
-    }
-    result[to_string(set)] = std::move(batches);
-  }
-  return result;
-}
-
 json time_all(const Arguments& arguments) {
   bench::PlannerCycle planner(bench::load(arguments.environment, 0.5));
   const auto cycles = bench::read_cycles(arguments.cycles, planner);
@@ -161,9 +89,6 @@ json time_all(const Arguments& arguments) {
   const auto time_at = [&](std::vector<double> x) {
     for (std::size_t i = 0; i < x.size(); ++i) x[i] /= scale[i];
     json result = {{"functions_us", time_functions(transcription, x, arguments.repeats)}};
-    if (arguments.profile)
-      result["profile"] =
-          profile(form.problem.problem(), planner.scenario().planner.N, x, arguments.repeats);
     return result;
   };
   return {{"guess", time_at(cycle.cold_x)}, {"plan", time_at(cycle.warm_x)}};
