@@ -9,7 +9,7 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-TOLERANCE = 1e-6  # of an interval's end, relative to 1 + largest |state| in units of its size
+TOLERANCE = 1e-6  # relative to twice a state's largest size: interval_errors, Statement.violation
 OBJECTIVE = 1e-4  # relative to the converged one: equal intervals cannot meet a jump of the control
 
 
@@ -39,7 +39,8 @@ def interval_errors(statement, answer):
 
 
 def judge(statement, answer, reference):
-    """(largest interval error, the objective's relative difference, whether both are good)."""
-    error = max(interval_errors(statement, answer))
+    """(largest error of an interval or violation, the objective's relative difference, whether both are good)."""
+    error = max(*interval_errors(statement, answer),
+                statement.violation(Numbers, answer["t"], answer["x"], answer["u"]))
     gap = abs(answer["objective"] - reference) / max(abs(reference), 1e-3)
     return error, gap, error <= TOLERANCE and gap <= OBJECTIVE

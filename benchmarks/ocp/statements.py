@@ -52,6 +52,24 @@ class Statement:
         middle = (low + high) / 2 if math.isfinite(low) and math.isfinite(high) else 0.0
         return middle, middle
 
+    def violation(self, m, t, x, u):
+        """How far nodes at times `t` with states `x` are from what is asked at the ends, from the states' bounds and, after
+        the first, from the path constraints, with controls u(interval, time): the largest, relative to twice the
+        largest size of a state or constraint there. Controls are free between the points of some schemes, and their
+        bounds are not looked at."""
+        least, most = self.tf
+        found = [abs(t[0]) / t[-1], (least - t[-1]) / t[-1], (t[-1] - most) / t[-1]]
+        for i, (low, high) in enumerate(self.state_bounds):
+            values = [row[i] for row in x]
+            off = [abs(end - wanted) for end, wanted in ((values[0], self.first[i]), (values[-1], self.last[i]))
+                   if wanted is not None]
+            off += [low - min(values), max(values) - high]
+            found.append(max(off) / (2 * max(map(abs, values)) or 1.0))
+        rows = [self.path(m, list(x[k]), u(k - 1, t[k])) for k in range(1, len(t))] if self.path else []
+        for values in zip(*rows):
+            found.append(max(values) / (2 * max(map(abs, values)) or 1.0))
+        return float(max(found))
+
 
 def bryson_denham():
     return Statement(
