@@ -2,7 +2,7 @@
 """Times the planner's solver beside its peers on recorded cycles; writes docs/measured/benchmarks.md.
 
 Steps, all of them by default, each of which may be run by itself:
-  setup      build our programs, install the peers, generate and compile their C
+  setup      install the peers, generate and compile their C
   record     begin a run: drive, and write its cycles
   measure    each contestant on each environment, level and start, chunk by chunk, in turn
   functions  one evaluation of the functions beside CasADi's
@@ -10,7 +10,8 @@ Steps, all of them by default, each of which may be run by itself:
 
 A run is a folder build/bench/runs/ID with its cycles and one JSON file a contestant and chunk:
 `measure` leaves alone what is there, so a stopped run goes on where it was (--minutes stops it in
-time), and `--again` measures anew what --contestants names. Use a quiet machine.
+time), and `--again` measures anew what --contestants names. Our programs are built before all but a report. Use a
+quiet machine.
 """
 
 import argparse

@@ -47,7 +47,8 @@ Forms (`benchmarks/shape_rows.cpp`):
 between the rectangles, along the answer and between its points: least of all draws, and median. *Cost* is the median of how
 much the answer costs above the least that any form has for the same draw. Times are processor time, medians of up to
 {runs} runs, fewer where they take longer than .5 s together, and of the draws that were solved, transcription left out: *first*
-from the way, *again* from that answer with its multipliers, begun .1 m to the left and .1 m/s slower. *At a floor* of {floor} the solve ends at that central point, as the planner's do.
+from the way, *again* from that answer with its multipliers, begun .1 m to the left and .1 m/s slower. *At a floor* of {floor}
+the solve ends at that central point, as the planner's do.
 
 """
 
