@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "binding.hpp"
-#include "slalom/base/error.hpp"
 #include "slalom/io/solution_file.hpp"
 #include "solved.hpp"
 
@@ -13,13 +12,8 @@ namespace {
 
 Solved load(const ocp::Problem& problem, const std::filesystem::path& file) {
   Solved s;
-  s.answer = io::read_solution(file.string());
+  s.answer = io::read_solution(file.string(), problem);
   s.problem = std::make_shared<const ocp::Problem>(problem);
-  const auto& trajectory = s.answer.trajectory;
-  if (trajectory.states.front().size() != problem.states().size() ||
-      trajectory.controls.front().size() != problem.controls().size())
-    throw InvalidValue(file.string(), "an answer of another problem",
-                       "one with the states and controls of " + problem.name());
   return s;
 }
 

@@ -79,6 +79,7 @@ std::string to_csv(const ocp::Solution& solution) {
   text += "\n";
   const auto& trajectory = solution.trajectory;
   const auto nodes = nodes_of(solution, kNone);
+  const bool begun = !solution.costates.empty();  // else its solve found none
   for (std::size_t point = 0; point < trajectory.tau.size(); ++point) {
     fmt::format_to(std::back_inserter(text), "{},{}", trajectory.time(point),
                    trajectory.tau[point]);
@@ -87,7 +88,7 @@ std::string to_csv(const ocp::Solution& solution) {
         fmt::format_to(std::back_inserter(text), ",{}", value);
     for (std::size_t i = 0; i < solution.state_names.size(); ++i) {
       text += ",";
-      if (nodes[point] != kNone)
+      if (begun && nodes[point] != kNone)
         fmt::format_to(std::back_inserter(text), "{}", solution.costates[nodes[point]][i]);
     }
     text += "\n";

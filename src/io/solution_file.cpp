@@ -76,10 +76,20 @@ Json at_points_json(const List& list) {
         Json{{"name", item.name}, {"points", item.points}, {"values", json_numbers(item.values)}});
   return json;
 }
+/// Of a trajectory of `count` points: a number each, or numbers without a point.
 template <class Item>
-std::vector<Item> read_at_points(const JsonReader& reader) {
-  return reader.each([](const JsonReader& item) {
-    return Item{item.at("name").text(), item.at("points").counts(), item.at("values").list()};
+std::vector<Item> read_at_points(const JsonReader& reader, std::size_t count) {
+  return reader.each([&](const JsonReader& item) {
+    Item result{item.at("name").text(), item.at("points").counts(), item.at("values").list()};
+    const auto& points = result.points;
+    if (!points.empty() && points.size() != result.values.size())
+      item.at("values").refuse(fmt::format("{} numbers", result.values.size()),
+                               fmt::format("{}, one a point", points.size()));
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (points[k] >= count)
+        item.at("points").at(k).refuse(fmt::format("{}", points[k]),
+                                       fmt::format("one of {} points, from 0", count));
+    return result;
   });
 }
 
@@ -174,6 +184,64 @@ std::size_t points_of(const ocp::Solution& solution) {
   return points;
 }
 
+/// A solve that did not begin has none.
+void read_costates(const JsonReader& reader, std::size_t states, ocp::Solution& solution) {
+  solution.costates = reader.at("costates").table(states);
+  const JsonReader collocated = reader.at("collocated_costates");
+  solution.collocated_costates = {collocated.at("tau").list(),
+                                  collocated.at("values").table(states)};
+  expect_size(collocated.at("values"), solution.collocated_costates.values.size(),
+              solution.collocated_costates.tau.size(), "the points in 'tau'");
+  const bool begun = !solution.collocated_costates.tau.empty();
+  if (begun || !solution.costates.empty())
+    expect_size(reader.at("costates"), solution.costates.size(), solution.mesh.intervals() + 1,
+                "the mesh's nodes");
+}
+
+/// The integrals' names stand in `scales` alone, between those of the slacks and the times.
+std::vector<std::string> integral_names(const ocp::Solution& solution) {
+  std::vector<std::string> names;
+  const std::size_t first = solution.state_names.size() + solution.control_names.size() +
+                            solution.static_parameter_names.size() + solution.slack_names.size();
+  const std::size_t count = solution.trajectory.integrals.size();
+  for (std::size_t i = 0; i < count && first + i < solution.scales.size(); ++i)
+    names.push_back(solution.scales[first + i].first);
+  return names;
+}
+
+template <class List>
+std::string listed(const List& list) {
+  std::string names;
+  for (const auto& each : list) {
+    if (!names.empty()) names += ", ";
+    if constexpr (requires { each.name; })
+      names += each.name;
+    else
+      names += each;
+  }
+  return names.empty() ? "none" : names;
+}
+
+void check_answer_of(const ocp::Problem& problem, const ocp::Solution& solution,
+                     const std::string& file) {
+  const auto check = [&](const char* what, const auto& found, const auto& expected) {
+    if (listed(found) != listed(expected))
+      throw InvalidValue(
+          file, std::string("an answer of another problem, with the ") + what + " " + listed(found),
+          std::string("those of ") + problem.name() + ": " + listed(expected));
+  };
+  check("states", solution.state_names, problem.states());
+  check("controls", solution.control_names, problem.controls());
+  check("static parameters", solution.static_parameter_names, problem.static_parameters());
+  check("slacks", solution.slack_names, problem.slacks());
+  const std::size_t integrals = solution.trajectory.integrals.size();
+  if (integrals != problem.integrals().size())
+    throw InvalidValue(file, fmt::format("an answer with {} integrals", integrals),
+                       fmt::format("{}, as {} has", problem.integrals().size(), problem.name()));
+  // Files of versions before have no scales, and so none of these names.
+  if (!solution.scales.empty()) check("integrals", integral_names(solution), problem.integrals());
+}
+
 ocp::Solution read_one(const JsonReader& reader) {
   ocp::Solution solution;
   read_outcome(reader, solution);
@@ -195,16 +263,10 @@ ocp::Solution read_one(const JsonReader& reader) {
               solution.static_parameter_names.size(), "static_parameters");
   expect_size(trajectory.at("slacks"), solution.trajectory.slacks.size(),
               solution.slack_names.size(), "slacks");
-  solution.costates = reader.at("costates").table(states);
-  expect_size(reader.at("costates"), solution.costates.size(), solution.mesh.intervals() + 1,
-              "the mesh's nodes");
-  const JsonReader collocated = reader.at("collocated_costates");
-  solution.collocated_costates = {collocated.at("tau").list(),
-                                  collocated.at("values").table(states)};
-  expect_size(collocated.at("values"), solution.collocated_costates.values.size(),
-              solution.collocated_costates.tau.size(), "the points in 'tau'");
-  solution.multipliers = read_at_points<ocp::Multipliers>(reader.at("multipliers"));
-  solution.excesses = read_at_points<ocp::Excesses>(reader.at("excesses"));
+  read_costates(reader, states, solution);
+  const std::size_t points = solution.trajectory.tau.size();
+  solution.multipliers = read_at_points<ocp::Multipliers>(reader.at("multipliers"), points);
+  solution.excesses = read_at_points<ocp::Excesses>(reader.at("excesses"), points);
   // Lacking in files of versions before.
   if (reader.has("beyond_tables")) solution.beyond_tables = read_pairs(reader.at("beyond_tables"));
   if (reader.has("scales")) solution.scales = read_pairs(reader.at("scales"));
@@ -243,6 +305,12 @@ void save_solution(const std::string& file, const ocp::PhasedSolution& solution)
 ocp::Solution read_solution(const std::string& file) {
   const Json json = read_json(file, kMaxSolutionBytes, kContent, {kFormat});
   return read_one(JsonReader(file, kContent, json));
+}
+
+ocp::Solution read_solution(const std::string& file, const ocp::Problem& problem) {
+  ocp::Solution solution = read_solution(file);
+  check_answer_of(problem, solution, file);
+  return solution;
 }
 
 ocp::PhasedSolution read_phased_solution(const std::string& file) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "io/files.hpp"
 #include "slalom/base/error.hpp"
@@ -186,6 +187,66 @@ TEST_F(SolutionFile, KeepsFailuresWithNumbersThatAreNotFinite) {
   EXPECT_EQ(again.fault.function, solution.fault.function);
 }
 
+ocp::Solution not_begun() {
+  ocp::SolveSettings settings;
+  settings.mesh = ocp::Mesh::uniform(3);
+  settings.options.time_limit = 0;
+  return ocp::solve(rich(), settings);
+}
+
+TEST_F(SolutionFile, KeepsAnAnswerWhoseSolveDidNotBegin) {
+  const auto solution = not_begun();
+  ASSERT_TRUE(solution.costates.empty());
+  save_solution(path("stopped.json"), solution);
+  const auto again = read_solution(path("stopped.json"), rich());
+  EXPECT_EQ(to_json(again), to_json(solution));
+  // It has a trajectory, and no costates.
+  write_file(path("stopped.csv"), to_csv(again));
+  EXPECT_EQ(read_trajectory(path("stopped.csv"), rich()).states, solution.trajectory.states);
+  EXPECT_NE(to_csv(solution).find(",,\n"), std::string::npos);
+
+  ocp::PhasedSettings settings;
+  settings.options.time_limit = 0;
+  settings.grids.resize(2);
+  const auto phased = ocp::solve(two_phases(), settings);
+  ASSERT_TRUE(phased.phases[1].costates.empty());
+  save_solution(path("phased.json"), phased);
+  EXPECT_EQ(to_json(read_phased_solution(path("phased.json"))), to_json(phased));
+  EXPECT_FALSE(to_csv(phased.phases[1]).empty());
+}
+
+TEST_F(SolutionFile, AnAnswerOfAnotherProblemIsRefused) {
+  save_solution(path("a.json"), solved());
+  const auto expect = [&](const ocp::Problem& problem, const std::string& message) {
+    const auto found = refusal([&] { (void)read_solution(path("a.json"), problem); });
+    EXPECT_NE(found.find(message), std::string::npos) << found;
+  };
+  EXPECT_EQ(refusal([&] { (void)read_solution(path("a.json"), rich()); }), "accepted");
+  const auto other = [](const char* speed, const char* control, const char* parameter,
+                        const char* slack, const std::vector<const char*>& integrals) {
+    ocp::Problem p("other");
+    (void)p.state("x");
+    (void)p.state(speed);
+    const Expr u = p.control(control);
+    (void)p.static_parameter(parameter, {}, 1);
+    (void)p.slack(slack, ocp::End::final, {});
+    for (const char* name : integrals) (void)p.integral(name, u);
+    return p;
+  };
+  const char* v = "speed, lateral";
+  EXPECT_EQ(
+      refusal([&] { (void)read_solution(path("a.json"), other(v, "u", "k", "miss", {"work"})); }),
+      "accepted");
+  expect(other("v", "u", "k", "miss", {"work"}),
+         "another problem, with the states x, speed, lateral, expected those of other: x, v");
+  expect(other(v, "w", "k", "miss", {"work"}), "with the controls u, expected those of other: w");
+  expect(other(v, "u", "c", "miss", {"work"}), "with the static parameters k");
+  expect(other(v, "u", "k", "far", {"work"}), "with the slacks miss");
+  expect(other(v, "u", "k", "miss", {"heat"}),
+         "with the integrals work, expected those of other: heat");
+  expect(other(v, "u", "k", "miss", {"work", "heat"}), "an answer with 1 integrals, expected 2");
+}
+
 /// `text` with the first `from` replaced.
 std::string with(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
@@ -216,6 +277,23 @@ TEST_F(SolutionFile, DamageIsRefusedByPlaceAndRule) {
   expect(with(text, "\"tol\":1e-09", "\"tol\":-1.0"), "tol");
   expect(with(text, "\"costates\":[[", "\"costates\":[[1.0,"),
          "costates[0]: found 3 numbers, expected 2");
+  const auto json = nlohmann::ordered_json::parse(text);
+  const auto damaged = [&](const std::function<void(nlohmann::ordered_json&)>& damage) {
+    auto copy = json;
+    damage(copy);
+    return copy.dump();
+  };
+  expect(damaged([](auto& j) { j["costates"] = nlohmann::ordered_json::array(); }),
+         "costates: found 0 of the mesh's nodes, expected 4");
+  // Points are looked up in the trajectory.
+  expect(damaged([](auto& j) { j["multipliers"][1]["points"][2] = 1000; }),
+         "multipliers[1].points[2]: found 1000, expected one of 9 points, from 0");
+  expect(damaged([](auto& j) { j["multipliers"][1]["values"].erase(0); }),
+         "multipliers[1].values: found");
+  write_file(path("short.json"), damaged([](auto& j) { j["trajectory"]["integrals"].clear(); }));
+  const auto found = refusal([&] { (void)read_solution(path("short.json"), rich()); });
+  EXPECT_NE(found.find("an answer with 0 integrals, expected 1, as rich has"), std::string::npos)
+      << found;
 }
 
 TEST_F(SolutionFile, ATableIsAGuessOfTheSameBits) {
