@@ -66,9 +66,18 @@ std::optional<ocp::Moment> moment_of(const std::string& what, const At& time, co
 /// What softens a constraint, if Python names a norm.
 using Softness = std::optional<std::string>;
 
-ConstraintId softened(Problem& problem, ConstraintId id, const Softness& norm, double weight,
-                      double tolerance) {
-  if (norm) problem.soften(id, {norm_of(*norm), weight, tolerance});
+/// Declares a constraint, soft if a norm says so. What softens it is checked first, so that what is
+/// refused is not there.
+template <class Declare>
+ConstraintId declared(Problem& problem, const std::string& name, const Softness& norm,
+                      double weight, double tolerance, const Declare& declare) {
+  std::optional<ocp::Soft> soft;
+  if (norm) {
+    soft = ocp::Soft{norm_of(*norm), weight, tolerance};
+    check(*soft, problem.name() + ": " + name);
+  }
+  const ConstraintId id = declare();
+  if (soft) problem.soften(id, *soft);
   return id;
 }
 
@@ -81,10 +90,10 @@ double scale_of(Limit scale) {
 Expr state(Problem& problem, const std::string& name, Limit lower, Limit upper,
            const std::optional<EndBounds>& initial, const std::optional<EndBounds>& final,
            Limit scale) {
-  const Expr symbol = problem.state(name, bounds(lower, upper), scale_of(scale));
-  if (initial) problem.initial_bounds(symbol, bounds(*initial));
-  if (final) problem.final_bounds(symbol, bounds(*final));
-  return symbol;
+  const auto at_end = [](const std::optional<EndBounds>& end) {
+    return end ? bounds(*end) : ocp::Bounds();
+  };
+  return problem.state(name, bounds(lower, upper), scale_of(scale), at_end(initial), at_end(final));
 }
 
 /// The guess that is given, else the value that the bounds leave, their middle, or the finite one.
@@ -185,9 +194,10 @@ void bind_constraints(nb::class_<Problem>& type) {
          double weight, double tolerance) {
         const auto row = bounds(lower, upper, equal);
         const auto moment = moment_of("path " + name, at, at_share);
-        const auto id = moment ? p.path_at(name, value, *moment, row)
-                               : p.path(name, value, row, points_of(after_first));
-        return softened(p, id, soft, weight, tolerance);
+        return declared(p, name, soft, weight, tolerance, [&] {
+          return moment ? p.path_at(name, value, *moment, row)
+                        : p.path(name, value, row, points_of(after_first));
+        });
       },
       path_doc.c_str(), "name"_a, "value"_a, nb::kw_only(), "after_first"_a = false,
       "at"_a = nb::none(), "at_share"_a = nb::none());
@@ -195,8 +205,9 @@ void bind_constraints(nb::class_<Problem>& type) {
       type, "boundary",
       [](Problem& p, const std::string& name, const Expr& value, Limit lower, Limit upper,
          Limit equal, const Softness& soft, double weight, double tolerance) {
-        const auto id = p.boundary(name, value, bounds(lower, upper, equal));
-        return softened(p, id, soft, weight, tolerance);
+        const auto row = bounds(lower, upper, equal);
+        return declared(p, name, soft, weight, tolerance,
+                        [&] { return p.boundary(name, value, row); });
       },
       doc::ocp_Problem_boundary, "name"_a, "value"_a, nb::kw_only());
   def_constraint(
@@ -204,9 +215,10 @@ void bind_constraints(nb::class_<Problem>& type) {
       [](Problem& p, const std::string& name, const std::vector<Expr>& symbols, const Expr& value,
          bool after_first, Limit lower, Limit upper, Limit equal, const Softness& soft,
          double weight, double tolerance) {
-        const auto id = p.path_family(name, symbols, value, bounds(lower, upper, equal),
-                                      points_of(after_first));
-        return softened(p, id, soft, weight, tolerance);
+        const auto row = bounds(lower, upper, equal);
+        return declared(p, name, soft, weight, tolerance, [&] {
+          return p.path_family(name, symbols, value, row, points_of(after_first));
+        });
       },
       doc::ocp_Problem_path_family, "name"_a, "symbols"_a, "value"_a, nb::kw_only(),
       "after_first"_a = false);

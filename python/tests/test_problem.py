@@ -259,3 +259,21 @@ def test_rows_and_costs_at_moments():
     p.path("late", x, lower=0, at=7)
     with pytest.raises(slalom.InvalidValue, match="late: found the time 7"):
         p.solve()
+
+
+@pytest.mark.parametrize(("wrong", "right"), [
+    (lambda p: p.state("w", initial=(2, 1)), lambda p: p.state("w", initial=(1, 2))),
+    (lambda p: p.state("w", final=(2, 1)), lambda p: p.state("w", final=(1, 2))),
+    (lambda p: p.control("w", lower=2, upper=1), lambda p: p.control("w", lower=1, upper=2)),
+    (lambda p: p.path("w", p.tf, upper=1, soft="l3"), lambda p: p.path("w", p.tf, upper=1, soft="l1")),
+    (lambda p: p.boundary("w", p.tf, upper=1, soft="l1", weight=-1), lambda p: p.boundary("w", p.tf, upper=1)),
+    (lambda p: p.path_family("w", [], p.tf, upper=1, soft="l2", tolerance=-1),
+     lambda p: p.path_family("w", [], p.tf, upper=1)),
+])
+def test_what_is_refused_is_not_there_and_can_be_declared_again(wrong, right):
+    p = slalom.Problem("refused")
+    with pytest.raises(slalom.InvalidValue):
+        wrong(p)
+    right(p)
+    with pytest.raises(slalom.InvalidValue, match="twice"):
+        right(p)

@@ -20,22 +20,29 @@ std::size_t PhasedProblem::add(Problem phase) {
 }
 
 void PhasedProblem::link(const std::string& name, const Expr& value, Bounds bounds) {
-  for (const auto& known : links_)
-    if (known.name == name)
-      throw InvalidValue(name_, "the link '" + name + "' twice", "names that differ");
-  if (!(bounds.lower <= bounds.upper))
-    throw InvalidValue(name_ + ": link " + name,
-                       fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
-                       "a lower bound not above the upper one");
-  if (expr::symbols_of({value}).empty())
-    throw InvalidValue(name_ + ": link " + name, "a function of no variable",
-                       "one of end values, times, static parameters or integrals");
-  links_.push_back({name, value, bounds});
+  add_links({{name, value, bounds}});
+}
+
+/// All or, where one is refused, none.
+void PhasedProblem::add_links(const std::vector<Link>& links) {
+  for (const auto& [name, value, bounds] : links) {
+    for (const auto& known : links_)
+      if (known.name == name)
+        throw InvalidValue(name_, "the link '" + name + "' twice", "names that differ");
+    if (!(bounds.lower <= bounds.upper))
+      throw InvalidValue(name_ + ": link " + name,
+                         fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
+                         "a lower bound not above the upper one");
+    if (expr::symbols_of({value}).empty())
+      throw InvalidValue(name_ + ": link " + name, "a function of no variable",
+                         "one of end values, times, static parameters or integrals");
+  }
+  links_.insert(links_.end(), links.begin(), links.end());
 }
 
 void PhasedProblem::share(const std::string& static_parameter) {
   const Problem* before = nullptr;
-  bool shared = false;
+  std::vector<Link> links;
   std::vector<std::string> known;
   for (const auto& phase : phases_)
     for (const auto& parameter : phase.static_parameters()) {
@@ -45,13 +52,13 @@ void PhasedProblem::share(const std::string& static_parameter) {
         const auto& other = before->static_parameters();
         const auto same = std::find_if(other.begin(), other.end(),
                                        [&](const auto& p) { return p.name == static_parameter; });
-        link(fmt::format("{} of {} and {}", static_parameter, before->name(), phase.name()),
-             same->symbol - parameter.symbol);
-        shared = true;
+        links.push_back(
+            {fmt::format("{} of {} and {}", static_parameter, before->name(), phase.name()),
+             same->symbol - parameter.symbol, Bounds::equal(0)});
       }
       before = &phase;
     }
-  if (shared) return;
+  if (!links.empty()) return add_links(links);
   const auto nearest = nearest_name(static_parameter, known);
   throw InvalidValue(
       name_ + ": share",
@@ -111,11 +118,14 @@ void PhasedProblem::connect(std::size_t from, std::size_t to, const Gaps& gaps) 
                        fmt::format("no state of {} that {} has too", a.name(), b.name()),
                        "states of the same name, or links of their own");
   if (!left_out("time")) rows.emplace_back("time", a.final_time() - b.initial_time());
+  std::vector<Link> links;
   for (auto& [name, difference] : rows) {
     for (const auto& [jumping, jump] : gaps.jumps)
       if (jumping == name) difference += jump;
-    link(fmt::format("{} from {} to {}", name, a.name(), b.name()), difference);
+    links.push_back(
+        {fmt::format("{} from {} to {}", name, a.name(), b.name()), difference, Bounds::equal(0)});
   }
+  add_links(links);
 }
 
 }  // namespace slalom::ocp

@@ -75,7 +75,7 @@ Problem::Problem(std::string name)
       t0_variable_{t0_, "t0", Bounds::equal(0), kAutomaticScale, 0},
       tf_variable_{tf_, "tf", Bounds::equal(1), kAutomaticScale, 1} {}
 
-void Problem::claim_name(const std::string& name) {
+void Problem::check_name(const std::string& name) const {
   if (name.empty()) throw InvalidValue(name_, "an empty name", "a name");
   for (const char* time : {"t", "time", "tau", "t0", "tf"})
     if (name == time)
@@ -83,7 +83,6 @@ void Problem::claim_name(const std::string& name) {
                          "another, for it stands for a time in guesses and answers");
   if (std::find(names_.begin(), names_.end(), name) != names_.end())
     throw InvalidValue(name_, "the name '" + name + "' twice", "names that differ");
-  names_.push_back(name);
 }
 
 void Problem::claim_cost_name(const std::string& name) const {
@@ -93,19 +92,26 @@ void Problem::claim_cost_name(const std::string& name) const {
       throw InvalidValue(name_, "the cost term '" + name + "' twice", "names that differ");
 }
 
-Expr Problem::state(const std::string& name, Bounds bounds, double scale) {
-  claim_name(name);
+Expr Problem::state(const std::string& name, Bounds bounds, double scale, Bounds initial,
+                    Bounds final) {
+  check_name(name);
   State state;
   static_cast<Variable&>(state) = declared(name_, "state", name, bounds, scale, 0);
+  check_bounds(name_ + ": initial " + name, initial);
+  check_bounds(name_ + ": final " + name, final);
+  state.initial = initial;
+  state.final = final;
   state.initial_symbol = Expr::symbol("initial(" + name + ")");
   state.final_symbol = Expr::symbol("final(" + name + ")");
   states_.push_back(state);
+  names_.push_back(name);
   return state.symbol;
 }
 
 Expr Problem::control(const std::string& name, Bounds bounds, double scale) {
-  claim_name(name);
+  check_name(name);
   controls_.push_back({declared(name_, "control", name, bounds, scale, 0)});
+  names_.push_back(name);
   return controls_.back().symbol;
 }
 
@@ -119,35 +125,40 @@ void Problem::control_form(const Expr& control, ControlForm form) {
 }
 
 Expr Problem::static_parameter(const std::string& name, Bounds bounds, double guess, double scale) {
-  claim_name(name);
+  check_name(name);
   static_parameters_.push_back(declared(name_, "static parameter", name, bounds, scale, guess));
+  names_.push_back(name);
   return static_parameters_.back().symbol;
 }
 
 Expr Problem::slack(const std::string& name, End end, Bounds bounds, double guess) {
-  claim_name(name);
+  check_name(name);
   Slack slack;
   static_cast<Variable&>(slack) = declared(name_, "slack", name, bounds, kAutomaticScale, guess);
   slack.end = end;
   slacks_.push_back(slack);
+  names_.push_back(name);
   return slack.symbol;
 }
 
 Expr Problem::integral(const std::string& name, const Expr& integrand, Bounds bounds,
                        double scale) {
-  claim_name(name);
+  check_name(name);
   Integral integral;
   static_cast<Variable&>(integral) = declared(name_, "integral", name, bounds, scale, 0);
   integral.integrand = integrand;
   integrals_.push_back(integral);
+  names_.push_back(name);
   return integral.symbol;
 }
 
 void Problem::set_scale(const Expr& symbol, double scale) {
   const auto set = [&](Variable& variable) {
     if (!variable.symbol.same(symbol)) return false;
+    Variable changed = variable;
+    changed.scale = scale;
+    check_variable(name_ + ": " + variable.name, changed);
     variable.scale = scale;
-    check_variable(name_ + ": " + variable.name, variable);
     return true;
   };
   const auto set_one = [&](auto& list) { return std::any_of(list.begin(), list.end(), set); };
@@ -158,8 +169,9 @@ void Problem::set_scale(const Expr& symbol, double scale) {
 
 Expr Problem::parameter(const std::string& name, double value) {
   check_parameter(name_, name, value);
-  claim_name(name);
+  check_name(name);
   parameters_.push_back({Expr::symbol(name), name, value});
+  names_.push_back(name);
   return parameters_.back().symbol;
 }
 
@@ -204,12 +216,17 @@ void Problem::lagrange(const std::string& name, const Expr& integrand) {
   costs_.push_back({name, integrand, true, true});
 }
 
+ConstraintId Problem::add(const char* what, Constraint row) {
+  check_name(row.name);
+  check_row(name_ + ": " + what + " " + row.name, row.bounds);
+  names_.push_back(row.name);
+  constraints_.push_back(std::move(row));
+  return {constraints_.size() - 1};
+}
+
 ConstraintId Problem::path(const std::string& name, const Expr& value, Bounds bounds,
                            Points points) {
-  claim_name(name);
-  check_row(name_ + ": path " + name, bounds);
-  constraints_.push_back({name, Kind::path, value, bounds, points, true, {}, {}, {}, {}});
-  return {constraints_.size() - 1};
+  return add("path", {name, Kind::path, value, bounds, points, true, {}, {}, {}, {}});
 }
 
 void Problem::cost_at(const std::string& name, const Expr& term, Moment moment) {
@@ -219,11 +236,9 @@ void Problem::cost_at(const std::string& name, const Expr& term, Moment moment) 
 
 ConstraintId Problem::path_at(const std::string& name, const Expr& value, Moment moment,
                               Bounds bounds) {
-  claim_name(name);
-  check_row(name_ + ": path " + name, bounds);
-  constraints_.push_back({name, Kind::moment, value, bounds, Points::all, true, {}, {}, {}, {}});
-  constraints_.back().moment = moment;
-  return {constraints_.size() - 1};
+  Constraint row{name, Kind::moment, value, bounds, Points::all, true, {}, {}, {}, {}};
+  row.moment = moment;
+  return add("path", std::move(row));
 }
 
 double Problem::share_of(const std::string& what, Moment moment) const {
@@ -256,18 +271,12 @@ std::vector<double> Problem::moments() const {
 }
 
 ConstraintId Problem::boundary(const std::string& name, const Expr& value, Bounds bounds) {
-  claim_name(name);
-  check_row(name_ + ": boundary " + name, bounds);
-  constraints_.push_back({name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}, {}});
-  return {constraints_.size() - 1};
+  return add("boundary", {name, Kind::boundary, value, bounds, Points::all, true, {}, {}, {}, {}});
 }
 
 ConstraintId Problem::path_family(const std::string& name, const std::vector<Expr>& symbols,
                                   const Expr& value, Bounds bounds, Points points) {
-  claim_name(name);
-  check_row(name_ + ": path family " + name, bounds);
-  constraints_.push_back({name, Kind::family, value, bounds, points, true, symbols, {}, {}, {}});
-  return {constraints_.size() - 1};
+  return add("path family", {name, Kind::family, value, bounds, points, true, symbols, {}, {}, {}});
 }
 
 bool Problem::Constraint::by_point() const {
@@ -316,15 +325,18 @@ void Problem::set_scale(ConstraintId id, double scale) {
   target.scale = scale;
 }
 
-void Problem::soften(ConstraintId id, Soft soft) {
-  auto& target = constraint(id);
+void check(const Soft& soft, const std::string& where) {
   const auto check = [&](const char* what, double value, bool good, const char* expected) {
     if (!good || !std::isfinite(value))
-      throw InvalidValue(name_ + ": " + target.name + ": " + what, fmt::format("{}", value),
-                         expected);
+      throw InvalidValue(where + ": " + what, fmt::format("{}", value), expected);
   };
   check("weight", soft.weight, soft.weight > 0, "a finite number > 0");
   check("tolerance", soft.tolerance, soft.tolerance >= 0, "a finite number >= 0");
+}
+
+void Problem::soften(ConstraintId id, Soft soft) {
+  auto& target = constraint(id);
+  check(soft, name_ + ": " + target.name);
   target.soft = soft;
 }
 
@@ -357,16 +369,12 @@ void Problem::enable_cost(const std::string& name, bool enabled) {
   throw unknown_name(name_, "cost term", name, known);
 }
 
-void Problem::initial_time(Bounds bounds, double guess) {
-  t0_variable_.bounds = bounds;
-  t0_variable_.guess = guess;
-  check_variable(name_ + ": t0", t0_variable_);
-}
-
-void Problem::final_time(Bounds bounds, double guess) {
-  tf_variable_.bounds = bounds;
-  tf_variable_.guess = guess;
-  check_variable(name_ + ": tf", tf_variable_);
+void Problem::set_time(Variable& time, Bounds bounds, double guess) {
+  Variable changed = time;
+  changed.bounds = bounds;
+  changed.guess = guess;
+  check_variable(name_ + ": " + time.name, changed);
+  time = changed;
 }
 
 void Problem::initial_bounds(const Expr& state, Bounds bounds) {

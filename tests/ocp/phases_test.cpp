@@ -318,5 +318,17 @@ TEST(Phases, ErrorsSayWhatAndTheRule) {
             "same name, or links of their own");
 }
 
+/// All links of a connection, or none where one is refused.
+TEST(Phases, ARefusedConnectionLeavesNoLinks) {
+  Stretch a("a", {-1, 1}), b("b", {-1, 1});
+  PhasedProblem both("both");
+  both.add(a.problem);
+  both.add(b.problem);
+  both.link("time from a to b", a.problem.final_time() - b.problem.initial_time());
+  EXPECT_NE(refusal([&] { both.connect(0, 1); }), "accepted");
+  EXPECT_EQ(both.links().size(), 1u);
+  EXPECT_EQ(refusal([&] { both.connect(0, 1, {{"time"}, {}}); }), "accepted");
+}
+
 }  // namespace
 }  // namespace slalom::ocp

@@ -102,6 +102,53 @@ TEST(ProblemErrors, Bounds) {
             "line: state i: found bounds inf to inf, expected bounds that some number satisfies");
 }
 
+/// What is corrected is declared under its own name.
+TEST(ProblemErrors, WhatIsRefusedIsNotThere) {
+  Line line;
+  Problem& p = line.problem;
+  const auto corrected = [&](const char* name, const auto& declare) {
+    EXPECT_NE(refusal([&] { (void)declare(Bounds{2, 1}); }), "accepted") << name;
+    EXPECT_EQ(refusal([&] { (void)declare(Bounds{1, 2}); }), "accepted") << name;
+  };
+  corrected("state", [&](Bounds b) { return p.state("a", b); });
+  corrected("initial", [&](Bounds b) { return p.state("b", {}, kAutomaticScale, b); });
+  corrected("final", [&](Bounds b) { return p.state("c", {}, kAutomaticScale, {}, b); });
+  corrected("control", [&](Bounds b) { return p.control("d", b); });
+  corrected("parameter", [&](Bounds b) { return p.static_parameter("e", b, 1); });
+  corrected("slack", [&](Bounds b) { return p.slack("f", End::final, b); });
+  corrected("integral", [&](Bounds b) { return p.integral("g", line.u, b); });
+  corrected("path", [&](Bounds b) { return p.path("h", line.x, b); });
+  corrected("path_at", [&](Bounds b) { return p.path_at("i", line.x, Moment::share(.5), b); });
+  corrected("boundary", [&](Bounds b) { return p.boundary("j", p.initial(line.x), b); });
+  corrected("family", [&](Bounds b) { return p.path_family("k", {}, line.x, b); });
+  EXPECT_EQ(p.states().size(), 4u);
+  EXPECT_EQ(p.states()[2].initial.lower, 1);
+  EXPECT_EQ(p.states()[3].final.upper, 2);
+  EXPECT_EQ(p.constraints().size(), 4u);
+}
+
+TEST(ProblemErrors, ARefusedChangeLeavesWhatWas) {
+  Line line;
+  Problem& p = line.problem;
+  p.set_scale(line.x, 3);
+  p.initial_time({0, 1}, 0.5);
+  p.final_time({2, 4}, 3);
+  const auto refused = [](const auto& change) { EXPECT_NE(refusal(change), "accepted"); };
+  refused([&] { p.set_scale(line.x, -1); });
+  refused([&] { p.set_scale(p.final_time(), kNaN); });
+  refused([&] { p.initial_time({2, 1}, 0); });
+  refused([&] { p.initial_time({0, 2}, kNaN); });
+  refused([&] { p.final_time({9, 8}, 8); });
+  EXPECT_EQ(p.states()[0].scale, 3);
+  EXPECT_FALSE(p.tf().scaled());
+  for (const auto* time : {&p.t0(), &p.tf()}) {
+    const bool first = time == &p.t0();
+    EXPECT_EQ(time->bounds.lower, first ? 0 : 2);
+    EXPECT_EQ(time->bounds.upper, first ? 1 : 4);
+    EXPECT_EQ(time->guess, first ? 0.5 : 3);
+  }
+}
+
 TEST(ProblemErrors, BoundsThatDoNotMeet) {
   Line line;
   line.problem.initial_bounds(line.x, Bounds::equal(11));

@@ -58,6 +58,7 @@ class PhasedProblem {
 
  private:
   const Problem& phase(std::size_t number, const char* what) const;
+  void add_links(const std::vector<Link>& links);
 
   std::string name_;
   std::vector<Problem> phases_;

@@ -66,6 +66,8 @@ struct Soft {
   double weight = 1;
   double tolerance = 0;
 };
+/// Throws InvalidValue for a weight or a tolerance that is none; `where` says of what.
+void check(const Soft& soft, const std::string& where);
 
 /// Handle of a constraint, to switch it, soften it or change a family's members.
 struct ConstraintId {
@@ -78,14 +80,17 @@ struct ConstraintId {
 ///   x' = f(x, u, t, p),  path rows, boundary rows, bounds, t0 <= t <= tf
 ///
 /// States, controls and everything else are symbols; terms are expressions of them. All set-up
-/// errors are exceptions that name the problem and the offending item.
+/// errors are exceptions that name the problem and the offending item; what is refused leaves the
+/// problem as it was.
 class Problem {
  public:
   explicit Problem(std::string name);
 
   // --- variables ---------------------------------------------------------------------------
-  /// A state with bounds at every point; `scale` is its typical size (solver sees value / scale).
-  Expr state(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
+  /// A state with bounds at every point; `scale` is its typical size (solver sees value / scale);
+  /// `initial` and `final` are what initial_bounds() and final_bounds() set.
+  Expr state(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale,
+             Bounds initial = {}, Bounds final = {});
   /// A control with bounds at every point.
   Expr control(const std::string& name, Bounds bounds = {}, double scale = kAutomaticScale);
   /// Sets the form of a control between the nodes; ControlForm::scheme if never called.
@@ -168,9 +173,9 @@ class Problem {
 
   // --- ends --------------------------------------------------------------------------------
   /// Bounds of t0, and its guess; fixed at 0 if never called.
-  void initial_time(Bounds bounds, double guess);
+  void initial_time(Bounds bounds, double guess) { set_time(t0_variable_, bounds, guess); }
   /// Bounds of tf, and its guess; fixed at 1 if never called. Whatever the bounds, tf >= t0.
-  void final_time(Bounds bounds, double guess);
+  void final_time(Bounds bounds, double guess) { set_time(tf_variable_, bounds, guess); }
   /// Additional bounds of a state at t0; Bounds::equal fixes it.
   void initial_bounds(const Expr& state, Bounds bounds);
   /// Additional bounds of a state at tf; Bounds::equal fixes it.
@@ -264,9 +269,12 @@ class Problem {
 
  private:
   /// Throws InvalidValue if the name is taken; cost terms have separate names.
-  void claim_name(const std::string& name);
+  void check_name(const std::string& name) const;
   void claim_cost_name(const std::string& name) const;
   std::size_t state_index(const Expr& state, const char* what) const;
+  /// Appends a row once it is known to be sound; `what` it is called in messages.
+  ConstraintId add(const char* what, Constraint row);
+  void set_time(Variable& time, Bounds bounds, double guess);
   Constraint& constraint(ConstraintId id);
 
   std::string name_;
