@@ -143,11 +143,13 @@ TEST(Refinement, HasOneTimeLimitForAllMeshes) {
   const Timer timer;
   const Refined refined =
       refine(fall.problem, start, {.tolerance = 1e-30, .max_meshes = 1000, .max_size = 1000000});
-  EXPECT_STREQ(to_string(refined.status), "stopped") << refined.table();
   EXPECT_LT(timer.wall(), 10);  // on a machine with much else to do
-  EXPECT_TRUE(refined.solution.solved());
   EXPECT_EQ(refined.solution.options.time_limit, 0.3);
-  EXPECT_GT(refined.meshes.size(), 1U);
+  EXPECT_EQ(refined.meshes.back().status, nlp::Status::time_limit) << refined.table();
+  // How many meshes that is depends on the machine.
+  const bool first = refined.meshes.size() == 1;
+  EXPECT_EQ(refined.status, first ? RefineStatus::not_solved : RefineStatus::stopped);
+  EXPECT_EQ(refined.solution.solved(), !first);
 }
 
 /// A warm start is the first mesh's alone, in a second try of a later mesh too.
