@@ -21,7 +21,7 @@ PoolSettings shell(int workers) {
                       "leave) echo enough >&2; exit 7;; *) echo \"ok $line\";; esac; done"};
   settings.workers = workers;
   settings.retries = 1;
-  settings.time_limit = 0.5;
+  settings.time_limit = 30;
   return settings;
 }
 
@@ -83,18 +83,28 @@ TEST(WorkerPool, NoJobsNeedNoWorkers) {
   EXPECT_TRUE(run.processes.empty());
 }
 
-TEST(WorkerPool, AWorkerThatDiesOrHangsCostsItsJobOnly) {
-  const PoolRun run(shell(2), {"a", "crash", "b", "hang", "c", "leave", "d"});
+TEST(WorkerPool, AWorkerThatDiesCostsItsJobOnly) {
+  const PoolRun run(shell(2), {"a", "crash", "b", "leave", "c"});
   EXPECT_TRUE(run.finished);
-  EXPECT_EQ(run.done, (std::map<std::int64_t, std::string>{
-                          {0, "ok a"}, {2, "ok b"}, {4, "ok c"}, {6, "ok d"}}));
-  ASSERT_EQ(run.failed.size(), 3U);
+  EXPECT_EQ(run.done, (std::map<std::int64_t, std::string>{{0, "ok a"}, {2, "ok b"}, {4, "ok c"}}));
+  ASSERT_EQ(run.failed.size(), 2U);
   EXPECT_EQ(run.failed.at(1),
             "2 attempts; the last: the worker was killed by signal 11 (Segmentation fault): "
             "oh dear");
-  EXPECT_EQ(run.failed.at(3), "2 attempts; the last: no answer within 0.5 s");
-  EXPECT_EQ(run.failed.at(5), "2 attempts; the last: the worker ended with exit code 7: enough");
-  for (const std::int64_t id : {1, 3, 5}) EXPECT_EQ(run.attempts.at(id), 2);
+  EXPECT_EQ(run.failed.at(3), "2 attempts; the last: the worker ended with exit code 7: enough");
+  for (const std::int64_t id : {1, 3}) EXPECT_EQ(run.attempts.at(id), 2);
+}
+
+// The short limit is for jobs that hang alone: another might take as long on a busy machine.
+TEST(WorkerPool, AWorkerThatHangsCostsItsJobOnly) {
+  auto settings = shell(1);
+  settings.time_limit = 0.5;
+  const PoolRun run(settings, {"hang", "hang"});
+  EXPECT_TRUE(run.finished);
+  for (const std::int64_t id : {0, 1}) {
+    EXPECT_EQ(run.failed.at(id), "2 attempts; the last: no answer within 0.5 s");
+    EXPECT_EQ(run.attempts.at(id), 2);
+  }
 }
 
 TEST(WorkerPool, AKillByOthersIsNoFailure) {
