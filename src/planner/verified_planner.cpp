@@ -49,6 +49,7 @@ void VerifiedPlanner::reset() {
   last_ = before_ = {};
   errors_.clear();
   proposals_.forget();
+  (void)proposals_.take_iterations();  // of what was given up
   last_improved_ = wait_ = expected_work_ = along_ = 0;
 }
 
@@ -234,7 +235,7 @@ Motion VerifiedPlanner::rest_of_last(Cycle& cycle) {
     rest.add(t0, X0p, {});
   } else {
     rest = part_from(old, std::max(t0, old.begin()), plant_);
-    cycle.rest_unchanged = gap(rest.states[0], X0p) < kSameState;
+    cycle.rest_unchanged = t0 >= old.begin() - kSameTime && gap(rest.states[0], X0p) < kSameState;
     note_error(cycle, apart(rest.states[0], X0p));
     if (cycle.rest_unchanged) {
       rest.states[0] = X0p;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <vector>
 
+#include "planner/line_scenes.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/planner/planner.hpp"
 #include "slalom/vehicle/plant.hpp"
@@ -17,23 +17,6 @@ namespace slalom::planner {
 namespace {
 
 using namespace vehicle;
-
-/// A closed road about an ellipse, of one width to each side.
-std::shared_ptr<const world::Road> oval(double a, double b, double side) {
-  std::vector<world::RoadPoint> points;
-  for (int k = 0; k < 60; ++k) {
-    const double angle = 2 * std::numbers::pi * k / 60;
-    points.push_back({a * std::cos(angle), b * std::sin(angle), side, side});
-  }
-  return std::make_shared<world::Road>(points, true, std::vector<std::vector<world::Point>>{},
-                                       "oval");
-}
-
-Parameters body() {
-  Parameters vehicle;
-  vehicle.footprint = FootprintKind::rectangle;
-  return vehicle;
-}
 
 /// The control at a moment, linear between the lap's points.
 Control control_at(const Lap& lap, double t) {
@@ -101,20 +84,8 @@ TEST(LinePlanner, WantsARoad) {
   EXPECT_THROW(Planner{task}, InvalidValue);
 }
 
-/// Round an oval by P_L.
-Task round_oval() {
-  Task task;
-  task.road = oval(110, 55, 5);
-  task.vehicle = body();
-  task.planner.method = Method::along_road;
-  task.planner.N = 40;
-  task.planner.L_range = 150;
-  task.planner.floor = 0.03;
-  return task;
-}
-
 TEST(LinePlanner, DrivesOffFromRest) {
-  const Task task = round_oval();
+  const Task task = by_P_L();
   Planner planner(task);
   const Plant plant(task.vehicle, 1e-9, 0.02);
   const auto place = task.road->at(0);
@@ -132,7 +103,7 @@ TEST(LinePlanner, DrivesOffFromRest) {
 }
 
 TEST(LinePlanner, DrivesALapInClosedLoopNearlyAsFastAndOnTheRoad) {
-  const Task task = round_oval();
+  const Task task = by_P_L();
   Planner planner(task);
   const Plant plant(task.vehicle, 1e-9, 0.02);
   const world::Footprint footprint(task.vehicle);
@@ -160,6 +131,25 @@ TEST(LinePlanner, DrivesALapInClosedLoopNearlyAsFastAndOnTheRoad) {
   const double best = fastest_lap(*task.road, task.vehicle, {.interval = 5}).time;
   EXPECT_LT(t - begun, 1.03 * best + tex);
   EXPECT_GT(t - begun, best - tex);
+}
+
+/// The nearest that a plan's body comes to the edges of its road [m].
+double edge_distance(const Task& task, const Plan& plan) {
+  const world::Footprint footprint(task.vehicle);
+  double least = INFINITY;
+  for (const State& x : plan.states)
+    least = std::min(least, footprint.edge_distance(*task.road, x));
+  return least;
+}
+
+TEST(LinePlanner, KeepsItsMarginFromTheEdges) {
+  Scene scene = by_P_L();
+  for (const double margin : {0.1, 1.2}) {
+    scene.planner.road_margin = margin;
+    const Plan plan = Planner(scene).plan(scene.first);
+    ASSERT_TRUE(plan.report.solved) << plan.report.status_text();
+    EXPECT_NEAR(edge_distance(scene, plan), margin, 0.05) << "it uses what is left of the road";
+  }
 }
 
 TEST(Lap, AnIntervalThatMakesNoMeshIsRefused) {

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/scenes.hpp"
+#include "planner/expect_plan.hpp"
+#include "planner/line_scenes.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::planner {
@@ -20,16 +21,52 @@ std::vector<Request> some_of(const Scene& scene) {
   return requests;
 }
 
+/// E_B by P_E.
+Scene verified() {
+  Scene scene = E_B();
+  scene.planner.method = Method::verified;
+  scene.planner.arrival_N = 20;
+  scene.planner.search_places = 5000;
+  return scene;
+}
+
+/// E_B along a wide road.
+Scene on_road() {
+  Scene scene = E_B();
+  scene.road = made_road({{200, -50, 60, 60}, {200, 175, 60, 60}, {200, 400, 60, 60}}, false);
+  return scene;
+}
+
 TEST(ManyPlans, HaveTheBitsOfOneAloneOnAnyNumberOfThreads) {
-  const Scene scene = E_B();
-  const auto requests = some_of(scene);
-  for (const int threads : {1, 2, 4}) {
-    const auto plans = plan_many(scene, requests, threads);
-    ASSERT_EQ(plans.size(), requests.size());
-    for (std::size_t i = 0; i < plans.size(); ++i) {
-      const Plan alone = Planner(scene).plan(requests[i]);
-      EXPECT_TRUE(plans[i].report.solved);
-      EXPECT_EQ(plans[i].states, alone.states) << i << " on " << threads;
+  for (const Scene& scene : {E_B(), verified(), on_road(), by_P_L()}) {
+    const auto requests = some_of(scene);
+    std::vector<Plan> alone;
+    for (const Request& request : requests) alone.push_back(Planner(scene).plan(request));
+    for (const int threads : {1, 2, 4}) {
+      const auto plans = plan_many(scene, requests, threads);
+      ASSERT_EQ(plans.size(), requests.size());
+      for (std::size_t i = 0; i < plans.size(); ++i) {
+        SCOPED_TRACE(std::to_string(i) + " on " + std::to_string(threads));
+        EXPECT_TRUE(plans[i].report.solved) << plans[i].report.status_text();
+        expect_same(plans[i], alone[i]);
+      }
+    }
+  }
+}
+
+/// What was given up when a plan was forgotten counts in none.
+TEST(ManyPlans, NothingIsLeftOfAPlanThatWasInterrupted) {
+  for (const Scene& scene : {E_B(), verified(), on_road(), by_P_L()}) {
+    const Plan alone = Planner(scene).plan(scene.first);
+    Planner planner(scene);
+    for (const int polls : {1, 2, 3, 5, 8, 13}) {
+      Request cut = scene.first;
+      int left = polls;
+      cut.interrupted = [&left] { return --left < 0; };
+      (void)planner.plan(cut);
+      planner.reset();
+      expect_same(planner.plan(scene.first), alone);
+      planner.reset();
     }
   }
 }

@@ -5,50 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
-#include "slalom/planner/planner.hpp"
-#include "slalom/vehicle/plant.hpp"
+#include "planner/verified_scenes.hpp"
 
 namespace slalom::planner {
 namespace {
 
 using namespace vehicle;
-
-/// Northwards at 17 m/s, the goal 180 m ahead, an obstacle in the way.
-Task task() {
-  Task task;
-  task.planner.method = Method::verified;
-  task.planner.arrival_N = 20;
-  task.planner.search_places = 5000;
-  task.goal = {0, 180, std::numbers::pi / 2, 15};
-  task.obstacles = {{"O1", 1, 80, 4, 4, 0, 0}};
-  return task;
-}
-
-/// The same with a wall across the whole road in the way, at y.
-Task before_a_wall(double y) {
-  Task walled = task();
-  walled.region.x_min = -40;
-  walled.region.x_max = 40;
-  walled.obstacles = {{"wall", 0, y, 80, 2, 0, 0}};
-  return walled;
-}
-
-Request first() {
-  Request request;
-  request.X0p = {0, 0, 0, 0, std::numbers::pi / 2, 0, 17, 0};
-  return request;
-}
-
-/// The request of the next cycle: what the plant makes of the plan in .5 s.
-Request next(const Task& task, const Request& last, const Plan& plan) {
-  Request request = last;
-  request.t0 += 0.5;
-  request.t_start += 0.5;
-  request.X0p = Plant(task.vehicle, 1e-9, 0.02)
-                    .predict(last.X0p, control_signal(plan), last.t_start, request.t_start);
-  return request;
-}
 
 double clearance(const Task& task, const Request& request, const Plan& plan) {
   const Plant plant(task.vehicle, 1e-9, 0.02);
@@ -69,24 +33,24 @@ void expect_same_controls(const Plan& one, const Plan& other) {
 }
 
 TEST(VerifiedPlanner, ItsFirstPlanIsVerifiedAndWhatTheCertificateSays) {
-  const Task t = task();
+  const Task t = verified_task();
   Planner planner(t);
-  const Plan plan = planner.plan(first());
+  const Plan plan = planner.plan(northwards());
   EXPECT_EQ(plan.rung, Rung::new_plan);
   EXPECT_TRUE(plan.report.solved);
   EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
   EXPECT_TRUE(plan.goal_in_range);
   EXPECT_GE(plan.certificate.least_clearance, t.planner.verified_clearance);
-  EXPECT_NEAR(clearance(t, first(), plan), plan.certificate.least_clearance, 0.02);
+  EXPECT_NEAR(clearance(t, northwards(), plan), plan.certificate.least_clearance, 0.02);
   EXPECT_EQ(plan.certificate.nearest, "O1");
   EXPECT_FALSE(plan.candidates.empty());
 }
 
 TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {
-  const Task t = task();
+  const Task t = verified_task();
   Planner planner(t);
-  const Plan plan = planner.plan(first());
-  Request request = next(t, first(), plan);
+  const Plan plan = planner.plan(northwards());
+  Request request = next(t, northwards(), plan);
   request.time_limit = 0;  // there is no time for anything else
   const Plan rest = planner.plan(request);
   EXPECT_EQ(rest.rung, Rung::rest);
@@ -96,14 +60,14 @@ TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {
 }
 
 TEST(VerifiedPlanner, WhereThePlanWasLateTheOneBeforeGoesOn) {
-  const Task t = task();
+  const Task t = verified_task();
   Planner planner(t);
-  const Plan plan = planner.plan(first());
-  Request elsewhere = next(t, first(), plan);
+  const Plan plan = planner.plan(northwards());
+  Request elsewhere = next(t, northwards(), plan);
   elsewhere.X0p[X] += 0.3;
   elsewhere.time_limit = 0;
   (void)planner.plan(elsewhere);  // is late, and not driven
-  Request request = next(t, first(), plan);
+  Request request = next(t, northwards(), plan);
   request.time_limit = 0;
   request.last_was_late = true;
   const Plan rest = planner.plan(request);
@@ -112,10 +76,10 @@ TEST(VerifiedPlanner, WhereThePlanWasLateTheOneBeforeGoesOn) {
 }
 
 TEST(VerifiedPlanner, ARestFromAnotherStateIsDrivenAnewByThePlant) {
-  const Task t = task();
+  const Task t = verified_task();
   Planner planner(t);
-  const Plan plan = planner.plan(first());
-  Request request = next(t, first(), plan);
+  const Plan plan = planner.plan(northwards());
+  Request request = next(t, northwards(), plan);
   request.X0p[X] += 0.3;
   request.time_limit = 0;
   const Plan rest = planner.plan(request);
@@ -128,10 +92,10 @@ TEST(VerifiedPlanner, ARestFromAnotherStateIsDrivenAnewByThePlant) {
 }
 
 TEST(VerifiedPlanner, WhatComesIntoTheWayIsAvoided) {
-  const Task t = task();
+  const Task t = verified_task();
   Planner planner(t);
-  const Plan plan = planner.plan(first());
-  Request request = next(t, first(), plan);
+  const Plan plan = planner.plan(northwards());
+  Request request = next(t, northwards(), plan);
   // Where the plan would be in 4 s.
   const State there = plan.states[std::min<std::size_t>(plan.states.size() - 1, 90)];
   request.obstacles = t.obstacles;
@@ -146,11 +110,11 @@ TEST(VerifiedPlanner, WhatComesIntoTheWayIsAvoided) {
 
 // What is seen at last where another was is no error of belief.
 TEST(VerifiedPlanner, ObstaclesAreTheSameByName) {
-  Task t = task();
+  Task t = verified_task();
   t.obstacles.push_back({"far", 200, 80, 3, 3, 0, 0});
   Planner planner(t);
-  const Plan plan = planner.plan(first());
-  Request request = next(t, first(), plan);
+  const Plan plan = planner.plan(northwards());
+  Request request = next(t, northwards(), plan);
   const State there = plan.states[std::min<std::size_t>(plan.states.size() - 1, 90)];
   request.obstacles = {{"new", there[X], there[Y], 3, 3, 0, 0}, t.obstacles[0]};
   const Plan other = planner.plan(request);
@@ -160,17 +124,17 @@ TEST(VerifiedPlanner, ObstaclesAreTheSameByName) {
 
 // By the latency rule `instant` a plan begins when it is made, and the loop looks a horizon apart.
 TEST(VerifiedPlanner, AnArrivalIsWhereTheLoopLooks) {
-  Task t = task();
+  Task t = verified_task();
   t.goal.sigma = 2;
   const Plant plant(t.vehicle, 1e-9, 0.02);
   for (const double begin : {0., 3., 6.}) {
-    Request request = first();
+    Request request = northwards();
     request.X0p[Y] = begin;
     request.t_start = request.t0 = 0.5;
     request.tex = 0.5;
     const Plan plan = Planner(t).plan(request);
     ASSERT_TRUE(plan.certificate.verified) << plan.certificate.refused;
-    if (!plan.goal_in_range) continue;
+    ASSERT_TRUE(plan.goal_in_range) << "from " << begin;
     bool arrives = false;
     State x = request.X0p;
     for (double at = 0.5; at < plan.t_start + plan.tf && !arrives; at += 0.5) {
@@ -182,10 +146,10 @@ TEST(VerifiedPlanner, AnArrivalIsWhereTheLoopLooks) {
 }
 
 TEST(VerifiedPlanner, ThereIsAPlanWhereNoneIsGoodAndItSaysSo) {
-  Task t = task();
+  Task t = verified_task();
   t.obstacles = {{"wall", 0, 14, 60, 2, 0, 0}};  // 12 m ahead at 17 m/s
   Planner planner(t);
-  const Plan plan = planner.plan(first());
+  const Plan plan = planner.plan(northwards());
   EXPECT_EQ(plan.rung, Rung::least_bad);
   EXPECT_FALSE(plan.report.solved);
   EXPECT_TRUE(plan.report.best_iterate) << "it is driven all the same";
@@ -197,7 +161,7 @@ TEST(VerifiedPlanner, ThereIsAPlanWhereNoneIsGoodAndItSaysSo) {
 TEST(VerifiedPlanner, WithoutAWayToTheGoalItStopsClear) {
   const Task t = before_a_wall(110);
   Planner planner(t);
-  const Plan plan = planner.plan(first());
+  const Plan plan = planner.plan(northwards());
   EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
   EXPECT_FALSE(plan.goal_in_range);
   EXPECT_LT(plan.states.back()[UX], 0.5);
@@ -206,25 +170,25 @@ TEST(VerifiedPlanner, WithoutAWayToTheGoalItStopsClear) {
 }
 
 TEST(VerifiedPlanner, ByRangeItKnowsWhatIsNear) {
-  Task t = task();
+  Task t = verified_task();
   t.planner.known = Known::range;
   t.planner.L_range = 50;
   Planner planner(t);
-  const Plan plan = planner.plan(first());
+  const Plan plan = planner.plan(northwards());
   EXPECT_TRUE(std::isinf(plan.certificate.least_clearance)) << "nothing is within 50 m";
-  Request nearer = first();
+  Request nearer = northwards();
   nearer.X0p[Y] = 40;
   planner.reset();
   EXPECT_EQ(planner.plan(nearer).certificate.nearest, "O1");
 }
 
 TEST(VerifiedPlanner, WhereAnythingMayStandUnseenItStopsWithinWhatIsSeen) {
-  Task t = task();
+  Task t = verified_task();
   t.planner.known = Known::range;
   t.planner.L_range = 90;
   const double edge = t.planner.L_range - t.planner.verified_clearance;
   Planner planner(t);
-  Request request = first();
+  Request request = northwards();
   Plan plan = planner.plan(request);
   for (int cycle = 0; cycle < 4; ++cycle) {
     EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
@@ -237,18 +201,18 @@ TEST(VerifiedPlanner, WhereAnythingMayStandUnseenItStopsWithinWhatIsSeen) {
     plan = later;
   }
   planner.reset();
-  const auto candidates = planner.plan(first()).candidates;
+  const auto candidates = planner.plan(northwards()).candidates;
   EXPECT_TRUE(std::none_of(candidates.begin(), candidates.end(), [](const auto& c) {
     return c.name.find("course") != std::string::npos || c.name.find("rest") != std::string::npos;
   })) << "of a planner that has forgotten its last plan";
   t.planner.unseen = Unseen::nothing;
-  EXPECT_TRUE(Planner(t).plan(first()).goal_in_range);
+  EXPECT_TRUE(Planner(t).plan(northwards()).goal_in_range);
 }
 
 TEST(VerifiedPlanner, AVehicleAtRestAlwaysHasAPlanThatLasts) {
   const Task t = before_a_wall(20);
   Planner planner(t);
-  Request request = first();
+  Request request = northwards();
   request.X0p[UX] = 0.12;
   for (int cycle = 0; cycle < 8; ++cycle) {
     const Plan plan = planner.plan(request);
@@ -264,7 +228,7 @@ TEST(VerifiedPlanner, AVehicleAtRestAlwaysHasAPlanThatLasts) {
 TEST(VerifiedPlanner, AVehicleThatAllButStandsGoesOnStanding) {
   const Task t = before_a_wall(10.9);  // room to creep for 6.7 m at .1 m/s for a minute
   Planner planner(t);
-  Request request = first();
+  Request request = northwards();
   request.X0p[UX] = 0.1;
   request.X0p[AX] = 0.015;
   for (int cycle = 0; cycle < 4; ++cycle) {
@@ -274,12 +238,31 @@ TEST(VerifiedPlanner, AVehicleThatAllButStandsGoesOnStanding) {
   }
 }
 
+TEST(VerifiedPlanner, CallsOutOfOrderHavePlansThatCanBeDriven) {
+  const Task t = verified_task();
+  Planner planner(t);
+  double last = 0;
+  // Twice at a moment, back, far ahead, and back from there.
+  for (const double t0 : {0., 0., -0.2, -5., 100., 100.5, 100.5, 0.}) {
+    Request request = northwards();
+    request.t0 = t0;
+    request.t_start = t0 + 0.5;
+    const Plan plan = planner.plan(request);
+    SCOPED_TRACE(std::to_string(t0) + " after " + std::to_string(last));
+    ASSERT_TRUE(usable(plan));
+    EXPECT_EQ(plan.t.front(), 0) << "it begins when it is asked for";
+    EXPECT_EQ(plan.states.front(), request.X0p);
+    EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+    last = t0;
+  }
+}
+
 TEST(VerifiedPlanner, TheSameRequestsGiveTheSameBits) {
-  const Task t = task();
+  const Task t = verified_task();
   std::vector<State> ends;
   for (int run = 0; run < 2; ++run) {
     Planner planner(t);
-    Request request = first();
+    Request request = northwards();
     Plan plan = planner.plan(request);
     for (int cycle = 0; cycle < 3; ++cycle) {
       request = next(t, request, plan);
