@@ -51,23 +51,24 @@ std::vector<world::Obstacle> measured_at(double t0, std::vector<world::Obstacle>
   return obstacles;
 }
 
+/// `where` is the call, with the row of it that this is.
 planner::Request request_of(const ScenarioPlanner& self, const std::vector<double>& state,
                             const std::string& where, double t0, std::optional<double> tex,
                             double time_limit, double best_iterate_tol) {
   planner::Request request;
-  request.X0p = state_of(state, where.c_str());
+  request.X0p = state_of(state, (where + ": state").c_str());
   request.t0 = t0;
   request.t_start = t0 + tex.value_or(self.tex);
   request.time_limit = time_limit;
   request.best_iterate_tol = best_iterate_tol;
+  check(request, where);
   return request;
 }
 
 Plan plan(ScenarioPlanner& self, const std::vector<double>& state, double t0,
           std::optional<double> tex, double time_limit, double best_iterate_tol,
           const std::optional<std::vector<world::Obstacle>>& obstacles) {
-  planner::Request request =
-      request_of(self, state, "plan: state", t0, tex, time_limit, best_iterate_tol);
+  planner::Request request = request_of(self, state, "plan", t0, tex, time_limit, best_iterate_tol);
   if (obstacles) request.obstacles = measured_at(t0, *obstacles);
   Released released;
   request.interrupted = [&released] { return released.interrupted(); };

@@ -131,6 +131,25 @@ def test_plans():
         plant.advance(scenario.start, None, 0.0, 1.7e9)
 
 
+@pytest.mark.parametrize(("scenario", "planner"), [("E_B", "P_D"), ("E_B", "P_E"), ("circuit", "P_L")])
+@pytest.mark.parametrize(("wrong", "message"), [
+    ({"t0": float("nan")}, "t0"), ({"t0": 1e16}, "t0"), ({"tex": float("nan")}, "tex"),
+    ({"tex": -1}, "tex"), ({"tex": 1e9}, "tex"), ({"time_limit": float("nan")}, "time_limit"),
+    ({"time_limit": -1}, "time_limit"), ({"best_iterate_tol": float("nan")}, "best_iterate_tol"),
+    ({"best_iterate_tol": float("inf")}, "best_iterate_tol"), ({"x": float("nan")}, "state: found x = nan"),
+    ({"ux": float("inf")}, "state: found ux = inf"), ({"ux": 1e18}, "state: found ux")])
+def test_numbers_of_no_cycle_are_refused(scenario, planner, wrong, message):
+    scenario = slalom.load_scenario(scenario, planner=planner)
+    state = np.array(scenario.start, dtype=float)
+    for name in set(wrong) & set(slalom.state_names):
+        state[slalom.state_names.index(name)] = wrong[name]
+    keywords = {key: value for key, value in wrong.items() if key not in slalom.state_names}
+    with pytest.raises(slalom.InvalidValue, match=f"plan: .*{message}"):
+        slalom.Planner(scenario).plan(state, **keywords)
+    with pytest.raises(slalom.InvalidValue, match=f"plan_many: .*{message}"):
+        slalom.Planner(scenario).plan_many([state], **keywords)
+
+
 def test_verified_plans():
     scenario = slalom.load_scenario("E_B", planner="P_E")
     plan = slalom.Planner(scenario).plan(scenario.start)

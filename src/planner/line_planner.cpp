@@ -154,8 +154,8 @@ void LinePlanner::record(const Recorder& recorder) {
   if (recorder.wanted && recorder.take) recorder_ = recorder;
 }
 
-ocp::Transcription& LinePlanner::posed(const State& X0p) {
-  const double start = task_.road->project({X0p[X], X0p[Y]}).s;
+ocp::Transcription& LinePlanner::posed(const State& X0p, const std::optional<double>& s) {
+  const double start = s ? *s : task_.road->project({X0p[X], X0p[Y]}).s;
   update(start, first(start, X0p));
   return *transcription_;
 }
@@ -176,54 +176,73 @@ Plan LinePlanner::plan(const Request& request) {
     last_->start -= task_.road->length();
   const bool warm = last_.has_value() && start >= last_->start - kStep &&
                     start < last_->start + line_.length() / 2;
-  Plan plan;
-  if (warm) plan = attempt(request, timer, {start, shifted(start, x0), !start_.y.empty(), 1});
-  for (const double calm : {1., kCalmFloor})
-    if (!plan.report.solved) plan = attempt(request, timer, {start, guess(start, x0), false, calm});
-  totals_.put(plan.report);
-  plan.report.planning_cpu_s = timer.cpu();
-  return plan;
+  const Beginning cold{start, guess(start, x0), false, 1};
+  Attempt best =
+      attempt(request, timer, warm ? Beginning{start, shifted(start, x0), carries_, 1} : cold);
+  if (warm) try_other(request, timer, cold, best);
+  try_other(request, timer, {start, cold.guess, false, kCalmFloor}, best);
+  keep(start, best);
+  totals_.put(best.plan.report);
+  best.plan.report.planning_cpu_s = timer.cpu();
+  return std::move(best.plan);
+}
+
+/// Solves once more where there is no plan yet and still time. One that is to be driven although it
+/// is not solved gives way to a solved one alone.
+void LinePlanner::try_other(const Request& request, const Timer& timer, const Beginning& beginning,
+                            Attempt& best) {
+  if (best.plan.report.solved || best.cut_short) return;
+  best.carries = false;  // what is tried takes the multipliers' place
+  Attempt other = attempt(request, timer, beginning);
+  if (other.plan.report.solved || !best.driven()) best = std::move(other);
 }
 
 /// Solves once.
-Plan LinePlanner::attempt(const Request& request, const Timer& timer, const Attempt& attempt) {
-  start_.x = transcription_->point(attempt.guess);
+LinePlanner::Attempt LinePlanner::attempt(const Request& request, const Timer& timer,
+                                          const Beginning& beginning) {
+  start_.x = transcription_->point(beginning.guess);
   nlp::Options options = solver_options(settings_, request);
-  options.floor *= attempt.floor_times;
-  options.warm_start = attempt.multipliers;
+  options.floor *= beginning.floor_times;
+  options.warm_start = beginning.multipliers;
   options.time_limit = std::max(0., request.time_limit - timer.cpu());
   solver_->solve(*transcription_, start_, options, answer_);
   totals_.add(answer_);
-  std::optional<Recording> recording;  // reading takes the multipliers of both
+  std::optional<Recording> recording;
   if (recorder_) recording = recorded(request, false, options, start_, answer_);
-  Plan plan = read(request, attempt.start, options);
-  if (recording && recorder_->wanted(plan.report)) {
-    recording->phi = plan.report.phi;
+  Attempt attempt = read(request, beginning.start, options);
+  if (recording && recorder_->wanted(attempt.plan.report)) {
+    recording->s = beginning.start;
+    recording->phi = attempt.plan.report.phi;
     recorder_->take(*recording);
   }
-  return plan;
+  return attempt;
 }
 
-Plan LinePlanner::read(const Request& request, double start, const nlp::Options& options) {
-  auto trajectory = transcription_->trajectory(answer_.point.x);
-  auto motion = line_.to_world(trajectory, start, request.t_start, request.X0p[PSI]);
-  Plan plan;
+LinePlanner::Attempt LinePlanner::read(const Request& request, double start,
+                                       const nlp::Options& options) {
+  Attempt attempt;
+  attempt.cut_short = cut_short(answer_.status);
+  attempt.trajectory = transcription_->trajectory(answer_.point.x);
+  auto motion = line_.to_world(attempt.trajectory, start, request.t_start, request.X0p[PSI]);
+  Plan& plan = attempt.plan;
   plan.t_start = request.t_start;
   for (const double t : motion.t) plan.t.push_back(t - request.t_start);
   plan.tf = plan.t.back();
   plan.states = std::move(motion.states);
   plan.controls = std::move(motion.controls);
   plan.report = report_of(answer_, *transcription_, request, options);
-  if (plan.report.solved || plan.report.best_iterate) {
-    last_ = Last{start, std::move(trajectory)};
-    std::swap(start_.y, answer_.point.y);
-    std::swap(start_.zl, answer_.point.zl);
-    std::swap(start_.zu, answer_.point.zu);
-  } else {
-    last_.reset();
-    start_ = {};
-  }
-  return plan;
+  return attempt;
+}
+
+/// The next solve starts from a plan to be driven, and goes on from one that was cut short.
+void LinePlanner::keep(double start, Attempt& attempt) {
+  if (!attempt.driven() && !attempt.cut_short) return;
+  last_ = Last{start, std::move(attempt.trajectory)};
+  carries_ = attempt.carries;
+  if (!carries_) return;
+  std::swap(start_.y, answer_.point.y);
+  std::swap(start_.zl, answer_.point.zl);
+  std::swap(start_.zu, answer_.point.zu);
 }
 
 }  // namespace slalom::planner

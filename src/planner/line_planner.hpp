@@ -25,8 +25,9 @@ class LinePlanner final : public PlanningMethod {
   }
   void record(const Recorder& recorder) override;
 
-  /// The problem of a cycle that begins in this state, as a solver sees it: for replays.
-  ocp::Transcription& posed(const vehicle::State& X0p);
+  /// The problem of a cycle that begins in this state, as a solver sees it: for replays. `s` is
+  /// where that is on the road [m]; without, the nearest place of it.
+  ocp::Transcription& posed(const vehicle::State& X0p, const std::optional<double>& s);
 
  private:
   /// A plan from which the next solve starts.
@@ -37,19 +38,31 @@ class LinePlanner final : public PlanningMethod {
 
   /// One solve of a cycle: from which guess, with the last plan's multipliers or without, and at
   /// how many times the barrier floor.
-  struct Attempt {
+  struct Beginning {
     double start;
     ocp::Trajectory guess;
     bool multipliers;
     double floor_times;
+  };
+  /// What came of it.
+  struct Attempt {
+    Plan plan;
+    ocp::Trajectory trajectory;  ///< along the line
+    bool cut_short = false;      ///< by time or an interrupt
+    bool carries = true;         ///< its multipliers are at hand
+
+    bool driven() const { return plan.report.solved || plan.report.best_iterate; }
   };
 
   LineProblem::LineState first(double start, const vehicle::State& X0p) const;
   void update(double start, const LineProblem::LineState& x0);
   ocp::Trajectory guess(double start, const LineProblem::LineState& x0) const;
   ocp::Trajectory shifted(double start, const LineProblem::LineState& x0) const;
-  Plan attempt(const Request& request, const Timer& timer, const Attempt& attempt);
-  Plan read(const Request& request, double start, const nlp::Options& options);
+  void try_other(const Request& request, const Timer& timer, const Beginning& beginning,
+                 Attempt& best);
+  Attempt attempt(const Request& request, const Timer& timer, const Beginning& beginning);
+  Attempt read(const Request& request, double start, const nlp::Options& options);
+  void keep(double start, Attempt& attempt);
 
   const Task task_;
   const Settings& settings_;
@@ -66,6 +79,7 @@ class LinePlanner final : public PlanningMethod {
   std::optional<double> s_;  ///< of the last cycle [m]
   double t_ = 0;             ///< and when its plan began [s]
   std::optional<Last> last_;
+  bool carries_ = false;  ///< start_ has its multipliers
   std::optional<Recorder> recorder_;
 };
 

@@ -30,11 +30,6 @@ Task with_groups(Task task) {
   return task;
 }
 
-/// Ended from outside, on its way to an answer.
-bool cut_short(nlp::Status status) {
-  return status == nlp::Status::time_limit || status == nlp::Status::interrupted;
-}
-
 /// The point of a guess that is nearest to an obstacle, and its distance from the edge [m].
 std::pair<std::size_t, double> nearest_point(const ocp::Trajectory& guess,
                                              const world::Obstacle& obstacle, double t_start) {

@@ -19,6 +19,10 @@ nlp::Options solver_options(const Settings& settings, const Request& request) {
   return options;
 }
 
+bool cut_short(nlp::Status status) {
+  return status == nlp::Status::time_limit || status == nlp::Status::interrupted;
+}
+
 SolveReport report_of(const nlp::Answer& answer, ocp::Transcription& transcription,
                       const Request& request, const nlp::Options& options) {
   const auto residuals = nlp::check(transcription, answer.point, options);

@@ -11,11 +11,18 @@
 
 namespace slalom::planner {
 
+/// Times are within this [s]: there they still have microseconds, as those of the day have.
+inline constexpr double kLatest = 1e10;
+
 /// The solve ends as interrupted once `interrupted`, which outlives it and may be empty, says so.
 void stop_when(const std::function<bool()>& interrupted, nlp::Options& options);
 
 /// The solver's options as a planner's settings have them.
 nlp::Options solver_options(const Settings& settings, const Request& request);
+
+/// Ended from outside, on its way to an answer, after a number of iterations that only the clock
+/// knew.
+bool cut_short(nlp::Status status);
 
 /// What an answer to a transcribed problem comes to, judged by its residuals. `options` are those
 /// it was solved with.

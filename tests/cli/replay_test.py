@@ -105,6 +105,23 @@ class Replay(ProgramTest):
         recorded["controls"].pop()
         self.assert_refused(run("replay", self.write("short.json", json.dumps(recorded))), 2,
                             "controls", "as t has")
+        self.assert_bad_plans(json.loads(files[1].read_text()))
+
+    def assert_bad_plans(self, whole):
+        """Motions that no planner made are refused: some would be looked at without end."""
+        times = whole["t"]
+        for change, parts in (
+                ({"t": [*times[:-1], 1e18]}, ["t: found 1e+18"]),
+                ({"t": [*times[:-1], "inf"]}, ["t: found inf"]),
+                ({"t": ["nan", *times[1:]]}, ["t: found nan"]),
+                ({"t": [*times[:-1], times[-1] + 1000]}, ["within 1 s of the last"]),
+                ({"t": times[:1], "states": whole["states"][:1], "controls": whole["controls"][:1]},
+                 ["t: found 1 times, expected at least 2"]),
+                ({"tex": 1e-300}, ["tex: found 1e-300"]), ({"tex": "nan"}, ["tex: found nan"]),
+                ({"t0": -1e300}, ["t0: found -1e+300"])):
+            with self.subTest(change=list(change)):
+                path = self.write("bad.json", json.dumps({**whole, **change}))
+                self.assert_refused(run("replay", path), 2, "bad.json", *parts)
 
     def test_along_a_road(self):
         for planner, scenario in (("P_D", "circuit"), ("P_E_road", "chicane"), ("P_L", "circuit")):
@@ -175,6 +192,8 @@ class Replay(ProgramTest):
             "text for a number": (changed("start", "x", 3, to="soon"),
                                   ["bad.json: start.x[3]: found \"soon\", expected a number"]),
             "short start": (changed("start", "x", to=[1.0]), ["start: x", "found 1 numbers"]),
+            "empty start": (changed("start", "x", to=[]), ["start: x", "found 0 numbers"]),
+            "no time": (changed("request", "t0", to="nan"), ["recorded solve: t0: found nan"]),
             "short state": (changed("request", "X0p", to=[1, 2]),
                             ["bad.json: request.X0p: found 2 numbers, expected 8"]),
             "kernel set": (changed("kernels", to="neon"),

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "planner/expect_plan.hpp"
+#include "planner/line_scenes.hpp"
 #include "planner/scenes.hpp"
 
 namespace slalom::planner {
@@ -106,6 +108,77 @@ TEST(Unsolved, ASolveCutShortGoesOnInTheNextCycle) {
     expect_solved(next);
     EXPECT_LT(next.report.iterations, needed * 3 / 4);
   }
+}
+
+// P_L tries other guesses where a solve fails. What they come to takes the place of nothing better.
+
+/// What all guesses of a first plan come to.
+std::vector<SolveReport> reports_of(const Scene& scene) {
+  std::vector<SolveReport> reports;
+  Planner planner(scene);
+  planner.record({[&](const SolveReport& report) {
+                    reports.push_back(report);
+                    return false;
+                  },
+                  [](const Recording&) {}});
+  (void)planner.plan(scene.first);
+  return reports;
+}
+
+TEST(UnsolvedAlongRoad, ABestIterateWithinTheToleranceIsDrivenAndAStartForTheNext) {
+  Scene cut = by_P_L();
+  std::vector<SolveReport> reports = reports_of(cut);
+  ASSERT_EQ(reports.size(), 1u);
+  cut.planner.max_iterations = reports[0].iterations;
+  do {  // so few iterations that no guess is solved
+    ASSERT_GT(--cut.planner.max_iterations, 3);
+    reports = reports_of(cut);
+  } while (reports.back().solved);
+  ASSERT_EQ(reports.size(), 2u);
+  ASSERT_NE(reports[0].worst_violation, reports[1].worst_violation);
+
+  Planner refusing(cut);
+  const Plan refused = refusing.plan(cut.first);
+  EXPECT_FALSE(refused.report.best_iterate) << "none is asked for";
+  expect_same(refusing.plan(cut.first), refused);
+
+  cut.first.best_iterate_tol = 1e6;
+  Planner planner(cut);
+  const Plan plan = planner.plan(cut.first);
+  EXPECT_FALSE(plan.report.solved);
+  EXPECT_TRUE(plan.report.best_iterate);
+  EXPECT_EQ(plan.report.worst_violation, reports[0].worst_violation) << "the first, not the last";
+  EXPECT_LT(planner.plan(cut.first).report.worst_violation, reports[0].worst_violation)
+      << "it goes on from there";
+}
+
+TEST(UnsolvedAlongRoad, ASolveCutShortIsTheLastOfItsCycleAndGoesOnInTheNext) {
+  const Scene scene = by_P_L();
+  const Plan whole = Planner(scene).plan(scene.first);
+  const int needed = whole.report.iterations;
+  Planner planner(scene);
+  int solves = 0;
+  planner.record({[](const SolveReport&) { return true; }, [&](const Recording&) { ++solves; }});
+  Request cut = scene.first;
+  int left = needed * 4 / 5;
+  cut.interrupted = [&left] { return --left < 0; };
+  const Plan plan = planner.plan(cut);
+  EXPECT_EQ(plan.report.status, PlanStatus::interrupted);
+  EXPECT_GT(plan.report.iterations, needed / 2) << "its own iterate, not that of a new guess";
+  EXPECT_EQ(solves, 1);
+  const Plan next = planner.plan(scene.first);
+  EXPECT_TRUE(next.report.solved);
+  EXPECT_LT(next.report.iterations, needed * 3 / 4);
+}
+
+TEST(UnsolvedAlongRoad, AFailedPlanLeavesTheLastOneForTheNext) {
+  Scene scene = by_P_L();
+  Planner failed(scene), fresh(scene);
+  expect_same(failed.plan(scene.first), fresh.plan(scene.first));
+  Request off = scene.first;  // far off the road
+  off.X0p[vehicle::X] += 60;
+  ASSERT_FALSE(failed.plan(off).report.solved);
+  expect_same(failed.plan(scene.first), fresh.plan(scene.first));
 }
 
 TEST(Unsolved, TimeLimitEndsASolve) {

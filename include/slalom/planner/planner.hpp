@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "slalom/planner/plan.hpp"
@@ -38,6 +39,11 @@ struct Request {
   std::function<bool()> interrupted;  ///< polled during the solve; true stops it, not solved
 };
 
+/// Throws InvalidValue, which says `where`, for a request of no cycle: numbers that are not finite
+/// (limits of time may be infinite) or of no vehicle, limits below 0, and horizons of more than an
+/// hour, at which a planner that drives its plans would work without end.
+void check(const Request& request, const std::string& where);
+
 class LocalFrame;
 class PlanningMethod;
 
@@ -54,7 +60,7 @@ class Planner {
   Planner& operator=(Planner&&) noexcept;
 
   /// Makes a plan. A plan that is not solved is returned too, with the best iterate; see its
-  /// report.
+  /// report. Throws InvalidValue for what check() refuses.
   Plan plan(const Request& request);
   /// Forgets the last plan, so that the next one starts from the straight-on guess.
   void reset();

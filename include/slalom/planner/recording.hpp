@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "slalom/base/kernels.hpp"
@@ -31,6 +32,8 @@ struct Recording {
   double cpu_s = 0, wall_s = 0;                           ///< of the solve
   nlp::Start end;                                         ///< the answer's point
   std::optional<std::vector<world::Obstacle>> obstacles;  ///< of the Request
+  /// Where along its road a planner that follows one has the vehicle [m].
+  std::optional<double> s;
 };
 
 /// A plan of a verifying planner, with all data that its certificate depends on, except vehicle,
@@ -68,10 +71,15 @@ struct Replayed {
 
 /// Solves a recording again with its kernel set, which stays selected. A solve that time or the
 /// user cut off ends at the same iteration instead. Throws Error for a kernel set that the
-/// processor lacks, InvalidValue for a start that does not fit this problem.
+/// processor lacks, InvalidValue for a start that does not fit this problem and for a request that
+/// check() refuses.
 Replayed replay(const Recording& recording, const Task& task);
 
-/// Drives the believed plant by a recorded plan again, and returns the new certificate.
+/// Throws InvalidValue, which says `where`, for what no planner records: no motion, numbers that
+/// are not finite, times out of order or far apart, and more looks for arrival than a drive has.
+void check(const RecordedPlan& recording, const std::string& where);
+/// Drives the believed plant by a recorded plan again, and returns the new certificate. Throws
+/// InvalidValue for what check() refuses.
 Certificate verify_again(const RecordedPlan& recording, const Task& task);
 /// Whether two certificates are the same, to the last bit.
 bool same(const Certificate& one, const Certificate& other);
