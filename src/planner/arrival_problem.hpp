@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -51,6 +52,7 @@ class ArrivalProblem {
                               const Obstacles& obstacles, double edge_margin, nlp::Solver& solver,
                               const nlp::Options& options);
 
+  std::size_t rows() const { return transcription_->structure().rows; }
   int iterations() const { return answer_.iterations; }  ///< of the last solve
   double solver_cpu_s() const { return answer_.cpu_s; }  ///< of it [s]
 

@@ -83,5 +83,22 @@ TEST(ArrivalProblem, HasNoAnswerOnceTheTimeIsUp) {
   EXPECT_EQ(problem.iterations(), 0);
 }
 
+// Five rows about each point of a close obstacle, or the point's alone.
+TEST(ArrivalProblem, HasRowsBetweenItsPointsAsTheSettingsSay) {
+  Task task;
+  task.planner.method = Method::verified;
+  task.planner.arrival_N = 20;
+  task.goal = {0, 180, std::numbers::pi / 2, 15};
+  const auto rows = [&](bool close, bool between) {
+    task.planner.rows_between = between;
+    ArrivalProblem::Obstacles obstacles;
+    if (close) obstacles.close = {{"O1", 1, 80, 4, 4, 1, 0}};
+    return ArrivalProblem(task, ArrivalProblem::room_for(obstacles)).rows();
+  };
+  const std::size_t none = rows(false, true);
+  EXPECT_GT(rows(true, false), none);
+  EXPECT_EQ(rows(true, true) - none, 5 * (rows(true, false) - none));
+}
+
 }  // namespace
 }  // namespace slalom::planner

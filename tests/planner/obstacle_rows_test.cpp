@@ -164,6 +164,9 @@ TEST(ObstacleRows, StandInsAreNoMoreThanTheyNeedBe) {
   EXPECT_EQ(ObstacleRows::kind_of(of(point, ellipse)[0]), Kind::round);
   EXPECT_TRUE(of(car, ellipse)[0].outline) << "the rectangle about it";
   EXPECT_FALSE(of(point, box(0.5, 0.5))[0].outline) << "a circle";
+  Settings exact;  // it sticks out by .1 m
+  exact.cover_excess = 0.05;
+  EXPECT_TRUE(stand_ins(exact, point, {box(0.5, 0.5)})[0].outline);
   EXPECT_EQ(of(point, box(4.5, 1.8)).size(), 5u);
   EXPECT_EQ(of(point, box(8.5, 8.5)).size(), 2u);
   EXPECT_EQ(of(car, box(20, 1.8)).size(), 1u);

@@ -270,6 +270,17 @@ TEST(Planner, ResetForgetsTheLastPlan) {
   expect_same(planner.plan(scene.first), first);
 }
 
+TEST(Planner, APlanIsAsLongAsItMustBe) {
+  Scene scene = E_A();
+  const Plan plan = Planner(scene).plan(scene.first);
+  expect_solved(plan);
+  scene.planner.tf_min = plan.tf + 0.5;
+  const Plan longer = Planner(scene).plan(scene.first);
+  expect_solved(longer);
+  EXPECT_NEAR(longer.tf, scene.planner.tf_min, 0.1);
+  EXPECT_GE(longer.tf, scene.planner.tf_min);
+}
+
 TEST(Planner, NoObstacles) {
   Scene scene = E_A();
   scene.obstacles.clear();

@@ -143,6 +143,7 @@ TEST(CostTerms, OfWeightZeroAreAbsent) {
 TEST(CostTerms, AreTheFormulationsOnes) {
   Scene scene = E_C();
   scene.planner.w_ax = 0.1;
+  scene.planner.w_ic = 70;
   const auto problem = problem_of(scene, false);
   const int N = scene.planner.N;
   ocp::Transcription t(problem.problem(), ocp::Mesh::uniform(N), ocp::trapezoidal());
@@ -167,7 +168,7 @@ TEST(CostTerms, AreTheFormulationsOnes) {
   }
   const double w[] = {1, 1, 10, 10, 10, 2, 0.1, 0.1};
   double slacks = 0;
-  for (std::size_t i = 0; i < 8; ++i) slacks += 100 * w[i] * slack[i];
+  for (std::size_t i = 0; i < 8; ++i) slacks += 70 * w[i] * slack[i];
   const double goal = 10 * (81 + 610 * 610) / (144 + 692 * 692 + 0.01);
   const std::pair<const char*, double> expected[] = {
       {"final_time", 400},      {"goal", goal},         {"control_effort", effort},
@@ -181,6 +182,19 @@ TEST(CostTerms, AreTheFormulationsOnes) {
     ASSERT_NE(it, terms.end()) << name;
     EXPECT_NEAR(it->second, value, 1e-9 * std::max(1.0, std::fabs(value))) << name;
   }
+}
+
+TEST(CostTerms, OfBeingOffTheGoalIsByItsWeight) {
+  Scene scene = E_C();
+  scene.planner.w_xf = 30;
+  const auto problem = problem_of(scene, true);
+  ocp::Transcription t(problem.problem(), ocp::Mesh::uniform(scene.planner.N), ocp::trapezoidal());
+  const std::vector<double> slack{0, 0, 0, 0, 0, 0, 0, 0, 0.3, 0.4}, none(8, 0.), u{0, 0};
+  const auto terms = t.cost_terms(t.point({0, 4, {0, 1}, {none, none}, {u, u}, {}, slack}));
+  const auto found = std::find_if(terms.begin(), terms.end(),
+                                  [](const auto& term) { return term.first == "final_slack"; });
+  ASSERT_NE(found, terms.end());
+  EXPECT_NEAR(found->second, 30 * 0.7, 1e-12);
 }
 
 }  // namespace
