@@ -77,13 +77,20 @@ TEST(CorridorRows, HoldAllOfTheBody) {
   car.footprint = vehicle::FootprintKind::rectangle;
   const world::Footprint footprint(car);
   Rows rows{footprint};
+  int kept = 0, refused = 0;
   for (double r = 36; r < 45; r += 0.05)
     for (const double turned : {-0.2, 0., 0.2}) {
       State at = on_ring(1.05, r);
       at[vehicle::PSI] += turned;
-      if (rows.least(road, on_ring(1, 40), at, 0) < 0) continue;
-      EXPECT_GT(footprint.edge_distance(road, at), -0.03) << r << " " << turned;
+      const double inside = footprint.edge_distance(road, at);
+      const bool keeps = rows.least(road, on_ring(1, 40), at, 0) >= 0;
+      if (keeps) EXPECT_GT(inside, -0.03) << r << " " << turned;
+      // Nor do they ask for more than is needed.
+      if (!keeps) EXPECT_LT(inside, 0.3) << r << " " << turned;
+      ++(keeps ? kept : refused);
     }
+  EXPECT_GT(kept, 100);
+  EXPECT_GT(refused, 100);
 }
 
 }  // namespace
