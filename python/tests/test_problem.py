@@ -277,3 +277,17 @@ def test_what_is_refused_is_not_there_and_can_be_declared_again(wrong, right):
     right(p)
     with pytest.raises(slalom.InvalidValue, match="twice"):
         right(p)
+
+
+def test_an_answer_of_another_problem_is_not_loaded(tmp_path):
+    bryson_denham().solve(mesh=10).save(tmp_path / "answer.json")
+    other = slalom.Problem("as many, by other names")
+    for name in ("x", "w"):
+        other.state(name)
+    other.control("u")
+    with pytest.raises(slalom.InvalidValue, match="with the states x, v, expected.*x, w"):
+        other.load_solution(tmp_path / "answer.json")
+    more = bryson_denham()
+    more.integral("work", more.tf)
+    with pytest.raises(slalom.InvalidValue, match="0 integrals, expected 1"):
+        more.load_solution(tmp_path / "answer.json")
