@@ -22,7 +22,7 @@ int check(const CommonOptions& options) {
     json["obstacles"] = scenario.obstacles.size();
     json["advice"] = advice;
     json["resolved"] = io::to_yaml(scenario);
-    print(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    print(text_of(json));
   } else {
     print(io::to_yaml(scenario));
     for (const auto& sentence : advice) fmt::print(stderr, "slalom: note: {}\n", sentence);

@@ -4,11 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "../../src/io/file_set.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "interrupt.hpp"
 #include "slalom/base/error.hpp"
-#include "slalom/io/drive_files.hpp"
 #include "slalom/io/results_folder.hpp"
 #include "slalom/planner/lap.hpp"
 #include "slalom/vehicle/state.hpp"
@@ -51,7 +51,14 @@ std::string json(const sim::Scenario& scenario, const planner::Lap& lap) {
                              {"iterations", mesh.iterations},
                              {"objective", mesh.objective},
                              {"solve_s", mesh.wall_s}});
-  return out.dump(2) + "\n";
+  return text_of(out);
+}
+
+void write(const std::filesystem::path& folder, const planner::Lap& lap) {
+  io::FileSet files;
+  files.add(folder / "lap.csv", csv(lap));
+  files.replace_results(folder);
+  files.commit();
 }
 
 int lap(const LapOptions& options) {
@@ -76,10 +83,10 @@ int lap(const LapOptions& options) {
     write_or_fail([&] { folder = {options.common.out, options.common.force}; });
   const auto lap = planner::fastest_lap(*scenario.road, scenario.vehicle, settings);
   const bool solved = !lap.s.empty();
-  if (interrupted()) return exit_code_for("interrupted", options.common.expect);
-  if (options.common.writes() && solved)
-    write_or_fail(
-        [&] { io::write_file(std::filesystem::path(options.common.out) / "lap.csv", csv(lap)); });
+  // An interrupt that comes when the last mesh is solved loses nothing.
+  if (interrupted() && lap.refined.status == ocp::RefineStatus::not_solved)
+    return exit_code_for("interrupted", options.common.expect);
+  if (options.common.writes() && solved) write_or_fail([&] { write(options.common.out, lap); });
   if (options.common.json) {
     print(json(scenario, lap));
   } else if (!options.common.quiet) {

@@ -25,8 +25,7 @@ int list(const CommonOptions& options) {
       text += fmt::format("  {:<14} {}\n", entry.name, entry.title);
     }
   }
-  print(options.json ? json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
-                     : text);
+  print(options.json ? text_of(json) : text);
   return kOk;
 }
 

@@ -33,12 +33,10 @@ int make_scenarios(const MakeOptions& options) {
   if (options.json) {
     auto names = nlohmann::ordered_json::array();
     for (const auto& scenario : made) names.push_back(options.out + "/" + scenario.name + ".yaml");
-    print(nlohmann::ordered_json({{"family", options.family},
-                                  {"seed", options.seed},
-                                  {"difficulty", options.difficulty},
-                                  {"files", names}})
-              .dump(2) +
-          "\n");
+    print(text_of({{"family", options.family},
+                   {"seed", options.seed},
+                   {"difficulty", options.difficulty},
+                   {"files", names}}));
   } else if (!options.quiet) {
     print(fmt::format("{} scenarios of {} written to {}\n", made.size(), options.family,
                       options.out));

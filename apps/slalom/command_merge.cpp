@@ -24,12 +24,10 @@ int merge(const MergeOptions& options) {
   });
   const auto& study = merged.study;
   if (options.json)
-    print(nlohmann::ordered_json({{"study", study.name},
-                                  {"trials", study.size},
-                                  {"merged", merged.trials},
-                                  {"missing", study.size - merged.trials}})
-              .dump(2) +
-          "\n");
+    print(text_of({{"study", study.name},
+                   {"trials", study.size},
+                   {"merged", merged.trials},
+                   {"missing", study.size - merged.trials}}));
   else if (!options.quiet)
     print(fmt::format("{} of {} trials of {}, written to {}/trials.csv\n", merged.trials,
                       study.size, study.name, options.out));

@@ -99,7 +99,7 @@ int one(const ProblemsOptions& options) {
   if (options.json) {
     auto json = json_of(entry);
     json["run"] = json_of(run);
-    print(json.dump(2) + "\n");
+    print(text_of(json));
   } else {
     print(run_text(run));
   }
@@ -127,7 +127,7 @@ int all(const ProblemsOptions& options) {
                         run.error, run.wall_s, to_string(run.status),
                         run.agrees ? "agrees" : "differs"));
     }
-  if (options.json) print(json.dump(2) + "\n");
+  if (options.json) print(text_of(json));
   return agree ? kOk : kNotExpected;
 }
 
@@ -140,7 +140,7 @@ int problems_command(const ProblemsOptions& options) {
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const auto& entry : all_problems()) json.push_back(json_of(entry));
-  print(json.dump(2) + "\n");
+  print(text_of(json));
   return kOk;
 }
 

@@ -46,7 +46,7 @@ std::string json_text(const io::RecordedSolve& solve, const planner::Replayed& r
   json["recorded"] = one(recorded.status, recorded.iterations, recorded.phi);
   json["replayed"] = one(replayed.status, replayed.iterations, replayed.phi);
   json["same"] = replayed.same;
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return text_of(json);
 }
 
 nlohmann::ordered_json json_of(const planner::Certificate& c) {
@@ -72,7 +72,7 @@ int replay(const io::RecordedMotion& motion, const CommonOptions& options) {
     json["recorded"] = json_of(recorded);
     json["replayed"] = json_of(again);
     json["same"] = same;
-    print(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    print(text_of(json));
   } else if (!options.quiet) {
     const auto line = [](const char* who, const planner::Certificate& c) {
       return fmt::format("  {:<10} {}, {} m to {}, {} N\n", who,

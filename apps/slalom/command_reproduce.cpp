@@ -141,7 +141,7 @@ int reproduce(const ReproduceOptions& options) {
     write_or_fail([&] { paper::write_reproduction(out, all); });
     if (driver.text()) print(fmt::format("written to {}\n", (out / "index.html").string()));
   }
-  if (options.json) print(driver.json().dump(2) + "\n");
+  if (options.json) print(text_of(driver.json()));
   return options.expect.empty() || driver.as_paper() ? kOk : kNotExpected;
 }
 

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,5 +49,7 @@ void write_or_fail(const std::function<void()>& write);
 
 /// Prints to stdout; throws OutputError when stdout takes no more.
 void print(const std::string& text);
+/// As --json has it. What is not UTF-8, as names of files need not be, becomes U+FFFD.
+std::string text_of(const nlohmann::ordered_json& json);
 
 }  // namespace slalom::app

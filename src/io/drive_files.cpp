@@ -165,6 +165,7 @@ void write_drive(const std::filesystem::path& folder, const sim::Scenario& scena
   files.add(folder / "report.html", report::drive_page(scenario, drive));
   for (const auto& figure : report::drive_figures(scenario, drive))
     files.add(folder / "figures" / figure.file, figure.svg);
+  files.replace_results(folder);
   files.commit();
 }
 
@@ -174,6 +175,7 @@ void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenar
   files.add(folder / "plan.csv", plan_csv(cycle.plan));
   files.add(folder / "plan.json", plan_json(scenario, cycle, warm_up));
   files.add(folder / "resolved.yaml", to_yaml(scenario));
+  files.replace_results(folder);
   files.commit();
 }
 

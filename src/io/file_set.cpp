@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -21,9 +22,26 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Files by which a folder of results is known.
-constexpr const char* kResults[] = {"plant.csv",    "plans.csv",     "cycles.csv",
-                                    "summary.json", "resolved.yaml", "report.html",
-                                    "plan.csv",     "plan.json",     "index.html"};
+constexpr const char* kResults[] = {"plant.csv",     "plans.csv",   "cycles.csv", "summary.json",
+                                    "resolved.yaml", "report.html", "plan.csv",   "plan.json",
+                                    "lap.csv",       "index.html"};
+/// Those of one drive, plan or lap, which say nothing of the next one there.
+constexpr const char* kOfOne[] = {"plant.csv",
+                                  "plans.csv",
+                                  "cycles.csv",
+                                  "summary.json",
+                                  "resolved.yaml",
+                                  "report.html",
+                                  "plan.csv",
+                                  "plan.json",
+                                  "lap.csv",
+                                  "figures/path.svg",
+                                  "figures/speed.svg",
+                                  "figures/acceleration.svg",
+                                  "figures/steering.svg",
+                                  "figures/lateral.svg",
+                                  "figures/wheel_loads.svg",
+                                  "figures/solve_time.svg"};
 
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw Error(fmt::format("{}: cannot be written ({})", path.string(), std::strerror(error)));
@@ -161,6 +179,22 @@ int FileSet::write_aside(const fs::path& path, const std::function<std::string()
   return flush_and_close(descriptor, problem);
 }
 
+void FileSet::replace_results(const fs::path& folder) {
+  replaced_.push_back(folder);
+}
+
+/// Once the new files stand, so that there is a result at every moment. What cannot be removed is
+/// no reason to fail: the results are there.
+void FileSet::remove_replaced() const {
+  std::set<fs::path> written;
+  for (const auto& file : pending_) written.insert(file.path);
+  for (const auto& folder : replaced_) {
+    for (const char* name : kOfOne)
+      if (written.count(folder / name) == 0) ::unlink((folder / name).c_str());
+    ::rmdir((folder / "figures").c_str());  // which fails unless it is empty
+  }
+}
+
 int FileSet::probe(const fs::path& folder) {
   FileSet files;
   bool written = false;
@@ -172,7 +206,9 @@ int FileSet::probe(const fs::path& folder) {
 void FileSet::commit() {
   for (const auto& file : pending_)
     if (::rename(file.aside.c_str(), file.path.c_str()) != 0) fail(file.path, errno);
+  remove_replaced();
   for (const auto& folder : folders_) flush_folder(folder.first);
+  replaced_.clear();
   pending_.clear();
   folders_.clear();
   made_folders_.clear();

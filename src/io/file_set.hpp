@@ -23,6 +23,9 @@ class FileSet {
   void add(const std::filesystem::path& path, const std::string& text);
   /// The same for text that comes in parts, up to an empty one.
   void add(const std::filesystem::path& path, const std::function<std::string()>& next_part);
+  /// On commit, the results of one drive, plan or lap go that stand in the folder and are not in
+  /// this set: they are of a run whose other results this set replaces.
+  void replace_results(const std::filesystem::path& folder);
   /// Puts all files in place, in the order of add(). Throws Error when a name cannot be taken.
   void commit();
 
@@ -38,10 +41,11 @@ class FileSet {
 
   /// 0 or the errno of what went wrong.
   int write_aside(const std::filesystem::path& path, const std::function<std::string()>& next_part);
+  void remove_replaced() const;
 
   std::vector<Pending> pending_;
   std::map<std::filesystem::path, Folder> folders_;  ///< with a file aside
-  std::vector<std::filesystem::path> made_folders_;
+  std::vector<std::filesystem::path> made_folders_, replaced_;
 };
 
 }  // namespace slalom::io

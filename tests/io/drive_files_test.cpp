@@ -207,6 +207,12 @@ TEST(DriveFiles, ResultsAreNotOverwrittenUnlessForced) {
             std::string::npos);
   prepare_folder(folder / "deep/out", true);
   EXPECT_EQ(test::read(folder / "deep/out/summary.json"), "{}");
+  for (const char* name : {"lap.csv", "plan.csv", "plant.csv", "index.html"}) {
+    const auto out = folder / name;
+    std::filesystem::create_directory(out);
+    test::write(out / name, "");
+    EXPECT_NE(error_of([&] { prepare_folder(out, false); }).find(name), std::string::npos) << name;
+  }
 }
 
 }  // namespace

@@ -57,5 +57,25 @@ TEST(FileSet, WhatKilledRunsLeftIsSweptUpAndNothingElse) {
     EXPECT_EQ(test::read(folder / name), "mine");
 }
 
+TEST(FileSet, ResultsThatAreReplacedGoOnceTheNewOnesStand) {
+  TemporaryFolder folder;
+  for (const char* name : {"plan.csv", "resolved.yaml", "notes.txt", "index.html"})
+    test::write(folder / name, "old");
+  {
+    FileSet given_up;
+    given_up.add(folder / "lap.csv", "new");
+    given_up.replace_results(folder.path());
+  }
+  EXPECT_EQ(test::count(folder.path()), 4U);
+  FileSet files;
+  files.add(folder / "resolved.yaml", "new");
+  files.replace_results(folder.path());
+  EXPECT_EQ(test::read(folder / "plan.csv"), "old");
+  files.commit();
+  EXPECT_EQ(test::read(folder / "resolved.yaml"), "new");
+  EXPECT_FALSE(std::filesystem::exists(folder / "plan.csv"));
+  for (const char* name : {"notes.txt", "index.html"}) EXPECT_EQ(test::read(folder / name), "old");
+}
+
 }  // namespace
 }  // namespace slalom::io

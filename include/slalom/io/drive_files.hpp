@@ -18,12 +18,14 @@ void write_file(const std::filesystem::path& path, const std::string& text);
 void prepare_folder(const std::filesystem::path& folder, bool force);
 
 /// Writes plant.csv, plans.csv, cycles.csv, summary.json, resolved.yaml, report.html and the
-/// figures of a drive into `folder` (made by prepare_folder).
+/// figures of a drive into `folder` (made by prepare_folder). Results of another drive, plan or lap
+/// that stand there go.
 void write_drive(const std::filesystem::path& folder, const sim::Scenario& scenario,
                  const sim::Drive& drive);
 
-/// Writes plan.csv (one row a node), plan.json and resolved.yaml of a single plan. `warm_up` is the
-/// solve before it, or nullptr if there was none.
+/// Writes plan.csv (one row a node), plan.json and resolved.yaml of a single plan, in the place of
+/// other results as write_drive() does. `warm_up` is the solve before it, or nullptr if there was
+/// none.
 void write_plan(const std::filesystem::path& folder, const sim::Scenario& scenario,
                 const sim::Cycle& cycle, const sim::Cycle* warm_up);
 
