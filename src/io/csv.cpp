@@ -1,7 +1,11 @@
 #include "csv.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "number.hpp"
 
 namespace slalom::io {
 
@@ -31,11 +35,26 @@ std::vector<std::string> csv_cells(const std::string& line) {
 }
 
 std::optional<double> csv_number(const std::string& text) {
-  double value = 0;
-  const auto* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto number = read_number(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
+}
+
+std::optional<std::vector<std::string>> CsvRows::next() {
+  constexpr const char* kBlanks = " \t\r";
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // with which spreadsheets begin
+  for (std::string line; std::getline(lines_, line);) {
+    if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
+    const auto begin = line.find_first_not_of(kBlanks);
+    if (begin == std::string::npos) continue;
+    if (std::exchange(first_, false) && line[begin] == '#') line.erase(0, begin + 1);
+    auto cells = csv_cells(line);
+    for (auto& cell : cells) {
+      cell.erase(0, std::min(cell.find_first_not_of(kBlanks), cell.size()));
+      cell.erase(cell.find_last_not_of(kBlanks) + 1);
+    }
+    return cells;
+  }
+  return std::nullopt;
 }
 
 }  // namespace slalom::io

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <optional>
-#include <sstream>
+#include <utility>
 
 #include "csv.hpp"
 #include "slalom/base/error.hpp"
@@ -22,25 +22,24 @@ std::vector<double> read_numbers(const OptionInfo& info, const Value& name) {
   auto file = std::filesystem::path(name.text);
   if (file.is_relative() && name.place.line > 0)
     file = std::filesystem::path(name.place.source).parent_path() / file;
-  std::istringstream lines(read_file(file, kMostBytes, fmt::format("a file of {}", info.name)));
+  CsvRows rows(read_file(file, kMostBytes, fmt::format("a file of {}", info.name)));
   std::vector<double> numbers;
   std::size_t at = 0;
-  int row = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++row;
-    const auto texts = csv_cells(line);
-    if (row == 1 && !csv_number(texts[0])) {
-      const auto found = std::find(texts.begin(), texts.end(), column);
-      if (found == texts.end())
-        throw InvalidValue(fmt::format("{}:1", file.string()), "no such column",
+  bool first = true;
+  while (const auto texts = rows.next()) {
+    const auto where = fmt::format("{}:{}", file.string(), rows.line());
+    if (std::exchange(first, false) && !csv_number(texts->front())) {
+      const auto found = std::find(texts->begin(), texts->end(), column);
+      if (found == texts->end())
+        throw InvalidValue(where, "no such column",
                            fmt::format("the column {}, or one number a line", column));
-      at = static_cast<std::size_t>(found - texts.begin());
+      at = static_cast<std::size_t>(found - texts->begin());
       continue;
     }
-    const auto value = at < texts.size() ? csv_number(texts[at]) : std::nullopt;
+    const auto value = at < texts->size() ? csv_number((*texts)[at]) : std::nullopt;
     if (!value)
-      throw InvalidValue(fmt::format("{}:{}", file.string(), row),
-                         at < texts.size() ? fmt::format("'{}'", texts[at]) : "too few cells",
+      throw InvalidValue(where,
+                         at < texts->size() ? fmt::format("'{}'", (*texts)[at]) : "too few cells",
                          "a finite number");
     numbers.push_back(*value);
   }

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
-#include <string_view>
+#include <utility>
 
 #include "csv.hpp"
 #include "section.hpp"
@@ -20,7 +19,6 @@ using Row = std::vector<double>;
 
 constexpr std::size_t kMostBytes = 16U << 20U;
 constexpr std::size_t kMostRows = 100'000;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  ///< with which spreadsheets begin
 
 std::string in_words(const std::vector<Column>& columns) {
   std::vector<std::string> names;
@@ -32,11 +30,6 @@ std::string in_words(const std::vector<Column>& columns) {
 std::size_t fewest(const std::vector<Column>& columns) {
   return static_cast<std::size_t>(std::count_if(columns.begin(), columns.end(),
                                                 [](const auto& c) { return !c.may_be_absent; }));
-}
-
-std::string without_blanks(std::string text) {
-  std::erase_if(text, [](char c) { return c == ' ' || c == '\t'; });
-  return text;
 }
 
 std::vector<Row> rows_of_list(const Value& list, const std::vector<Column>& columns,
@@ -84,20 +77,17 @@ std::vector<Row> rows_of_file(const Value& name, const std::vector<Column>& colu
   fs::path file = name.text;
   if (file.is_relative() && name.place.line > 0)
     file = fs::path(name.place.source).parent_path() / file;
-  std::istringstream lines(read_file(file, kMostBytes, fmt::format("a file with {}", what)));
+  CsvRows lines(read_file(file, kMostBytes, fmt::format("a file with {}", what)));
   std::vector<Row> rows;
   std::vector<std::size_t> places;
-  int at = 0;
-  for (std::string line; std::getline(lines, line);) {
-    const auto where = fmt::format("{}:{}", file.string(), ++at);
-    line = without_blanks(line);
-    if (at == 1) {
-      if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
-      places = places_of(columns, csv_cells(line.starts_with('#') ? line.substr(1) : line), where);
+  bool first = true;
+  while (const auto line = lines.next()) {
+    const auto& cells = *line;
+    const auto where = fmt::format("{}:{}", file.string(), lines.line());
+    if (std::exchange(first, false)) {
+      places = places_of(columns, cells, where);
       continue;
     }
-    if (line.empty() || line == "\r") continue;
-    const auto cells = csv_cells(line);
     Row row;
     for (const std::size_t place : places) {
       const auto number = place < cells.size() ? csv_number(cells[place]) : std::nullopt;

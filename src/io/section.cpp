@@ -5,37 +5,28 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <numbers>
 #include <optional>
+#include <string_view>
 
+#include "number.hpp"
 #include "number_file.hpp"
 
 namespace slalom::io {
 namespace {
 
-/// A number in YAML's spelling, or nothing. Overflow is infinity, which every range refuses.
+/// A number, or nothing; whole ones as such.
 std::optional<OptionValue> to_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto number = read_number(text);
+  if (!number) return std::nullopt;
   const bool negative = text.starts_with('-');
-  const auto magnitude = text.substr(negative ? 1 : 0);
-  for (const char* infinity : {".inf", ".Inf", ".INF"})
-    if (magnitude == infinity) return negative ? -HUGE_VAL : HUGE_VAL;
-  for (const char* nan : {".nan", ".NaN", ".NAN"})
-    if (text == nan) return std::nan("");
-
+  if (text.starts_with('+')) text.remove_prefix(1);
   const char* end = text.data() + text.size();
   std::int64_t integer = 0;
-  const auto as_integer = std::from_chars(text.data(), end, integer);
+  const auto read = std::from_chars(text.data(), end, integer);
   // -0 stays a real number, so that it keeps its sign.
-  if (as_integer.ec == std::errc() && as_integer.ptr == end && (integer != 0 || !negative))
-    return integer;
-  double number = 0;
-  const auto as_real = std::from_chars(text.data(), end, number);
-  if (text.empty() || as_real.ptr != end) return std::nullopt;
-  if (as_real.ec == std::errc::result_out_of_range) return negative ? -HUGE_VAL : HUGE_VAL;
-  if (as_real.ec != std::errc()) return std::nullopt;
-  return number;
+  if (read.ec == std::errc() && read.ptr == end && (integer != 0 || !negative)) return integer;
+  return *number;
 }
 
 OptionValue scalar_value(const Value& value) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <sstream>
 
 #include "csv.hpp"
 #include "slalom/base/error.hpp"
@@ -97,23 +96,22 @@ std::string to_csv(const ocp::Solution& solution) {
 }
 
 ocp::Trajectory read_trajectory(const std::string& file, const ocp::Problem& problem) {
-  std::istringstream lines(read_file(file, kMaxSolutionBytes, "a table of a trajectory (CSV)"));
-  std::string line;
-  std::getline(lines, line);
-  const auto header = csv_cells(line);
-  const auto time = columns_of({"t"}, header, file + ":1");
-  const auto states = columns_of(names_of(problem.states()), header, file + ":1");
-  const auto controls = columns_of(names_of(problem.controls()), header, file + ":1");
+  CsvRows rows(read_file(file, kMaxSolutionBytes, "a table of a trajectory (CSV)"));
+  const auto header = rows.next().value_or(std::vector<std::string>());
+  const auto where = fmt::format("{}:{}", file, std::max(1, rows.line()));
+  const auto time = columns_of({"t"}, header, where);
+  const auto states = columns_of(names_of(problem.states()), header, where);
+  const auto controls = columns_of(names_of(problem.controls()), header, where);
   ocp::Trajectory trajectory;
   std::vector<double> times;
-  for (int number = 2; std::getline(lines, line); ++number) {
-    const auto cells = csv_cells(line);
+  while (const auto row = rows.next()) {
+    const auto& cells = *row;
     const auto take = [&](const std::vector<std::size_t>& columns) {
       std::vector<double> values;
       for (const std::size_t column : columns) {
         const auto value = column < cells.size() ? csv_number(cells[column]) : std::nullopt;
         if (!value)
-          throw InvalidValue(fmt::format("{}:{}: {}", file, number, header[column]),
+          throw InvalidValue(fmt::format("{}:{}: {}", file, rows.line(), header[column]),
                              column < cells.size() ? "'" + cells[column] + "'" : "too few cells",
                              "a finite number");
         values.push_back(*value);

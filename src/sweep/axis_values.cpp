@@ -3,20 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "../io/number.hpp"
 #include "../io/section.hpp"
 
 namespace slalom::sweep {
 
 std::optional<double> number_of(const io::Value& value) {
   if (value.kind != io::Value::Kind::scalar || value.quoted) return std::nullopt;
-  const char* end = value.text.data() + value.text.size();
-  double number = 0;
-  const auto read = std::from_chars(value.text.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number)) return std::nullopt;
-  return number;
+  const auto number = io::read_number(value.text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 double finite(const io::Value& value) {

@@ -25,6 +25,10 @@ std::vector<double> times_of(const std::string& text) {
 TEST(NumberFile, IsAColumnOrOneNumberALine) {
   const std::vector<double> expected = {0.1, 0.25, 3};
   EXPECT_EQ(times_of("0.1\n0.25\n3\n"), expected);
+  EXPECT_EQ(times_of("\xEF\xBB\xBF"
+                     "0.1\n\n0.25\n +3 \n\n"),
+            expected);
+  EXPECT_EQ(times_of("# solve_time_s\n0.1\n0.25\n3\n  \n"), expected);
   EXPECT_EQ(times_of("cycle,status,solve_time_s\n1,\"a, b\",0.1\n2,c,.25\n3,d,3\r\n"), expected);
 }
 

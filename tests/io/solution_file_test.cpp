@@ -309,6 +309,9 @@ TEST_F(SolutionFile, ATableIsAGuessOfTheSameBits) {
     EXPECT_TRUE(same_bits(guess.controls[k], solution.trajectory.controls[k]));
   }
   EXPECT_EQ(guess.tf, solution.trajectory.tf);
+  // As an editor or a spreadsheet leaves it.
+  write_file(path("b.csv"), "\xEF\xBB\xBF" + csv + "\n \n");
+  EXPECT_EQ(read_trajectory(path("b.csv"), rich()).states, guess.states);
   // Costates stand at the mesh's nodes alone: four rows of nine end without an empty cell.
   std::size_t full = 0, rows = 0;
   for (std::size_t at = csv.find('\n'); at + 1 < csv.size(); at = csv.find('\n', at + 1)) {
