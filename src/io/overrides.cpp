@@ -133,6 +133,23 @@ void apply_setting(const std::string& path, const Place& place, const Value& val
   apply(a, scenario, places);
 }
 
+std::vector<std::string> settings_at(const std::string& path) {
+  Assignment a;
+  split_path(path, a);
+  sim::Scenario scenario;
+  world::Obstacle obstacle;
+  std::optional<Section> section;
+  if (const auto* found = find_section(a.section))
+    section = found->bind(scenario);
+  else if (a.section.starts_with("obstacles."))
+    section = obstacle_section(obstacle, a.section);
+  const Field* field = section ? section->find(a.key) : nullptr;
+  if (field == nullptr || field->excludes.empty()) return {path};
+  std::vector<std::string> paths;
+  for (const auto& key : field->excludes) paths.push_back(a.section + "." + key);
+  return paths;
+}
+
 std::optional<OptionInfo> option_at(const std::string& path, sim::Scenario scenario) {
   Assignment a;
   split_path(path, a);

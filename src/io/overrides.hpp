@@ -22,6 +22,10 @@ void apply_setting(const std::string& path, const Place& place, const Value& val
 /// The vehicle's settings that assignments or key paths name, without their section.
 std::set<std::string> stated_of_vehicle(const std::vector<std::string>& assignments);
 
+/// The settings that a key path sets, by the paths under which files are written: obstacles.O1.a
+/// and .b for obstacles.O1.r, start.psi for start.psi_deg; else the path itself.
+std::vector<std::string> settings_at(const std::string& path);
+
 /// The option that a key path names, but for obstacles and the scenario's name and title; nothing
 /// where there is none.
 std::optional<OptionInfo> option_at(const std::string& path, sim::Scenario scenario);

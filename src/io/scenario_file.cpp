@@ -64,6 +64,7 @@ class Loader {
     if (scenario_.vehicle.footprint != vehicle::FootprintKind::point &&
         places_.count("loop.sm_crash") == 0)
       scenario_.loop.sm_crash = 0;
+    check_goal_keys(scenario_, places_);
     scenario_.goal = world::placed(scenario_.goal, scenario_.road.get());
     if (const auto numbers = numbers_in_tables(scenario_); numbers > kMaxNumbers)
       throw InvalidValue(file_.string(), fmt::format("tables of {} numbers together", numbers),

@@ -1,5 +1,7 @@
 #include "semantic_check.hpp"
 
+#include <fmt/format.h>
+
 #include <tuple>
 #include <vector>
 
@@ -50,6 +52,27 @@ void check_scenario(const sim::Scenario& scenario, const Place& whole, const Pla
     throw InvalidValue(place_of(error.keys(), whole, places).to_string(),
                        subject_of(error, whole.source) + error.found(), error.expected(),
                        error.keys());
+  }
+}
+
+void check_goal_keys(const sim::Scenario& scenario, const Places& stated) {
+  const auto kind = scenario.goal.kind();
+  if (kind == world::GoalKind::square) return;
+  const bool rectangle = kind == world::GoalKind::rectangle;
+  const std::string by = rectangle                       ? "length"
+                         : kind == world::GoalKind::line ? "s"
+                         : kind == world::GoalKind::time ? "time"
+                                                         : "laps";
+  const auto winner = stated.find("goal." + by);
+  for (const std::string key : {"sigma", "psi_deg", "psi", "x", "y"}) {
+    if (rectangle && key != "sigma") continue;
+    const auto lost = stated.find("goal." + key);
+    if (lost == stated.end()) continue;
+    // The command line may put another goal in the place of the file's.
+    if (lost->second.line > 0 && winner != stated.end() && winner->second.line == 0) continue;
+    throw InvalidValue(lost->second.to_string(), fmt::format("{} of the goal beside {}", key, by),
+                       rectangle ? "sigma only without length and width"
+                                 : fmt::format("{} only without {}", key, by));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -56,6 +57,7 @@ class StudyLoader {
     check_size(static_cast<std::size_t>(study_.settings.repeats), "repeats");
     if (const io::Value* axes = root_.find("axes")) read_axes(*axes);
     check_set_keys();
+    check_goals();
     study_.kernels = kernel_name(study_.settings.kernels);
     study_.scenarios = std::move(bases_.scenarios);
     study_.stated = std::move(bases_.stated);
@@ -73,7 +75,6 @@ class StudyLoader {
   void read_axes(const io::Value& list) {
     if (list.kind == io::Value::Kind::null || list.kind != io::Value::Kind::sequence)
       throw InvalidValue(list.place.to_string(), list.describe(), "a list of axes");
-    std::set<std::string> keys;
     const auto option_of = [&](const std::string& key) {
       return io::option_at(key, bases_.all.front());
     };
@@ -81,29 +82,55 @@ class StudyLoader {
       take_in_files(item, option_of);
       auto placed = read_axis(item, study_.settings.seed, study_.axes.size());
       for (std::size_t i = 0; i < placed.axis.keys.size(); ++i)
-        if (!keys.insert(placed.axis.keys[i]).second)
-          throw InvalidValue(placed.keys[i].to_string(),
-                             fmt::format("key '{}' a second time", placed.axis.keys[i]),
-                             "each key on one axis");
+        add_key(placed.axis.keys[i], placed.keys[i], "each key on one axis", varied_);
       check_size(placed.axis.points.size(), item.place);
       try_values(placed);
+      for (std::size_t i = 0; i < placed.keys.size(); ++i)
+        axes_[placed.axis.keys[i]] = placed.keys[i];
       study_.axes.push_back(std::move(placed.axis));
+    }
+  }
+
+  /// What keys set, each with its key. Throws InvalidValue for what another key sets already.
+  using Setters = std::map<std::string, std::string>;
+  static void add_key(const std::string& key, const io::Place& place, const std::string& expected,
+                      Setters& setters) {
+    for (const auto& setting : io::settings_at(key)) {
+      const auto [other, is_new] = setters.emplace(setting, key);
+      if (is_new) continue;
+      throw InvalidValue(place.to_string(),
+                         other->second == key ? fmt::format("key '{}' a second time", key)
+                                              : fmt::format("both {} and {}", other->second, key),
+                         expected);
     }
   }
 
   /// What is set for all trials would be lost on an axis. Throws InvalidValue.
   void check_set_keys() const {
-    for (const auto& key : study_.columns()) {
-      const auto refuse = [&](const std::string& where) {
-        throw InvalidValue(where, fmt::format("a value for '{}', which an axis varies", key),
-                           "a key that is the same in all trials");
-      };
-      if (const io::Value* set = root_.find("set"))
-        for (const auto& member : set->members)
-          if (member.key == key) refuse(member.place.to_string());
-      for (const auto& assignment : overrides_)
-        if (assignment.starts_with(key + "=")) refuse("--set " + key);
+    const auto check = [&](const std::string& key, const std::string& where) {
+      for (const auto& setting : io::settings_at(key))
+        if (const auto axis = varied_.find(setting); axis != varied_.end())
+          throw InvalidValue(where, fmt::format("a value for '{}', which an axis varies", key),
+                             "a key that is the same in all trials");
+    };
+    Setters setters;
+    if (const io::Value* set = root_.find("set"))
+      for (const auto& member : set->members) {
+        check(member.key, member.place.to_string());
+        add_key(member.key, member.place, "one of them", setters);
+      }
+    for (const auto& assignment : overrides_) {
+      const auto key = assignment.substr(0, assignment.find('='));
+      check(key, "--set " + key);
     }
+  }
+
+  /// An axis of what the goals of all trials have no use for would be a column without effect.
+  void check_goals() const {
+    for (const char* key : {"goal.s", "goal.time", "goal.laps", "goal.length"})
+      if (axes_.count(key) > 0) return;  // what a trial's goal is shows when it is resolved
+    for (const auto& base : bases_.all)
+      apply_to(bases_, base, [&] { io::check_goal_keys(base, axes_); });
   }
 
   /// Sets every value once, on its own: whether values get along shows when a trial is resolved.
@@ -171,6 +198,8 @@ class StudyLoader {
   StudyBases bases_;
   std::vector<std::size_t> factors_;  ///< whose product is the number of trials
   io::Places places_;
+  Setters varied_;   ///< by the axes
+  io::Places axes_;  ///< where each of their keys stands
 };
 
 }  // namespace
@@ -262,6 +291,8 @@ sim::Scenario resolve_trial(sim::Scenario base, const TrialKeys& keys, const Tri
   }
   vehicle::derive(base.vehicle, io::stated_of_vehicle(keys.axes),
                   {keys.stated.begin(), keys.stated.end()});
+  io::check_goal_keys(base, places);
+  base.goal = world::placed(base.goal, base.road.get());
   io::check_scenario(base, {where, 0, 0}, places);
   return base;
 }

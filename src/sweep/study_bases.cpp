@@ -9,6 +9,7 @@
 
 #include "../io/config_dir.hpp"
 #include "../io/overrides.hpp"
+#include "../io/semantic_check.hpp"
 #include "axis_values.hpp"
 #include "slalom/io/scenario_file.hpp"
 #include "slalom/vehicle/derived.hpp"
@@ -155,7 +156,9 @@ class BaseReader {
         for (const auto& member : set->members)
           io::apply_setting(member.key, member.place, member.value, scenario, places_);
       for (const auto& assignment : overrides_) io::apply_override(assignment, scenario, places_);
+      io::check_goal_keys(scenario, places_);
     });
+    scenario.goal = world::placed(scenario.goal, scenario.road.get());
     // Once, so that what one of the two states is not derived from the other.
     vehicle::derive(scenario.vehicle, {bases_.stated.begin(), bases_.stated.end()});
     return scenario;

@@ -71,6 +71,8 @@ class Refused(SweepTest):
                 (head + "repeats: -1\n", ["s.yaml:2:10", "repeats = -1"]),
                 (head + "axes:\n  - {key: loop.tex, values: [1]}\n  - {key: loop.tex, values: [2]}\n",
                  ["s.yaml:4:11", "'loop.tex' a second time"]),
+                (head + "axes:\n  - {key: start.psi, values: [1]}\n  - {key: start.psi_deg, values: [90]}\n",
+                 ["s.yaml:4:11", "both start.psi and start.psi_deg"]),
                 (head + "axes:\n  - {key: loop.tex}\n", ["s.yaml:3:5", "none of the known forms"]),
                 (head + "axes:\n  - {keys: [start.x, start.y], values: [[1, 2], [3]]}\n",
                  ["s.yaml:3:", "1 values", "2 values"]),

@@ -60,6 +60,35 @@ TEST(RoadFile, RefusesWhatSaysNothingOfAGoalOfTheRoad) {
     EXPECT_NE(message("{s: 90, " + std::string(key) + "}").find(" beside s"), std::string::npos);
 }
 
+TEST(RoadFile, WhatSaysNothingOfAGoalIsRefusedFromTheCommandLineToo) {
+  const std::string text = "start: {x: 0, y: 0, psi: 0, ux: 12}\nplanner: P_E\n" + kRoad + "goal: ";
+  const auto with = [&](const std::string& goal, const std::vector<std::string>& set) {
+    try {
+      (void)parse_scenario(text + goal, ScenarioRequest{"my.yaml", {}, {}, set, {}});
+    } catch (const InvalidValue& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  for (const char* key : {"sigma=3", "x=20", "y=0", "psi=0", "psi_deg=3"})
+    for (const char* goal : {"{s: 90}", "{time: 8}"}) {
+      const auto found = with(goal, {std::string("goal.") + key});
+      EXPECT_NE(found.find("--set goal." + std::string(key).substr(0, std::string(key).find('='))),
+                std::string::npos)
+          << found;
+      EXPECT_NE(found.find("of the goal beside "), std::string::npos) << found;
+    }
+  const std::string box = "{x: 60, y: 5, length: 8, width: 4}";
+  EXPECT_NE(with(box, {"goal.sigma=3"}).find("sigma of the goal beside length"), std::string::npos);
+  EXPECT_NE(with("{x: 60, y: 5, sigma: 15, length: 8, width: 4}", {}).find("my.yaml:"),
+            std::string::npos);
+  EXPECT_EQ(with(box, {"goal.x=61", "goal.psi_deg=10"}), "taken");
+  EXPECT_EQ(with("{s: 90}", {"goal.s=80", "goal.ux_max=9"}), "taken");
+  // Another goal in the place of the file's.
+  EXPECT_EQ(with("{x: 60, y: 5, psi: 0, sigma: 3}", {"goal.s=80"}), "taken");
+  EXPECT_EQ(with("{x: 60, y: 5, sigma: 3}", {"goal.length=8", "goal.width=4"}), "taken");
+}
+
 /// On a straight road to x = `last` [m], with a row of its table each metre.
 sim::Scenario on_a_long_road(int last) {
   test::TemporaryFolder folder;

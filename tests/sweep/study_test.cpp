@@ -8,6 +8,7 @@
 
 #include "io/files.hpp"
 #include "slalom/base/error.hpp"
+#include "slalom/io/scenario_file.hpp"
 
 namespace slalom::sweep {
 namespace {
@@ -155,6 +156,13 @@ TEST(Study, WhatThePlantIsAndWhatIsSensedAreAxes) {
   EXPECT_GT(scenario.sensing.delay, 0.1);
 }
 
+TEST(Study, NumbersOfAnAxisAreReadAsThoseOfASetting) {
+  const auto study =
+      study_of("scenario: E_B\naxes:\n  - {key: start.v, values: [+.5, 1e-400, 5e-1]}\n");
+  EXPECT_EQ(all(study.axes[0].points),
+            (std::vector<std::vector<std::string>>{{"0.5"}, {"0"}, {"0.5"}}));
+}
+
 TEST(Study, DrawsFollowTheSeedAndTheirDistributions) {
   const auto text = [](int seed, int count) {
     return "scenario: E_B\nseed: " + std::to_string(seed) +
@@ -267,6 +275,56 @@ TEST(Study, ATrialWhoseValuesContradictEachOtherIsNamed) {
   } catch (const InvalidValue& error) {
     EXPECT_STREQ(error.what(), "trial 4: loop.tex: found tex = 9, expected at most tf_max = 8");
   }
+}
+
+TEST(Study, GoalsOfTheRoadLieWhereTheirTrialsHaveThem) {
+  const auto at = [](const std::string& s) {
+    return io::load_scenario({"door", {}, {}, {"goal.s=" + s}, {}}).goal.x;
+  };
+  const auto axis = study_of("scenario: door\naxes:\n  - {key: goal.s, values: [60, 110]}\n");
+  EXPECT_EQ(axis.resolve(axis.trial(1)).goal.x, at("60"));
+  EXPECT_EQ(axis.resolve(axis.trial(2)).goal.x, at("110"));
+  EXPECT_NE(at("60"), at("110"));
+  EXPECT_EQ(study_of("scenario: door\nset: {goal.s: 60}\n").bases[0].goal.x, at("60"));
+}
+
+TEST(Study, WhatIsSetTwiceOrToNoEffectIsRefused) {
+  const auto refusal = [](const std::string& text, const std::vector<std::string>& set = {}) {
+    const TemporaryFolder folder;
+    test::write(folder / "s.yaml", text);
+    try {
+      (void)load_study((folder / "s.yaml").string(), set);
+    } catch (const InvalidValue& error) {
+      return std::string(error.what());
+    }
+    return std::string("taken");
+  };
+  const auto expect = [](const std::string& found, const std::string& part) {
+    EXPECT_NE(found.find(part), std::string::npos) << found;
+  };
+  const std::string head = "scenario: E_B\n";
+  const std::string psi = "axes:\n  - {key: start.psi, values: [1.5, 1.6]}\n";
+  expect(refusal(head + psi + "  - {key: start.psi_deg, values: [90]}\n"),
+         "both start.psi and start.psi_deg");
+  expect(refusal(head + "axes:\n  - {keys: [obstacles.O1.r, obstacles.O1.a], values: [[2, 3]]}\n"),
+         "both obstacles.O1.r and obstacles.O1.a");
+  expect(refusal(head + "axes:\n  - draw: {count: 2, of: [{key: obstacles.O1.r, uniform: [1, 2]}, "
+                        "{key: obstacles.O1.b, uniform: [1, 2]}]}\n"),
+         "both obstacles.O1.r and obstacles.O1.b");
+  expect(refusal(head + "set: {start.psi_deg: 90}\n" + psi), "s.yaml:2:7");
+  expect(refusal(head + psi, {"start.psi_deg=90"}), "--set start.psi_deg");
+  expect(refusal(head + "set: {start.psi: 1.5, start.psi_deg: 90}\n"),
+         "both start.psi and start.psi_deg");
+  EXPECT_EQ(refusal(head + "set: {obstacles.O2.r: 3}\naxes:\n"
+                           "  - {keys: [obstacles.O1.a, obstacles.O1.b], values: [[2, 3]]}\n"),
+            "taken");
+  const std::string door = "scenario: door\n";
+  expect(refusal(door + "set: {goal.sigma: 3}\n"), "sigma of the goal beside s");
+  expect(refusal(door, {"goal.x=3"}), "--set goal.x");
+  expect(refusal(door + "axes:\n  - {key: goal.psi, values: [0, 1]}\n"),
+         "psi of the goal beside s");
+  expect(refusal("scenarios: [E_B, door]\naxes:\n  - {key: goal.sigma, values: [9, 15]}\n"),
+         "for scenario 'door'");
 }
 
 TEST(TrialIdentity, TellsConfigurationKernelsAndRepeatsApart) {
