@@ -13,28 +13,38 @@ namespace {
 
 using sim::Scenario;
 
-io::ScenarioRequest request_of(const std::string& source, const Changes& changes) {
-  io::ScenarioRequest request{source, changes.planner, changes.tex, {}, changes.vehicle};
-  for (const auto& [key, value] : changes.set) {
-    // As the command line has it: text, or what Python prints of a number or truth value.
-    const auto text = nb::isinstance<nb::bool_>(value) ? (nb::cast<bool>(value) ? "true" : "false")
-                                                       : nb::cast<std::string>(nb::str(value));
-    request.overrides.push_back(as<std::string>(key, "set", "keys such as 'planner.w_t'") + "=" +
-                                text);
-  }
-  return request;
-}
-
-/// A dict as the text of a file: JSON, which is YAML but for pairs of surrogates, so that it has
-/// its letters as they are; arrays and NumPy's numbers by their tolist().
-std::string text_of(const nb::dict& scenario) {
+/// As the text of a file: JSON, which is YAML but for pairs of surrogates, so that it has its
+/// letters as they are; arrays and NumPy's numbers by their tolist().
+std::string text_of(const nb::object& value) {
   const nb::object plain =
-      nb::cpp_function([](const nb::object& value) { return nb::object(value.attr("tolist")()); });
-  const nb::object text = nb::module_::import_("json").attr("dumps")(scenario, "default"_a = plain,
+      nb::cpp_function([](const nb::object& other) { return nb::object(other.attr("tolist")()); });
+  const nb::object text = nb::module_::import_("json").attr("dumps")(value, "default"_a = plain,
                                                                      "ensure_ascii"_a = false);
   // By bytes: half a pair is an error that says so.
   const auto bytes = nb::cast<nb::bytes>(text.attr("encode")());
   return {bytes.c_str(), bytes.size()};
+}
+
+/// Whether text_of() has it, but for what it holds.
+bool has_text(const nb::object& value) {
+  return value.is_none() || nb::isinstance<nb::bool_>(value) || nb::isinstance<nb::int_>(value) ||
+         nb::isinstance<nb::float_>(value) || nb::isinstance<nb::list>(value) ||
+         nb::isinstance<nb::tuple>(value) || nb::isinstance<nb::dict>(value) ||
+         nb::hasattr(value, "tolist");
+}
+
+io::ScenarioRequest request_of(const std::string& source, const Changes& changes) {
+  io::ScenarioRequest request{source, changes.planner, changes.tex, {}, changes.vehicle};
+  for (const auto& [key, value] : changes.set) {
+    // As the command line has it: text as it stands, what a dict may hold as it would have it.
+    const nb::object object = nb::borrow(value);
+    const bool is_text = nb::isinstance<nb::str>(object);
+    const auto text =
+        !is_text && has_text(object) ? text_of(object) : nb::cast<std::string>(nb::str(object));
+    request.overrides.push_back(as<std::string>(key, "set", "keys such as 'planner.w_t'") + "=" +
+                                text);
+  }
+  return request;
 }
 
 std::vector<std::string> keys(const Scenario& scenario) {

@@ -74,6 +74,26 @@ def test_a_scenario_as_a_dict_or_a_file(tmp_path):
     assert slalom.simulate(MINE).outcome == "goal"
 
 
+@pytest.mark.parametrize("key, value", [
+    ("loop.warm_up", False), ("loop.warm_up", np.bool_(False)), ("loop.tex", 0.25), ("loop.tex", np.float32(0.25)),
+    ("loop.tex", np.array(0.25)), ("planner.N", 12), ("planner.N", np.int64(12)), ("planner.solver", "interior_point"),
+    ("planner.X0_tol", [0.5] * 8), ("planner.X0_tol", (0.5,) * 8), ("planner.X0_tol", np.full(8, 0.5)),
+    ("planner.X0_tol", [np.float64(0.5)] * 8), ("goal.sigma", {"value": 7, "unit": "m"}),
+])
+def test_set_takes_what_a_dict_takes(key, value):
+    section, name = key.split(".")
+    by_dict = slalom.load_scenario({**MINE, section: {**MINE.get(section, {}), name: value}})
+    by_set = slalom.load_scenario(MINE, set={key: value})
+    assert by_set.to_yaml() == by_dict.to_yaml() and by_set[key] == by_dict[key]
+
+
+def test_set_takes_text_as_it_stands(tmp_path):
+    (tmp_path / "times.csv").write_text("0.1\n0.2\n")
+    scenario = slalom.load_scenario(MINE, set={
+        "title": "a: b", "loop.latency": "recorded", "loop.solve_times": tmp_path / "times.csv"})
+    assert scenario.title == "a: b" and list(scenario["loop.solve_times"]) == [0.1, 0.2]
+
+
 @pytest.mark.parametrize("load, error, message", [
     (lambda: slalom.load_scenario("E_X"), ValueError, "E_B"),
     (lambda: slalom.load_scenario("E_B", set={"planner.w_tt": 1}), ValueError, "w_t"),

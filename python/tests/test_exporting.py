@@ -254,6 +254,24 @@ def test_bad_folders(folder, tmp_path, capsys, damage, message):
     assert (sorted(p.name for p in copy.iterdir()) if copy.exists() else []) == before
 
 
+@pytest.mark.parametrize("name", ["plant.csv", "plans.csv", "cycles.csv", "summary.json"])
+def test_a_file_that_cannot_be_read_is_bad_input(folder, tmp_path, capsys, monkeypatch, name):
+    """Which permissions show to others than root alone."""
+    def denied(self, read):
+        if self.name == name:
+            raise PermissionError(13, "Permission denied", str(self))
+        return read(self)
+
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    read_bytes, read_text = pathlib.Path.read_bytes, pathlib.Path.read_text
+    monkeypatch.setattr(pathlib.Path, "read_bytes", lambda self: denied(self, read_bytes))
+    monkeypatch.setattr(pathlib.Path, "read_text", lambda self, **more: denied(self, lambda s: read_text(s, **more)))
+    assert command.main(["mcap", str(copy)], "slalom export") == 2
+    error = capsys.readouterr().err
+    assert f"{name}: found a file that cannot be read (Permission denied)" in error and error.count("\n") == 1, error
+
+
 def test_the_command(folder, tmp_path, capsys):
     pytest.importorskip("mcap", reason="needs the extra slalom[mcap]")
     copy = tmp_path / "copy"

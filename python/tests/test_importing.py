@@ -1,6 +1,5 @@
 """Scenarios of other formats become scenario files, whole or not at all; bad files are refused with file and line."""
 
-import os
 import pathlib
 
 import numpy as np
@@ -10,9 +9,6 @@ import scenes
 import slalom
 from slalom import importing
 from slalom.importing import __main__ as command
-
-FILES = os.environ.get("SLALOM_SCENARIOS")
-needs_files = pytest.mark.skipif(not FILES, reason="SLALOM_SCENARIOS names no folder with commonroad/*.xml and tracks/*.csv")
 
 
 @pytest.fixture(params=["2018b", "2020a"])
@@ -286,18 +282,20 @@ def test_the_command(tmp_path, monkeypatch, capsys):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["ring.csv", "ring.yaml"]
 
 
+def test_a_file_that_cannot_be_read_is_bad_input(tmp_path, monkeypatch, capsys):
+    def denied(self, *_, **__):
+        raise PermissionError(13, "Permission denied", str(self))
+
+    file = written(tmp_path, scenes.track(), "ring.csv")
+    for call in ("read_bytes", "is_file"):  # of the file, and of one in a folder that may not be searched
+        with monkeypatch.context() as patch:
+            patch.setattr(pathlib.Path, call, denied)
+            assert command.main(["track", str(file), "--out", str(tmp_path / "ring.yaml")]) == 2
+        assert "ring.csv: found a file that cannot be read (Permission denied)" in capsys.readouterr().err
+    assert command.main(["track", str(tmp_path / ("n" * 300 + ".csv"))]) == 2  # longer than a name may be
+
+
 def test_without_the_extra(tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(__import__("sys").modules, "commonroad.common.file_reader", None)
     assert command.main(["commonroad", str(written(tmp_path, scenes.commonroad()))]) == 2
     assert "pip install 'slalom[commonroad]'" in capsys.readouterr().err
-
-
-@needs_files
-def test_published_files(tmp_path):
-    files = sorted(pathlib.Path(FILES or ".").glob("*/*.xml")) + sorted(pathlib.Path(FILES or ".").glob("*/*.csv"))
-    assert files
-    for file in files:
-        if file.suffix == ".xml":
-            pytest.importorskip("commonroad", reason="needs the extra slalom[commonroad]")
-        scene = importing.commonroad(file) if file.suffix == ".xml" else importing.track(file)
-        scene.write(tmp_path / (file.stem + ".yaml"))

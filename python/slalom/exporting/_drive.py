@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 import slalom
 
-from ..importing._files import BadFile
+from ..importing._files import BadFile, readable
 
 Array = npt.NDArray[Any]
 EXPECTED = "a folder of results of 'slalom simulate'"
@@ -63,9 +63,13 @@ class Drive:
 
 def read_drive(folder: str | os.PathLike[str]) -> Drive:
     """Reads a results folder. Raises BadFile with file and line for what is none."""
-    path = pathlib.Path(folder)
+    with readable(folder, EXPECTED):
+        return _read_drive(pathlib.Path(folder))
+
+
+def _read_drive(path: pathlib.Path) -> Drive:
     if not path.is_dir():
-        raise BadFile(folder, "a file" if path.exists() else "no such folder", EXPECTED)
+        raise BadFile(path, "a file" if path.exists() else "no such folder", EXPECTED)
     for name in ("plant.csv", "plans.csv", "cycles.csv", "summary.json", "resolved.yaml"):
         if not (path / name).is_file():
             raise BadFile(path / name, "no such file", EXPECTED)

@@ -10,6 +10,7 @@ from typing import Callable
 from slalom import Error
 
 from . import BadFile, ExtraMissing, Scene, commonroad, track
+from ._files import readable
 
 OK, BAD_INPUT, NOT_WRITTEN = 0, 2, 3
 
@@ -77,7 +78,8 @@ def main(words: list[str] | None = None, program: str = "python -m slalom.import
     arguments = parser(program).parse_args(words)
 
     def run() -> int:
-        scene = scene_of(arguments)
+        with readable(arguments.file, "a file to import"):
+            scene = scene_of(arguments)
         file = arguments.out or pathlib.Path(arguments.file.stem + ".yaml")
         scene.write(file, arguments.force)
         if not arguments.quiet:

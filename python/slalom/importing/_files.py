@@ -4,7 +4,7 @@ import contextlib
 import os
 import pathlib
 import tempfile
-from typing import Callable
+from typing import Callable, Iterator
 
 MOST_BYTES = 64_000_000
 
@@ -18,19 +18,27 @@ class BadFile(ValueError):
         super().__init__(" ".join(f"{place}: found {found}, expected {expected}".split()))
 
 
+@contextlib.contextmanager
+def readable(file: "str | os.PathLike[str]", expected: str) -> Iterator[None]:
+    """An OSError of what reads within becomes a BadFile: it is the input's fault, as one of what writes is not."""
+    try:
+        yield
+    except OSError as error:
+        found = f"a file that cannot be read ({error.strerror or error})"
+        raise BadFile(error.filename or file, found, expected) from None
+
+
 def read(file: "str | os.PathLike[str]", expected: str) -> bytes:
     """The bytes of a regular file that holds more than white space and zeros."""
     path = pathlib.Path(file)
-    if not path.exists():
-        raise BadFile(file, "no such file", expected)
-    if not path.is_file():
-        raise BadFile(file, "a folder" if path.is_dir() else "no regular file", expected)
-    if path.stat().st_size > MOST_BYTES:
-        raise BadFile(file, f"{path.stat().st_size} bytes", f"at most {MOST_BYTES}")
-    try:
+    with readable(file, expected):
+        if not path.exists():
+            raise BadFile(file, "no such file", expected)
+        if not path.is_file():
+            raise BadFile(file, "a folder" if path.is_dir() else "no regular file", expected)
+        if path.stat().st_size > MOST_BYTES:
+            raise BadFile(file, f"{path.stat().st_size} bytes", f"at most {MOST_BYTES}")
         content = path.read_bytes()
-    except OSError as error:
-        raise BadFile(file, f"a file that cannot be read ({error.strerror})", expected) from None
     if not content.strip(b"\0 \t\r\n"):
         raise BadFile(file, f"{len(content)} bytes without content", expected)
     return content
