@@ -67,8 +67,9 @@ def write_parquet(folder: str | os.PathLike[str], file: str | os.PathLike[str]) 
     try:
         with contextlib.suppress(OSError):  # where there are no locks
             fcntl.flock(parent, fcntl.LOCK_SH)
+        sink = open(aside, "xb")  # what stands there already stays
         try:
-            with open(aside, "xb") as sink:
+            with sink:
                 arrow.parquet.write_table(table, sink)
             os.replace(aside, target)
         finally:

@@ -1,7 +1,6 @@
 """Tables of sweeps in Python are those of trials.csv."""
 
 import csv
-import os
 import subprocess
 import sys
 
@@ -52,12 +51,15 @@ def test_parquet_is_the_same_table(folder, tmp_path):
         slalom.write_parquet(folder, tmp_path / "none" / "trials.parquet")
 
 
-def test_parquet_is_written_through_no_link(folder, tmp_path):
-    victim = tmp_path / "victim"
+def test_parquet_is_written_through_no_link(folder, tmp_path, monkeypatch):
+    victim, aside = tmp_path / "victim", tmp_path / ".trials.parquet.foreseen.aside"
     victim.write_text("precious")
-    (tmp_path / f".trials.parquet.{os.getpid()}.aside").symlink_to(victim)
-    slalom.write_parquet(folder, tmp_path / "trials.parquet")
-    assert victim.read_text() == "precious"
+    aside.symlink_to(victim)
+    monkeypatch.setattr("secrets.token_hex", lambda size: "foreseen")
+    with pytest.raises(FileExistsError):
+        slalom.write_parquet(folder, tmp_path / "trials.parquet")
+    assert victim.read_text() == "precious" and aside.is_symlink()
+    assert not (tmp_path / "trials.parquet").exists()
 
 
 def test_a_folder_without_a_sweep_is_refused(tmp_path):
