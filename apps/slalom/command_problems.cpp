@@ -169,8 +169,10 @@ void add_problems(CLI::App& app, Command& run) {
   command->add_option("--backend", options->settings.backend, "NLP solver");
   command->add_flag("--json", options->json, "Print the result as JSON");
   command->footer(
-      "Example: slalom problems goddard --scheme lgr\n\nWith a problem, the exit code is 1 "
-      "unless the answer agrees with the known value.\n");
+      std::string(
+          "Example: slalom problems goddard --scheme lgr\n\nWith a problem, the exit code is "
+          "1 unless the answer agrees with the known value.\n\n") +
+      kExitCodeHelp);
   command->callback([options, &run] {
     options->settings.refined = !options->fixed_mesh;
     run = [options] { return problems_command(*options); };

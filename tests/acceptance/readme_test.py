@@ -48,20 +48,35 @@ class Readme(unittest.TestCase):
 
 
 class CommandLinePage(unittest.TestCase):
-    """docs/command-line.md knows every sub-command and option, and no other."""
+    """docs/command-line.md knows every sub-command and its options, and no other."""
 
     PAGE = (SOURCE / "docs/command-line.md").read_text()
 
+    def told(self, commands):
+        """The options of each command, by its usage and by the table, where a cell may be empty as above, or
+        `all but …`."""
+        usage = dict(re.findall(r"^\| `([a-z-]+)(.*?)` \|", self.PAGE.split("## Options")[0], re.M))
+        told, options = {command: set(re.findall(r"--[a-z-]+", usage[command])) for command in commands}, []
+        for cells in re.findall(r"^\| ([^|]*?) ?\| ([^|]+) \|.*\|$", self.PAGE.split("## Options")[1], re.M):
+            options = re.findall(r"`(--[a-z-]+)", cells[0]) or options
+            but = cells[1].removeprefix("all but ")
+            named = set(but.split(", "))
+            if not options or named == {"slalom itself"}:
+                continue
+            self.assertLessEqual(named, set(commands), cells)
+            for command in named if but == cells[1] else set(commands) - named:
+                told[command].update(options)
+        return told
+
     def test_options(self):
         text = drives.run("--help")
-        commands = re.findall(r"^  ([a-z-]+) {2,}", text.split("Subcommands:")[1], re.M)
+        commands = re.findall(r"^  ([a-z-]+) {2,}", text.split("Subcommands:")[1].split("Exit codes")[0], re.M)
         self.assertIn("simulate", commands)
-        helps = text + "".join(drives.run(command, "--help") for command in commands)
-        shown = set(re.findall(r"(--[a-z]+)", helps)) - {"--help"}
-        told = set(re.findall(r"`(?:slalom [A-Z… ]*)?(--[a-z]+)", self.PAGE)) - {"--help"}
-        self.assertEqual(shown, told)
+        told = self.told(commands)
         for command in commands:
-            self.assertIn(f"| `{command}", self.PAGE)
+            with self.subTest(command):
+                shown = set(re.findall(r"^ +(?:-\w,)?(--[a-z-]+)", drives.run(command, "--help"), re.M))
+                self.assertEqual(told[command], shown - {"--help"})
 
     def test_exit_codes(self):
         told = re.findall(r"^\| (\d+) \| (.*) \|$", self.PAGE, re.M)
@@ -70,25 +85,49 @@ class CommandLinePage(unittest.TestCase):
 
 
 class OutputPage(unittest.TestCase):
-    """docs/output-files.md knows every column and key."""
+    """docs/output-files.md knows every column and key, and docs/laps.md those of lap.csv."""
 
     PAGE = (SOURCE / "docs/output-files.md").read_text()
 
-    def test_columns(self):
-        with drives.scratch() as folder:
-            out = pathlib.Path(folder) / "out"
-            drives.run("simulate", "E_B", "--out", out, "--quiet")
-            names = set()
+    def setUp(self):
+        scratch = drives.scratch()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+
+    @staticmethod
+    def columns(table):
+        with open(table) as file:
+            return set(file.readline().strip().split(","))
+
+    def test_drives(self):
+        """Of each kind, for a planner that verifies and a road add to the files, and a closed one."""
+        jobs = {"plain": ("E_B",), "verifying": ("E_C", "--planner", "P_E", "--set", "loop.timeout=2"),
+                "road": ("circuit", "--set", "loop.timeout=2")}
+        kinds = {}
+        for kind, drive in drives.simulate_all(self.folder, jobs).items():
+            kinds[kind] = set(drive.summary)
             for table in ("plant.csv", "plans.csv", "cycles.csv"):
-                with open(out / table) as file:
-                    names |= set(file.readline().strip().split(","))
-            names |= set(drives.Drive(out).summary)
-            drives.run("plan", "E_B", "--out", pathlib.Path(folder) / "plan", "--quiet")
-            plan = (pathlib.Path(folder) / "plan/plan.json").read_text()
-            names |= set(re.findall(r'^  "(\w+)":', plan, re.M))
+                kinds[kind] |= self.columns(drive.folder / table)
+        self.assertTrue({"rungs", "cycles_unverified", "refused"} <= kinds["verifying"] - kinds["plain"])
+        self.assertTrue({"lap_ends_s", "progress_m", "least_edge_distance_m"} <= kinds["road"] - kinds["plain"])
+        self.assert_told(set.union(*kinds.values()))
+
+    def test_plans(self):
+        drives.run("plan", "E_B", "--out", self.folder / "plan", "--quiet")
+        plan = (self.folder / "plan/plan.json").read_text()
+        self.assert_told(set(re.findall(r'^  "(\w+)":', plan, re.M)) | self.columns(self.folder / "plan/plan.csv"))
+
+    def test_laps(self):
+        drives.run("lap", "circuit", "--interval", 20, "--meshes", 1, "--out", self.folder / "lap", "--quiet")
+        self.assert_told(self.columns(self.folder / "lap/lap.csv"),
+                         self.PAGE + (SOURCE / "docs/laps.md").read_text())
+
+    def assert_told(self, names, page=PAGE):
         for name in names:
             told = name[len("cost_"):] if name.startswith("cost_") and name != "cost_terms" else name
-            self.assertIn(f"`{told}`", self.PAGE)
+            told = "soft …" if told.startswith("soft ") else told  # a limit's name
+            with self.subTest(name):
+                self.assertTrue(f"`{told}`" in page, told)
 
 
 if __name__ == "__main__":

@@ -65,9 +65,10 @@ describe('the page of a drive of verified plans', () => {
   test('has no such thing for other planners', async () => {
     const browser = await openBrowser();
     try {
-      const { page } = await browser.open(report, '#t=2');
+      const { page, complaints } = await browser.open(report, '#t=2');
       assert.equal((await page.$$('#rungs i, .candidates')).length, 0);
       assert.ok(!(await page.isVisible('#rung-legend')));
+      assert.deepEqual(complaints, []);
     } finally {
       await browser.close();
     }

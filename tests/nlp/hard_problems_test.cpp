@@ -171,7 +171,9 @@ TEST_P(SolvableProblem, MoreEquationsThanVariables) {
     p.zero(2 * x[1] - second, "two");
     ExpressionProblem problem(p);
     const Answer answer = solve(problem);
-    if (answer.status == Status::too_few_freedoms) continue;
+    // Ipopt counts before it looks; a system without a solution need not be told from one with few.
+    if (answer.status == Status::too_few_freedoms && (second == 3 || GetParam() == "ipopt"))
+      continue;
     EXPECT_EQ(answer.status, second == 2 ? Status::solved : Status::infeasible)
         << to_string(answer.status);
   }

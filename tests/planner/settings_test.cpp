@@ -12,7 +12,7 @@
 namespace slalom::planner {
 namespace {
 
-TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
+TEST(Settings, EveryOptionHasAUnitADocAndADefaultWithinItsRange) {
   const Settings defaults;
   std::set<std::string> names;
   for (const auto& entry : setting_options().entries()) {
@@ -23,63 +23,6 @@ TEST(Settings, EveryMemberIsAnOptionWithUnitAndDoc) {
     EXPECT_TRUE(!number || !entry.info.unit.empty()) << entry.info.name;
     EXPECT_NO_THROW((void)entry.info.checked(entry.get(defaults), "defaults")) << entry.info.name;
   }
-  for (const char* name : {"name",
-                           "w_t",
-                           "w_ce",
-                           "moving_avoidance",
-                           "w_g",
-                           "w_haf",
-                           "w_Fz",
-                           "w_sa",
-                           "w_sr",
-                           "w_jx",
-                           "w_ax",
-                           "w_psi",
-                           "w_ic",
-                           "w_s0",
-                           "w_xf",
-                           "Fz_a",
-                           "Fz_b",
-                           "wheel_load_cost",
-                           "N",
-                           "scheme",
-                           "tf_min",
-                           "tf_max",
-                           "L_range",
-                           "kappa",
-                           "sm_end",
-                           "X0_tol",
-                           "sm_start",
-                           "XF_tol",
-                           "floor",
-                           "tol",
-                           "max_iterations",
-                           "solver",
-                           "model",
-                           "obstacle_choice",
-                           "obstacle_count",
-                           "obstacle_group_gap",
-                           "obstacle_constraint",
-                           "w_obstacle",
-                           "tyre_force_limit",
-                           "method",
-                           "prediction",
-                           "cover_excess",
-                           "known",
-                           "verified_clearance",
-                           "verified_wheel_load",
-                           "standing_horizon",
-                           "arrival_margin",
-                           "arrival_floor",
-                           "arrival_N",
-                           "arrival_tf_max",
-                           "arrival_max_iterations",
-                           "improvement_period",
-                           "hysteresis",
-                           "search_places",
-                           "improvement_places"})
-    EXPECT_EQ(names.count(name), 1u) << name;
-  EXPECT_EQ(names.size(), 69u);
 }
 
 TEST(Settings, NoTwoOptionsShareAMember) {
@@ -94,8 +37,10 @@ TEST(Settings, NoTwoOptionsShareAMember) {
       value = entry.info.choices.back();
     else if (entry.info.kind == OptionKind::vector)
       value = std::vector<double>(entry.info.length, 0.5432);
+    else if (entry.info.kind == OptionKind::boolean)
+      value = !std::get<bool>(entry.get(Settings{}));
     else
-      continue;
+      value = std::string("another");
     Settings s;
     entry.set(s, value);
     for (const auto& other : entries)

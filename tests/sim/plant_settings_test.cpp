@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "slalom/base/error.hpp"
 #include "slalom/vehicle/model.hpp"
@@ -124,16 +123,11 @@ TEST(PlantSettings, BadOnesAreRefusedByName) {
   EXPECT_EQ(message({.mass_factor = 1.2, .cg_shift = 0.2}), "accepted");
 }
 
-TEST(PlantSettings, EveryOneIsAnOption) {
-  std::set<std::string> names;
+TEST(PlantSettings, EveryOptionHasADocAndADefaultWithinItsRange) {
   for (const auto& entry : plant_options().entries()) {
-    names.insert(entry.info.name);
     EXPECT_FALSE(entry.info.doc.empty());
     EXPECT_NO_THROW((void)entry.info.checked(entry.get(PlantSettings{}), "defaults"));
   }
-  EXPECT_EQ(names,
-            (std::set<std::string>{"mass_factor", "friction_factor", "cornering_stiffness_factor",
-                                   "cg_shift", "actuator_delay"}));
 }
 
 }  // namespace
