@@ -206,13 +206,13 @@ def test_interrupt_stops_a_simulation():
 
 def test_other_threads_run_during_a_solve():
     p = bryson_denham()
-    solver = threading.Thread(target=lambda: p.solve(mesh=8000))
+    solver = threading.Thread(target=lambda: p.solve(mesh=20_000))
     solver.start()
     turns = 0
     while solver.is_alive():
         turns += 1
         time.sleep(0.001)
-    assert turns > 10
+    assert turns > 3  # hundreds; one or two, before and after, if the solve kept the lock
 
 
 def test_frame_and_plot():

@@ -77,7 +77,7 @@ def test_workers_killed_at_random_leave_the_same_table(tmp_path, capsys):
     for killer in killers:
         killer.join()
     assert code == 0
-    assert min(struck) >= 2, struck
+    assert min(struck) >= 1, struck
     assert table(tmp_path / "out") == table(tmp_path / "calm")
     assert "112 trials: 112 run now, 16 failed" in capsys.readouterr().out  # the invalid ones
 

@@ -21,7 +21,7 @@ class Verified(unittest.TestCase):
     def test_it_drives_the_scenarios_on_roads(self):
         names = ("pedestrian", "door", "merge", "chicane")
         with scratch() as folder:
-            for name, drive in simulate_all(folder, {n: (n,) for n in names}).items():
+            for name, drive in simulate_all(folder, {n: (n, *UNTIMED[2:]) for n in names}).items():
                 with self.subTest(name):
                     self.assert_clear(drive)
 

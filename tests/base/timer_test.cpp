@@ -12,21 +12,21 @@ TEST(Timer, WallClockRunsWhileAsleepAndProcessorTimeDoesNot) {
   const Timer timer;
   std::this_thread::sleep_for(std::chrono::milliseconds(60));
   EXPECT_GE(timer.wall(), 0.06);
-  EXPECT_LT(timer.cpu(), 0.03);
+  EXPECT_LT(timer.cpu(), timer.wall() / 2);
 }
 
 TEST(Timer, ProcessorTimeGrowsWithWorkOfThisThreadAlone) {
   const Timer timer;
   const auto burn = [] {
     const Timer own;
-    while (own.cpu() < 0.03) {
+    while (own.cpu() < 0.2) {
     }
   };
   std::thread(burn).join();
-  EXPECT_LT(timer.cpu(), 0.02) << "another thread's time is not ours";
+  EXPECT_LT(timer.cpu(), 0.1) << "another thread's time is not ours";
   burn();
-  EXPECT_GE(timer.cpu(), 0.03);
-  EXPECT_LE(timer.cpu(), timer.wall() + 1e-3);
+  EXPECT_GE(timer.cpu(), 0.2);
+  EXPECT_LE(timer.cpu(), timer.wall() + 0.02);
 }
 
 TEST(Timer, NeverRunsBackwards) {

@@ -46,6 +46,15 @@ class Problems(unittest.TestCase):
         self.assertEqual(done.code, 1)
         self.assertIn("differs", done.out)
 
+    def test_all_are_solved_by_two_schemes(self):
+        names = [entry["name"] for entry in json.loads(program.run("problems", "--json").out)]
+        done = program.run("problems", "--all", "--fixed-mesh", "--json")
+        runs = json.loads(done.out)
+        self.assertEqual([(run["name"], run["scheme"]) for run in runs],
+                         [(name, scheme) for name in names for scheme in ("hermite_simpson", "lgr")])
+        self.assertFalse(all(run["run"]["agrees"] for run in runs), "first meshes are coarse")
+        self.assertEqual((done.code, done.err), (1, ""))
+
     def test_bad_input_is_one_line(self):
         for arguments, message in [
             (["godard"], "found 'godard', expected perhaps 'goddard'"),

@@ -37,6 +37,15 @@ def start(*arguments, **options):
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
 
 
+def until(holds, seconds=60):
+    """Waits until `holds()`; machines may be busy, so that the limit is far off."""
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            raise AssertionError(f"not within {seconds} s")
+        time.sleep(0.01)
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own."""
 
@@ -57,12 +66,11 @@ class ProgramTest(unittest.TestCase):
         return sorted(str(p.relative_to(root)) for p in root.rglob("*"))
 
     def assert_refused(self, result, code, *parts):
-        """One line on stderr with these parts, nothing on stdout, within ten seconds."""
+        """One line on stderr with these parts, nothing on stdout."""
         self.assertEqual(result.code, code, result.err)
         self.assertEqual(result.out, "")
         self.assertEqual(result.err.count("\n"), 1, result.err)
         self.assertTrue(result.err.startswith("slalom: "), result.err)
-        self.assertLess(result.seconds, 10)
         for part in parts:
             self.assertIn(part, result.err)
 

@@ -47,6 +47,17 @@ class Results(ProgramTest):
         self.assertEqual([p.name for p in (out / "figures").iterdir()], ["mine.svg"])
 
 
+class Plan(ProgramTest):
+    def test_an_expected_outcome_is_success(self):
+        cut = ("plan", "E_B", "--set", "planner.max_iterations=1")
+        for expected, code in (("not_optimal", 0), ("solved", 1), ("solved,not_optimal", 0)):
+            with self.subTest(expected):
+                result = run(*cut, "--expect", expected, "--json")
+                self.assertEqual(result.code, code, result.err)
+                self.assertEqual(json.loads(result.out)["status"], "iteration_limit")
+        self.assertEqual(run("plan", "E_B", "--quiet", "--expect", "not_optimal").code, 1)
+
+
 class Lap(ProgramTest):
     def lap(self, *arguments):
         result = run("lap", "circuit", "--interval", 20, "--json", *arguments)

@@ -176,18 +176,18 @@ class Served(SweepTest):
                 pass
         self.assertLess(taken, 20)
         with open(self.out / "trials.csv", "w") as file:
-            file.write("x" * 5_000_000)
+            file.write("x" * 100_000_000)
         status, content = self.ask(self.page("trials.csv"), "Range: bytes=" + ",".join(["0-"] * 1000))
-        self.assertEqual((status, len(content)), (200, 5_000_000))
-        self.assertLess(self.memory() - before, 5)
+        self.assertEqual((status, len(content)), (200, 100_000_000))
+        self.assertLess(self.memory() - before, 50)  # neither what was sent nor what was asked for, even once
 
     def test_slow_clients_keep_nobody_out(self):
         slow = [self.connection() for _ in range(70)]
         for client in slow:
             client.sendall(b"GET ")
-        self.assertEqual(self.ask(self.page("index.html"), seconds=5)[0], 200)
+        self.assertEqual(self.ask(self.page("index.html"), seconds=20)[0], 200)
         begin = time.monotonic()
-        while slow and time.monotonic() - begin < 12:
+        while slow and time.monotonic() - begin < 60:
             for client in list(slow):
                 try:
                     client.sendall(b"x")
@@ -195,7 +195,7 @@ class Served(SweepTest):
                     client.close()
                     slow.remove(client)
             time.sleep(0.3)
-            self.assertEqual(self.ask(self.page("index.html"), seconds=5)[0], 200)
+            self.assertEqual(self.ask(self.page("index.html"), seconds=20)[0], 200)
         self.assertEqual(slow, [])
 
     def test_ctrl_c_ends_it_whoever_is_connected(self):
@@ -208,7 +208,7 @@ class Served(SweepTest):
         time.sleep(0.5)
         result = interrupt(self.process)
         self.assertEqual(result.code, 0)
-        self.assertLess(result.seconds, 2)
+        self.assertLess(result.seconds, 20)
         for client in clients:
             client.close()
 
@@ -269,7 +269,7 @@ class LongDrive(SweepTest):
             time.sleep(1)
             self.assertIsNone(process.poll())
             result = interrupt(process)
-            self.assertLess(result.seconds, 2)
+            self.assertLess(result.seconds, 20)
             self.assertEqual(result.code, 130 if arguments[0] == "--trial" else 0, result.err)
             self.assertFalse((self.folder / "out/drives/000001/report.html").exists())
 
