@@ -53,20 +53,20 @@ class Neighbours(unittest.TestCase):
                 self.assertEqual(drive.outcome, "goal", drive.ended())
                 self.assertTrue(earliest <= drive.time <= latest, drive.ended())
 
-    def test_e_a(self):
+    def test_in_e_a_each_planner_arrives_as_fast_as_from_its_start(self):
         for environment in ("E_A", "E_A-figure"):
             self.goal(f"{environment} P_A", 8, 9)
             self.goal(f"{environment} P_B", 5.5, 7)
             self.goal(f"{environment} P_C", 5.5, 7)
 
-    def test_e_b(self):
+    def test_in_e_b_p_c_runs_into_o1_and_p_d_passes_before_it(self):
         self.crash("E_B P_C", "O1", 2.7, 3.2)
         self.goal("E_B P_D", 5.5, 7)
         for name, drive in self.each("E_B P_D"):
             passing = next(row for row in drive.plant if row["y"] >= 57)
             self.assertGreater(passing["x"], 205 - 2 * passing["t"], name)
 
-    def test_e_c(self):
+    def test_in_e_c_p_c_runs_into_o2_and_p_d_arrives(self):
         self.crash("E_C P_C", "O2", 18.9, 19.9)
         for name, drive in self.each("E_C P_C"):
             self.assertTrue(25.5 <= drive.end["ux"] <= 27.5, name)

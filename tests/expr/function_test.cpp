@@ -51,7 +51,7 @@ struct Sample {
 };
 constexpr Wanted kAll{.values = true, .jacobian = true, .hessian = true};
 
-TEST(Function, OfNothing) {
+TEST(Function, WithoutOutputsHasNoDerivativesAndTakesNoInstructions) {
   const Function f;
   EXPECT_EQ(f.variables() + f.data() + f.outputs(), 0u);
   EXPECT_TRUE(f.jacobian_pattern().empty());

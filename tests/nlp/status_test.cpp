@@ -19,7 +19,7 @@ class BackEnd : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(All, BackEnd, testing::ValuesIn(backends()),
                          [](const auto& info) { return info.param; });
 
-TEST_P(BackEnd, Solved) {
+TEST_P(BackEnd, SolvedIsTheKnownOptimumWithItsMultipliers) {
   auto problem = hs071();
   const Answer answer = solve(problem, problem.cold_start());
   EXPECT_EQ(answer.status, Status::solved);
@@ -121,7 +121,7 @@ TEST_P(BackEnd, TimeLimit) {
   EXPECT_LE(answer.iterations, 1);
 }
 
-TEST_P(BackEnd, Infeasible) {
+TEST_P(BackEnd, InfeasibleIsAtThePointOfLeastViolation) {
   auto problem = one_variable(1, 0, 0, 10, 1, 1, 20, kInf);  // x >= 20 and x <= 10
   const Answer answer = solve(problem, problem.cold_start());
   EXPECT_EQ(answer.status, Status::infeasible) << answer.message;
@@ -183,7 +183,7 @@ TEST_P(BackEnd, TooFewFreedoms) {
   EXPECT_EQ(answer.status, Status::too_few_freedoms) << answer.message;
 }
 
-TEST_P(BackEnd, Interrupted) {
+TEST_P(BackEnd, InterruptedIsWhatThePollStops) {
   auto problem = hs071();
   int polls = 0;
   Options options;

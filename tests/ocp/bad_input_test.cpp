@@ -200,24 +200,6 @@ TEST(BadInput, EndsASolveWithAStatusThatNamesIt) {
   }
 }
 
-TEST(BadInput, OfMeshesAndSchemes) {
-  const std::string increasing = ", expected strictly increasing breakpoints";
-  EXPECT_EQ(refusal([] { (void)Mesh::uniform(0); }),
-            "mesh: found 0 intervals, expected at least 1");
-  EXPECT_EQ(refusal([] {
-              (void)Mesh({0, 0.5, 0.5, 1});
-            }),
-            "mesh: found breakpoint 2 = 0.5 after 0.5" + increasing);
-  EXPECT_EQ(refusal([] {
-              (void)Mesh({0, kNaN, 1});
-            }),
-            "mesh: found breakpoint 1 = nan after 0" + increasing);
-  EXPECT_EQ(refusal([] { (void)lgr(0); }),
-            "Legendre-Gauss-Radau rule: found 0 points, expected at least 1");
-  EXPECT_EQ(refusal([] { (void)scheme("trapezodal"); }),
-            "scheme: found 'trapezodal', expected perhaps 'trapezoidal'");
-}
-
 TEST(BadInput, OfLinks) {
   PhasedProblem both("both");
   EXPECT_EQ(refusal([&] { both.link("l", 1); }),

@@ -161,7 +161,7 @@ TEST_F(ClaimRules, WhatIsNotShownToBeDearerDoesNotHoldForIt) {
             std::string::npos);
 }
 
-TEST_F(ClaimRules, MinimumTime) {
+TEST_F(ClaimRules, MinimumTimeHoldsWhereBothEnvironmentsDo) {
   EXPECT_EQ(drives("minimum_time_arrives"), "does not hold");
   EXPECT_EQ(drives("minimum_time_solves"), "does not hold");
   drives_["E_A/P_A"].drive = made(Outcome::goal, 9, 0.004);
@@ -223,7 +223,7 @@ TEST_F(ClaimRules, WhenSolvesAreLong) {
   EXPECT_EQ(drives("effort_free"), "holds");
 }
 
-TEST_F(ClaimRules, Effort) {
+TEST_F(ClaimRules, EffortIsLessFromATenthOn) {
   const auto jerk = [&](double jx) {
     for (auto& sample : drives_["E_A-figure/P_C"].drive.plant) sample.control[vehicle::JX] = jx;
     return drives("effort_less") + ", " + drives("effort_no_more");
@@ -241,7 +241,7 @@ TEST_F(ClaimRules, AreaIsBetweenPathAndLine) {
   EXPECT_EQ(claim.verdict, Verdict::in_part);
 }
 
-TEST_F(ClaimRules, MovingObstacles) {
+TEST_F(ClaimRules, MovingObstaclesAreSaferWhereOnlyTheOthersCrash) {
   EXPECT_EQ(drives("moving_is_safer"), "does not hold");
   drives_["E_B/P_C"].drive = crash("O1");
   EXPECT_EQ(drives("moving_is_safer"), "holds in part");
@@ -256,7 +256,7 @@ TEST_F(ClaimRules, MovingObstacles) {
   EXPECT_EQ(drives("sides"), "holds");
 }
 
-TEST_F(ClaimRules, RangeAndCones) {
+TEST_F(ClaimRules, RangeCountsTheDrivesThatCrash) {
   EXPECT_EQ(drives("range_50"), "does not hold");
   int count = 0;
   for (auto& [name, one] : drives_)
@@ -277,7 +277,7 @@ TEST_F(ClaimRules, RangeAndCones) {
             std::string::npos);
 }
 
-TEST_F(ClaimRules, Cases) {
+TEST_F(ClaimRules, CasesHoldWhereAllEndAsTheTextSays) {
   const std::vector<std::pair<std::string, sim::Drive>> asText = {{"A", crash("O1")},
                                                                   {"B", made(Outcome::goal, 13)},
                                                                   {"C", made(Outcome::goal, 9)},
@@ -297,7 +297,7 @@ TEST_F(ClaimRules, Cases) {
   EXPECT_EQ(drives("small_tex_instead"), "does not hold");
 }
 
-TEST_F(ClaimRules, Ipopt) {
+TEST_F(ClaimRules, IpoptAgreesWhereItsDrivesEndAlikeAndInTime) {
   EXPECT_EQ(drives("ipopt"), "holds");
   drives_["ipopt/E_B/P_D"].drive = crash("O1");
   EXPECT_EQ(drives("ipopt"), "holds in part");

@@ -281,7 +281,7 @@ TEST(Planner, APlanIsAsLongAsItMustBe) {
   EXPECT_GE(longer.tf, scene.planner.tf_min);
 }
 
-TEST(Planner, NoObstacles) {
+TEST(Planner, SolvesWithoutObstacles) {
   Scene scene = E_A();
   scene.obstacles.clear();
   expect_solved(Planner(scene).plan(scene.first));

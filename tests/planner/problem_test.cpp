@@ -85,7 +85,7 @@ TEST(FirstOcp, PublishedSolutionsToAllPrintedDigits) {
     }
 }
 
-TEST(Rows, GoalOutOfRange) {
+TEST(Rows, OutOfTheGoalsRangeThereIsTheLidarsEdgeAndNoGoal) {
   const Names names(E_A(), false);
   EXPECT_EQ(names.rows_with("initial"), 16u + 2u);  // two a state; copies of initial(x), initial(y)
   EXPECT_EQ(names.rows_with("from below"), 8u);
@@ -101,7 +101,7 @@ TEST(Rows, GoalOutOfRange) {
   EXPECT_EQ(names.rows.size(), 18u + 22 + 44 + 30 + 10 + 2 + 80);
 }
 
-TEST(Rows, GoalInRange) {
+TEST(Rows, WithinItsRangeThereIsTheGoalAndNoEdge) {
   const Names names(E_A(), true);
   EXPECT_EQ(names.rows_with("LiDAR region"), 10u);
   EXPECT_EQ(names.rows_with("LiDAR edge"), 0u);
