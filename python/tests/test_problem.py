@@ -206,7 +206,7 @@ def test_interrupt_stops_a_simulation():
 
 def test_other_threads_run_during_a_solve():
     p = bryson_denham()
-    solver = threading.Thread(target=lambda: p.solve(mesh=20_000))
+    solver = threading.Thread(target=lambda: p.solve(mesh=8000))
     solver.start()
     turns = 0
     while solver.is_alive():
