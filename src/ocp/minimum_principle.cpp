@@ -5,9 +5,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "between_points.hpp"
 #include "bound_shares.hpp"
 #include "point_functions.hpp"
 #include "set_up_watch.hpp"
+#include "slalom/base/error.hpp"
+#include "slalom/base/timer.hpp"
+#include "slalom/ocp/simulate.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -20,6 +24,8 @@ constexpr int kValues = 13;
 constexpr int kSweeps = 2;
 /// Of all that a row of states takes on: as near to its bound it is at it.
 constexpr double kNear = 1e-3;
+/// What the simulation of a guess may take, and how exact it is.
+constexpr double kSimulation_s = 1, kSimulationTolerance = 1e-6;
 /// Of a row's bound, or of 1: by how much another control may break it more.
 constexpr double kRowTolerance = 1e-9;
 
@@ -210,6 +216,36 @@ HamiltonianGap hamiltonian_gap(const Problem& problem, const Solution& solution)
     if (near_bounds[p] == 0) gap.away_from_bounds += own - least;
   }
   return gap;
+}
+
+std::optional<Trajectory> guess_by(const Problem& problem, const Solution& solution,
+                                   const HamiltonianGap& gap, GuessedStates states) {
+  Trajectory guess = solution.trajectory;
+  guess.controls = gap.controls;
+  if (states == GuessedStates::kept) return guess;
+  const Timer timer;
+  SimulateSettings rules{.t0 = guess.t0, .tf = guess.tf, .tolerance = kSimulationTolerance};
+  rules.stop = [&] { return timer.wall() > kSimulation_s; };
+  // Lines from point to point: the scheme's polynomials may leave the bounds where controls jump.
+  const auto law = [&](double t) {
+    const double tau = guess.tf > guess.t0 ? (t - guess.t0) / (guess.tf - guess.t0) : 0;
+    Vector u;
+    for (std::size_t i = 0; i < problem.controls().size(); ++i)
+      u.push_back(between_points(guess.tau, guess.controls, i, tau));
+    return u;
+  };
+  Vector corners;
+  for (const double tau : solution.mesh.breakpoints()) corners.push_back(guess.time_at(tau));
+  try {
+    Simulation found = simulate(system_of(problem, guess), guess.states.front(),
+                                controls_of_time(law, corners), rules);
+    if (!found.complete) return std::nullopt;
+    found.trajectory.static_parameters = guess.static_parameters;
+    found.trajectory.slacks = guess.slacks;
+    return found.trajectory;
+  } catch (const InvalidValue&) {  // dynamics that use final values
+    return std::nullopt;
+  }
 }
 
 }  // namespace slalom::ocp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "slalom/ocp/problem.hpp"
@@ -27,5 +28,14 @@ struct HamiltonianGap {
 /// numbers by point, and solutions without costates. Controls with a form of their own between the
 /// nodes stay as they are.
 HamiltonianGap hamiltonian_gap(const Problem& problem, const Solution& solution);
+
+/// What the states of a guess with other controls are.
+enum class GuessedStates {
+  kept,       ///< the answer's
+  simulated,  ///< where those controls lead from the answer's start
+};
+/// A guess with the gap's controls; none where the simulation does not come to the end in time.
+std::optional<Trajectory> guess_by(const Problem& problem, const Solution& solution,
+                                   const HamiltonianGap& gap, GuessedStates states);
 
 }  // namespace slalom::ocp

@@ -193,7 +193,6 @@ class Refining {
   /// Of the parts of the Hamiltonian: a gap that counts however small the costates are. They vanish
   /// where an answer has lost all that it could gain.
   static constexpr double kLargeGap = 1e-2;
-  static constexpr double kSharesOfTheWay[] = {1, 0.5};
   /// Most answers that are left for a lower one.
   static constexpr int kEscapes = 2;
 
@@ -234,7 +233,7 @@ class Refining {
     }
   }
   /// An answer on the same mesh with a lower objective, where the minimum principle says that there
-  /// may be one: from a guess whose controls are, or are on the way to, those that it asks for.
+  /// may be one: from a guess whose controls are those that it asks for.
   std::optional<Answer> lower_than(const Answer& answer, double size) {
     gaps_ = gaps_in(solves_, answer);
     double gap = 0, parts = 0;
@@ -245,25 +244,19 @@ class Refining {
     if (gap <= std::min(kObjectiveTolerance * rules_.tolerance * size, kLargeGap * parts))
       return std::nullopt;
     if (++escapes_ > kEscapes) return std::nullopt;
-    for (const double share : kSharesOfTheWay) {
-      Answer other = in_time([&] { return solves_.solve_from(guesses_towards(answer, share)); });
+    for (const auto states : {GuessedStates::kept, GuessedStates::simulated}) {
+      std::vector<Trajectory> guesses;
+      const auto phases = Solves::phases(answer);
+      for (std::size_t p = 0; p < phases.size(); ++p)
+        if (auto guess = guess_by(solves_.problem(p), *phases[p], gaps_[p], states))
+          guesses.push_back(std::move(*guess));
+      if (guesses.size() < phases.size()) continue;
+      Answer other = in_time([&] { return solves_.solve_from(std::move(guesses)); });
       if (other.solved() && other.objective < answer.objective - rules_.tolerance * size)
         return other;
       if (stopped(other)) break;
     }
     return std::nullopt;
-  }
-  /// The answer with controls that share of the way to those which the minimum principle asks for.
-  std::vector<Trajectory> guesses_towards(const Answer& answer, double share) const {
-    std::vector<Trajectory> guesses;
-    const auto phases = Solves::phases(answer);
-    for (std::size_t p = 0; p < phases.size(); ++p) {
-      auto& controls = guesses.emplace_back(phases[p]->trajectory).controls;
-      for (std::size_t k = 0; k < controls.size(); ++k)
-        for (std::size_t i = 0; i < controls[k].size(); ++i)
-          controls[k][i] += share * (gaps_[p].controls[k][i] - controls[k][i]);
-    }
-    return guesses;
   }
   /// Fills the record's error of the objective too.
   bool converged(MeshRecord& record, const Shares& shares) {
