@@ -169,12 +169,23 @@ report::Figure crash_figure(const Group& group, const ReproducedDrive& crash,
                            state[vehicle::Y], 12)};
 }
 
+/// Of all drives of a group, such as "P_A, P_B and P_C".
+std::string planners_of(const Group& group) {
+  std::string list;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < group.size() ? ", " : " and ") + group[i]->scenario.planner.name;
+  return list;
+}
+
 /// The paper's figure of two columns: its traces, and beside them the paths.
 report::Figure whole_figure(const Group& group, const report::Figure& traces,
                             const report::Figure& path) {
   const auto& name = group.front()->scenario.name;
-  return {report::plain_name(name) + ".svg", name + ": traces and paths, for two columns",
-          report::side_by_side(name + ": traces and paths", {traces.svg, path.svg}, 12)};
+  return {
+      report::plain_name(name) + ".svg",
+      fmt::format("{}: traces and paths of {}, for two columns; rings mark the paper's vehicles",
+                  name, planners_of(group)),
+      report::side_by_side(name + ": traces and paths", {traces.svg, path.svg}, 12)};
 }
 
 std::vector<report::Figure> group_figures(const Group& group, const PaperData& paper) {
