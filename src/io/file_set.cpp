@@ -21,27 +21,16 @@ namespace slalom::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// Files by which a folder of results is known.
-constexpr const char* kResults[] = {"plant.csv",     "plans.csv",   "cycles.csv", "summary.json",
-                                    "resolved.yaml", "report.html", "plan.csv",   "plan.json",
-                                    "lap.csv",       "index.html"};
-/// Those of one drive, plan or lap, which say nothing of the next one there.
-constexpr const char* kOfOne[] = {"plant.csv",
-                                  "plans.csv",
-                                  "cycles.csv",
-                                  "summary.json",
-                                  "resolved.yaml",
-                                  "report.html",
-                                  "plan.csv",
-                                  "plan.json",
-                                  "lap.csv",
-                                  "figures/path.svg",
-                                  "figures/speed.svg",
-                                  "figures/acceleration.svg",
-                                  "figures/steering.svg",
-                                  "figures/lateral.svg",
-                                  "figures/wheel_loads.svg",
-                                  "figures/solve_time.svg"};
+/// Files of one drive, plan or lap, which say nothing of the next one there. A folder is known by
+/// them, or by the page of several, as one of results.
+constexpr const char* kOfOne[] = {"plant.csv",    "plans.csv",     "cycles.csv",
+                                  "summary.json", "resolved.yaml", "report.html",
+                                  "plan.csv",     "plan.json",     "lap.csv"};
+constexpr const char* kPage = "index.html";
+constexpr const char* kFigures[] = {"figures/path.svg",         "figures/speed.svg",
+                                    "figures/acceleration.svg", "figures/steering.svg",
+                                    "figures/lateral.svg",      "figures/wheel_loads.svg",
+                                    "figures/solve_time.svg"};
 
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw Error(fmt::format("{}: cannot be written ({})", path.string(), std::strerror(error)));
@@ -189,8 +178,11 @@ void FileSet::remove_replaced() const {
   std::set<fs::path> written;
   for (const auto& file : pending_) written.insert(file.path);
   for (const auto& folder : replaced_) {
-    for (const char* name : kOfOne)
+    const auto remove = [&](const char* name) {
       if (written.count(folder / name) == 0) ::unlink((folder / name).c_str());
+    };
+    for (const char* name : kOfOne) remove(name);
+    for (const char* name : kFigures) remove(name);
     ::rmdir((folder / "figures").c_str());  // which fails unless it is empty
   }
 }
@@ -226,11 +218,15 @@ void prepare_folder(const fs::path& folder, bool force) {
   const auto status = fs::status(folder, error);
   if (fs::exists(status) && !fs::is_directory(status))
     throw Error(fmt::format("{}: is a file, expected a folder for results", name));
-  if (!force)
-    for (const char* result : kResults)
-      if (fs::exists(folder / result, error))
-        throw Error(fmt::format("{}: holds results already ({}); use --force to replace them", name,
-                                result));
+  const auto refuse = [&](const char* result) {
+    if (fs::exists(folder / result, error))
+      throw Error(
+          fmt::format("{}: holds results already ({}); use --force to replace them", name, result));
+  };
+  if (!force) {
+    for (const char* result : kOfOne) refuse(result);
+    refuse(kPage);
+  }
   const bool existed = fs::exists(status);
   fs::create_directories(folder, error);
   if (error) fail(folder, error.value());

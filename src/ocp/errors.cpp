@@ -14,19 +14,12 @@
 #include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/interpolant.hpp"
+#include "solution_points.hpp"
 
 namespace slalom::ocp {
 namespace {
 
 using Vector = std::vector<double>;
-
-/// The point of each mesh node.
-std::vector<std::size_t> nodes(const Solution& solution) {
-  std::vector<std::size_t> list{0};
-  for (std::size_t k = 0; k < solution.mesh.intervals(); ++k)
-    list.push_back(list.back() + solution.scheme.of(k).points.size() - 1);
-  return list;
-}
 
 /// Integrates a problem's dynamics, its cost's integrand and its integrals' over one interval after
 /// another.
@@ -39,7 +32,7 @@ class Reintegration {
         functions_(problem, solution.trajectory),
         integrator_(units, tolerance),
         between_(between),
-        nodes_(nodes(solution)) {}
+        nodes_(node_points(solution)) {}
 
   /// States and integrals at the end of interval k, from those at its begin; empty where there is
   /// no getting there.
@@ -196,7 +189,7 @@ ErrorEstimate estimate_errors(const Problem& problem, const Solution& solution, 
   const Interpolant polynomials = between(problem, solution);
   const Sizes sizes = sizes_of(problem, solution, polynomials);
   const Reintegration integrator(problem, solution, polynomials, sizes.units, tolerance);
-  const auto node = nodes(solution);
+  const auto node = node_points(solution);
   const auto begin = [&](std::size_t k) {
     Vector x = trajectory.states[node[k]];
     x.resize(sizes.names.size(), 0.0);
@@ -296,15 +289,9 @@ std::vector<double> unresolved_controls(const Problem& problem, const Solution& 
   const std::size_t intervals = solution.mesh.intervals(), nu = problem.controls().size();
   Vector unresolved(intervals, 0.0);
   for (std::size_t i = 0; i < nu; ++i) {
-    double low = kInfinity, high = -kInfinity;
-    for (const auto& u : solution.trajectory.controls) {
-      low = std::min(low, u[i]);
-      high = std::max(high, u[i]);
-    }
+    const auto [low, high, unit] = control_range(problem, solution, i);
     const double largest = std::max(std::fabs(high), std::fabs(low));
     if (!(high - low > 2e-6 * largest)) continue;
-    const std::size_t place = problem.states().size() + i;
-    const double unit = place < solution.scales.size() ? solution.scales[place].second : 0;
     const double range = std::max({high - low, kLeastRange * largest, kSolversZero * unit});
     const auto length = [&](std::size_t k) { return breaks[k + 1] - breaks[k]; };
     if (intervals == 1) {
@@ -355,7 +342,7 @@ std::vector<double> hamiltonian(const Problem& problem, const Solution& solution
                        "an answer with costates");
   const Interpolant polynomials = between(problem, solution);
   const PointFunctions functions(problem, trajectory);
-  const auto node = nodes(solution);
+  const auto node = node_points(solution);
   const std::size_t last = solution.mesh.intervals();
   Vector rates(problem.states().size()), values;
   for (std::size_t k = 0; k <= last; ++k) {

@@ -9,9 +9,9 @@
 #include "bound_shares.hpp"
 #include "point_functions.hpp"
 #include "set_up_watch.hpp"
-#include "slalom/base/error.hpp"
-#include "slalom/base/timer.hpp"
+#include "simulated_guess.hpp"
 #include "slalom/ocp/simulate.hpp"
+#include "solution_points.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -24,8 +24,6 @@ constexpr int kValues = 13;
 constexpr int kSweeps = 2;
 /// Of all that a row of states takes on: as near to its bound it is at it.
 constexpr double kNear = 1e-3;
-/// What the simulation of a guess may take, and how exact it is.
-constexpr double kSimulation_s = 1, kSimulationTolerance = 1e-6;
 /// Of a row's bound, or of 1: by how much another control may break it more.
 constexpr double kRowTolerance = 1e-9;
 
@@ -42,16 +40,11 @@ std::vector<Vector> values_tried(const Problem& problem, const Solution& solutio
     const auto& control = problem.controls()[i];
     Vector& values = list.emplace_back();
     if (control.form != ControlForm::scheme) continue;
-    double low = kInfinity, high = -kInfinity;
-    for (const auto& u : solution.trajectory.controls) {
-      low = std::min(low, u[i]);
-      high = std::max(high, u[i]);
-    }
-    const std::size_t place = problem.states().size() + i;
-    const double unit = place < solution.scales.size() ? solution.scales[place].second : 0;
-    const double more = std::max(high - low, unit);
-    low = std::isfinite(control.bounds.lower) ? control.bounds.lower : low - more;
-    high = std::isfinite(control.bounds.upper) ? control.bounds.upper : high + more;
+    const ControlRange range = control_range(problem, solution, i);
+    const double more = std::max(range.high - range.low, range.scale);
+    const Bounds bounds = control.bounds;
+    const double low = std::isfinite(bounds.lower) ? bounds.lower : range.low - more;
+    const double high = std::isfinite(bounds.upper) ? bounds.upper : range.high + more;
     for (int v = 0; v < kValues; ++v) values.push_back(low + (high - low) * v / (kValues - 1));
   }
   return list;
@@ -109,9 +102,7 @@ std::vector<char> at_bounds(const Problem& problem, const Solution& solution) {
 /// marked.
 std::vector<char> beside(const std::vector<char>& marked, const Solution& solution) {
   const std::size_t intervals = solution.mesh.intervals();
-  std::vector<std::size_t> node{0};
-  for (std::size_t k = 0; k < intervals; ++k)
-    node.push_back(node.back() + solution.scheme.of(k).points.size() - 1);
+  const auto node = node_points(solution);
   std::vector<char> list(marked.size(), 0);
   for (std::size_t k = 0; k < intervals; ++k)
     for (std::size_t p = node[k]; p <= node[k + 1]; ++p)
@@ -219,13 +210,11 @@ HamiltonianGap hamiltonian_gap(const Problem& problem, const Solution& solution)
 }
 
 std::optional<Trajectory> guess_by(const Problem& problem, const Solution& solution,
-                                   const HamiltonianGap& gap, GuessedStates states) {
+                                   const HamiltonianGap& gap, GuessedStates states,
+                                   const nlp::Options& limits) {
   Trajectory guess = solution.trajectory;
   guess.controls = gap.controls;
   if (states == GuessedStates::kept) return guess;
-  const Timer timer;
-  SimulateSettings rules{.t0 = guess.t0, .tf = guess.tf, .tolerance = kSimulationTolerance};
-  rules.stop = [&] { return timer.wall() > kSimulation_s; };
   // Lines from point to point: the scheme's polynomials may leave the bounds where controls jump.
   const auto law = [&](double t) {
     const double tau = guess.tf > guess.t0 ? (t - guess.t0) / (guess.tf - guess.t0) : 0;
@@ -236,16 +225,7 @@ std::optional<Trajectory> guess_by(const Problem& problem, const Solution& solut
   };
   Vector corners;
   for (const double tau : solution.mesh.breakpoints()) corners.push_back(guess.time_at(tau));
-  try {
-    Simulation found = simulate(system_of(problem, guess), guess.states.front(),
-                                controls_of_time(law, corners), rules);
-    if (!found.complete) return std::nullopt;
-    found.trajectory.static_parameters = guess.static_parameters;
-    found.trajectory.slacks = guess.slacks;
-    return found.trajectory;
-  } catch (const InvalidValue&) {  // dynamics that use final values
-    return std::nullopt;
-  }
+  return led_by(problem, guess, controls_of_time(law, corners), limits);
 }
 
 }  // namespace slalom::ocp

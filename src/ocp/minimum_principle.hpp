@@ -34,8 +34,10 @@ enum class GuessedStates {
   kept,       ///< the answer's
   simulated,  ///< where those controls lead from the answer's start
 };
-/// A guess with the gap's controls; none where the simulation does not come to the end in time.
+/// A guess with the gap's controls; none where the simulation does not come to the end in time,
+/// which is the options' limit at the most.
 std::optional<Trajectory> guess_by(const Problem& problem, const Solution& solution,
-                                   const HamiltonianGap& gap, GuessedStates states);
+                                   const HamiltonianGap& gap, GuessedStates states,
+                                   const nlp::Options& limits);
 
 }  // namespace slalom::ocp

@@ -75,8 +75,7 @@ class Chain {
       for (const bool final : {false, true})
         for (std::size_t i = 0; i < states.size(); ++i) {
           auto& end = told_[p][final].emplace_back();
-          const Bounds bounds =
-              intersection(states[i].bounds, final ? states[i].final : states[i].initial);
+          const Bounds bounds = end_bounds(states[i], final);
           if (!given[p].tau.empty())
             end = {(final ? given[p].states.back() : given[p].states.front())[i], 0};
           else if (tells_a_value(bounds))
@@ -98,8 +97,7 @@ class Chain {
         const Known& b = after ? *after : *before;
         const double way = a.distance + b.distance;
         const double share = before && after && way > 0 ? a.distance / way : 0;
-        const Bounds bounds =
-            intersection(states[i].bounds, final ? states[i].final : states[i].initial);
+        const Bounds bounds = end_bounds(states[i], final);
         auto& row = final ? guess.states.back() : guess.states.front();
         row[i] = std::clamp(a.value + share * (b.value - a.value), bounds.lower, bounds.upper);
       }

@@ -147,22 +147,18 @@ class Refining {
       }
       const Shares shares(found->errors, Solves::costs_beside(now), rules_);
       record.objective_error = shares.sum();
-      if (record.damping == 0 && converged(record, shares)) {  // whatever it does between points
+      // Without damping, whatever it does between points.
+      const bool plain = record.damping == 0 && converged(record, shares);
+      const bool low = damping_.lowered(), raised = !plain && damping_.raised(found->chatter);
+      const bool kept = !(low && raised);  // else the answer with more weight is the better one
+      if (kept) {
         answer = std::move(now);
         errors = std::move(found->errors);
-        lower = lower_than(answer, shares.size());
-        if (lower) continue;
-        return RefineStatus::converged;
       }
-      const bool low = damping_.lowered(), raised = damping_.raised(found->chatter);
-      if (!(low && raised)) {  // else the answer with more weight is the better one
-        answer = std::move(now);
-        errors = std::move(found->errors);
-        if (record.damping > 0 && converged(record, shares) && !raised) {
-          lower = lower_than(answer, shares.size());
-          if (lower) continue;
-          return RefineStatus::converged;
-        }
+      if (plain || (kept && record.damping > 0 && converged(record, shares) && !raised)) {
+        lower = lower_than(answer, shares.size());
+        if (!lower) return RefineStatus::converged;
+        continue;
       }
       Grids grids = !raised ? next_grids(answer, errors, shares, found->unresolved)
                     : low   ? halved_grids(answer, found->chatter)
@@ -235,7 +231,15 @@ class Refining {
   /// An answer on the same mesh with a lower objective, where the minimum principle says that there
   /// may be one: from a guess whose controls are those that it asks for.
   std::optional<Answer> lower_than(const Answer& answer, double size) {
-    gaps_ = gaps_in(solves_, answer);
+    nlp::Options limits = solves_.options();
+    limits.time_limit = left_s();
+    try {
+      const SetUpWatch watch(limits);
+      gaps_ = gaps_in(solves_, answer);
+    } catch (const SetUpWatch::Stopped&) {
+      gaps_.clear();  // converged it is, and not judged
+      return std::nullopt;
+    }
     double gap = 0, parts = 0;
     for (const auto& each : gaps_) {
       gap += each.value;
@@ -248,7 +252,7 @@ class Refining {
       std::vector<Trajectory> guesses;
       const auto phases = Solves::phases(answer);
       for (std::size_t p = 0; p < phases.size(); ++p)
-        if (auto guess = guess_by(solves_.problem(p), *phases[p], gaps_[p], states))
+        if (auto guess = guess_by(solves_.problem(p), *phases[p], gaps_[p], states, limits))
           guesses.push_back(std::move(*guess));
       if (guesses.size() < phases.size()) continue;
       Answer other = in_time([&] { return solves_.solve_from(std::move(guesses)); });

@@ -7,7 +7,6 @@
 #include "slalom/base/error.hpp"
 #include "slalom/base/timer.hpp"
 #include "slalom/ocp/guess.hpp"
-#include "slalom/ocp/simulate.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -17,6 +16,25 @@ constexpr double kSimulation_s = 1;
 
 }  // namespace
 
+std::optional<Trajectory> led_by(const Problem& problem, const Trajectory& from,
+                                 const Controls& controls, const nlp::Options& limits) {
+  const Timer timer;
+  SimulateSettings rules{.t0 = from.t0, .tf = from.tf, .tolerance = 1e-6};
+  rules.stop = [&] {
+    return timer.wall() > std::min(limits.time_limit, kSimulation_s) ||
+           (limits.stop != nullptr && limits.stop(limits.stop_data));
+  };
+  try {
+    Simulation found = simulate(system_of(problem, from), from.states.front(), controls, rules);
+    if (!found.complete) return std::nullopt;
+    found.trajectory.static_parameters = from.static_parameters;
+    found.trajectory.slacks = from.slacks;
+    return std::move(found.trajectory);
+  } catch (const InvalidValue&) {  // dynamics that use final values
+    return std::nullopt;
+  }
+}
+
 bool simulated(const Problem& problem, double share, double time_limit, SolveSettings& settings) {
   const Trajectory straight = straight_guess(problem);
   std::vector<double> controls = straight.controls.front();
@@ -25,21 +43,11 @@ bool simulated(const Problem& problem, double share, double time_limit, SolveSet
     if (std::isfinite(bounds.lower) && std::isfinite(bounds.upper))
       controls[i] = bounds.lower + share * (bounds.upper - bounds.lower);
   }
-  const Timer timer;
-  const nlp::Options& options = settings.options;
-  SimulateSettings rules{.tolerance = 1e-6};
-  rules.stop = [&] {
-    return timer.wall() > std::min(time_limit, kSimulation_s) ||
-           (options.stop != nullptr && options.stop(options.stop_data));
-  };
-  try {
-    Simulation found =
-        simulate(problem, straight.states.front(), constant_controls(controls), rules);
-    settings.guess = std::move(found.trajectory);
-    return found.complete;
-  } catch (const InvalidValue&) {  // dynamics that use final values
-    return false;
-  }
+  nlp::Options limits = settings.options;
+  limits.time_limit = time_limit;
+  auto found = led_by(problem, straight, constant_controls(controls), limits);
+  if (found) settings.guess = std::move(*found);
+  return found.has_value();
 }
 
 }  // namespace slalom::ocp

@@ -65,8 +65,8 @@ Trajectory straight_guess(const Problem& problem) {
   guess.states.assign(2, {});
   guess.controls.assign(2, {});
   for (const auto& state : problem.states()) {
-    guess.states[0].push_back(middle(intersection(state.bounds, state.initial)));
-    guess.states[1].push_back(middle(intersection(state.bounds, state.final)));
+    guess.states[0].push_back(middle(end_bounds(state, false)));
+    guess.states[1].push_back(middle(end_bounds(state, true)));
   }
   for (auto& controls : guess.controls)
     for (const auto& control : problem.controls()) controls.push_back(middle(control.bounds));
@@ -77,8 +77,7 @@ Trajectory held_guess(const Problem& problem) {
   Trajectory guess = straight_guess(problem);
   for (std::size_t i = 0; i < problem.states().size(); ++i) {
     const auto& state = problem.states()[i];
-    const Bounds ends[] = {intersection(state.bounds, state.initial),
-                           intersection(state.bounds, state.final)};
+    const Bounds ends[] = {end_bounds(state, false), end_bounds(state, true)};
     for (const int end : {0, 1})
       if (tells_a_value(ends[1 - end]) && !tells_a_value(ends[end]))
         guess.states[end][i] =
