@@ -8,6 +8,7 @@ with each crash in belief-errors.csv. Standard library only.
 
 import csv
 import io
+import json
 import math
 import random
 import re
@@ -18,14 +19,14 @@ from typing import NamedTuple
 from measured import command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, arrivals, by_family, make_scenarios
 from sensitivity import QUANTITIES
-from sweeps import arrives, head, interval, row, rows_of, setting, swept
+from sweeps import arrives, head, interval, row, setting, swept
 from verified_planner import REAL_TIME, number
 
 LEVELS = {"small": 0.1, "medium": 0.5, "large": 1.0}  # shares of the ranges
 SEED, DIFFICULTY = 5, 0.6
 ALL_FAMILIES = FAMILIES + TIMED_FAMILIES
-CRASH_MARGIN = 2  # [m]: sm_crash
 MOST_LISTED = 20  # crashes of a level on the page
+ROUNDING = 1e-6  # of what a certificate keeps [m]
 CHUNK = 200  # drives between which folders are thinned: each drive leaves more than a megabyte
 
 HEAD = """# Errors of belief, all at once
@@ -40,12 +41,11 @@ Noise has a seed of its own in each scenario.
 """
 
 VERIFIED = """
-*Verified*: the plan that was driven at the crash had a certificate, which holds only for a vehicle and obstacles that are
-as believed ([verified-planner.md](../verified-planner.md)); so says the last plan in the drive's `cycles.csv` that had
-taken effect by then. By its certificate the vehicle planned for keeps a distance (*kept*) beyond the crash edge of the
-obstacles believed in. A crash needs errors beyond that: of the vehicle's place (*off plan*), of the obstacle's, or of
-both together, by the triangle's inequality. In how many the vehicle alone was farther off than what was kept stands in
-the table; in the others the obstacle was elsewhere by at least the rest.
+*Verified*: the plan that was driven at the crash had a certificate, which holds for a vehicle and obstacles that are as
+believed ([verified-planner.md](../verified-planner.md)). It keeps a distance (*kept*) beyond the edge of a crash. The
+program measures at each such crash how far the vehicle was from where its plan has it (*off plan*) and the obstacle from
+where it was believed (*off belief*), by the points that are farthest off. By the triangle's inequality a crash needs off
+plan + off belief >= kept. Where the sum is less (*within the errors*), the certificate was wrong.
 
 """
 
@@ -119,7 +119,7 @@ def thin(folder, crashed):
     for path in folder.iterdir():
         if path.is_dir():
             shutil.rmtree(path)
-        elif path.name not in ("cycles.csv", "plans.csv"):
+        elif path.name != "summary.json":
             path.unlink()
 
 
@@ -133,40 +133,35 @@ def drive_level(options, level, plain):
     verified = {}
     for trial in trials:
         if trial["outcome"] == "crash":
-            rows = [rows_of(drive_folder(out, trial) / name) for name in ("cycles.csv", "plans.csv")]
-            verified[trial["scenario"]] = crash_of(*rows, trial)
+            summary = json.loads((drive_folder(out, trial) / "summary.json").read_text())
+            verified[trial["scenario"]] = crash_of(summary)
     return {t["scenario"]: t for t in trials}, verified
 
 
 class Crash(NamedTuple):
-    """What is known of a crash."""
+    """What is known of a crash; without a verified plan, nothing else [m]."""
 
     verified: bool  # the plan that was driven
-    kept: float  # what its certificate keeps beyond the crash edge [m]; nan without one
-    off_plan: float  # how far the vehicle was from where that plan has it [m]; nan without one
+    kept: float = math.nan  # what its certificate keeps beyond the edge of a crash
+    off_plan: float = math.nan  # how far the vehicle was from where that plan has it
+    off_belief: float = math.nan  # and the obstacle from where it was believed; inf if it was not known
 
-    def explained(self):
-        """By the vehicle alone: it was farther off than what was kept. Else an obstacle was, for the rest."""
-        return self.off_plan >= self.kept
+    def within_errors(self):
+        """Whether the certificate was wrong: all was so near to what was believed that nothing is hit."""
+        return self.verified and self.off_plan + self.off_belief < self.kept - ROUNDING
+
+    def by_vehicle(self):
+        """The vehicle alone was farther off than what was kept."""
+        return self.verified and self.off_plan >= self.kept
 
 
-def crash_of(cycles, plans, trial):
-    """`cycles`, `plans`: the rows of cycles.csv and plans.csv."""
-    at = float(trial["time_s"])
-    taken = [c for c in cycles if c["used"] == "1" and float(c["t_swap"]) <= at]
-    if not taken or taken[-1]["verified"] != "1":
-        return Crash(False, math.nan, math.nan)
-    cycle = taken[-1]
-    there = re.search(r" at \(([-\d.e+]+), ([-\d.e+]+)\)", trial["message"])
-    nodes = [p for p in plans if p["cycle"] == cycle["cycle"]]
-    near = min(range(len(nodes)), key=lambda k: abs(float(nodes[k]["t"]) - at))
-    before, after = nodes[max(near - 1, 0)], nodes[near]
-    if float(after["t"]) < at:
-        before, after = after, nodes[min(near + 1, len(nodes) - 1)]
-    length = float(after["t"]) - float(before["t"])
-    share = min(max((at - float(before["t"])) / length, 0), 1) if length > 0 else 0
-    planned = [float(before[k]) + share * (float(after[k]) - float(before[k])) for k in ("x", "y")]
-    return Crash(True, float(cycle["verified_clearance"]) - CRASH_MARGIN, math.dist(planned, map(float, there.groups())))
+def crash_of(summary):
+    """By a drive's summary.json."""
+    found = summary.get("verified_crash")
+    if not found:
+        return Crash(False)
+    belief = found["off_belief_m"]
+    return Crash(True, found["kept_m"], found["off_plan_m"], math.inf if belief is None else belief)
 
 
 # --- the page -----------------------------------------------------------------------------------
@@ -182,7 +177,8 @@ def ranges_table():
 
 
 def levels_table(trials, verified):
-    text = head(["level", "drives", "arrive", "95 %", "crash", "of these verified", "of these off plan by more than kept", "other ends",
+    text = head(["level", "drives", "arrive", "95 %", "crash", "of these verified", "of these within the errors",
+                 "the vehicle alone off by more", "other ends",
                  "least distance beyond the 2 m of those that arrive [m]"])
     for level, of_scenario in trials.items():
         every = list(of_scenario.values())
@@ -190,7 +186,8 @@ def levels_table(trials, verified):
         least = min((float(t["least_clearance_m"] or "inf") for t in there), default=None)
         text += row([level, len(every), len(there), "{:.4f}–{:.4f}".format(*interval(len(there), len(every))),
                      len(verified[level]), sum(c.verified for c in verified[level].values()),
-                     sum(c.verified and c.explained() for c in verified[level].values()),
+                     sum(c.within_errors() for c in verified[level].values()),
+                     sum(c.by_vehicle() for c in verified[level].values()),
                      len(every) - len(there) - len(verified[level]), "–" if least is None else number(least, 3)])
     return text
 
@@ -217,7 +214,7 @@ def shares_table(trials):
 
 
 def metres(crash):
-    return [number(value, 2) if crash.verified else "–" for value in (crash.kept, crash.off_plan)]
+    return [number(value, 2) if crash.verified else "–" for value in (crash.kept, crash.off_plan, crash.off_belief)]
 
 
 def listed(trials, verified):
@@ -229,7 +226,7 @@ def listed(trials, verified):
             text += "None.\n"
             continue
         first = sorted(of_scenario, key=lambda s: (not of_scenario[s].verified, s))
-        text += head(["scenario", "verified", "kept [m]", "off plan [m]", "how it ended", "errors"])
+        text += head(["scenario", "verified", "kept [m]", "off plan [m]", "off belief [m]", "how it ended", "errors"])
         for scenario in first[:MOST_LISTED]:
             values = errors(drawn(scenario)[0], level)
             crash = of_scenario[scenario]
@@ -241,13 +238,13 @@ def listed(trials, verified):
 
 
 def crashes(trials, verified):
-    """A row a crash: level, scenario, whether its plan was verified, how it ended, and the errors."""
+    """A row for each crash: level, scenario, whether its plan was verified, how it ended, and the errors."""
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["level", "scenario", "verified", "kept_m", "off_plan_m", "message", *(q.key for q in QUANTITIES)])
+    writer.writerow(["level", "scenario", "verified", "kept_m", "off_plan_m", "off_belief_m", "message", *(q.key for q in QUANTITIES)])
     for level, of_scenario in verified.items():
         for scenario, crash in of_scenario.items():
-            numbers = [f"{value:.3f}" if crash.verified else "" for value in (crash.kept, crash.off_plan)]
+            numbers = [f"{value:.3f}" if crash.verified else "" for value in crash[1:]]
             writer.writerow([level, scenario, int(crash.verified), *numbers, trials[level][scenario]["message"],
                              *errors(drawn(scenario)[0], level).values()])
     return file.getvalue()

@@ -21,11 +21,7 @@ def trial(outcome):
     return {"outcome": outcome, "message": "ended 3.5", "least_clearance_m": "0.31"}
 
 
-def cycle(t_swap, verified, used="1", number="1"):
-    return {"cycle": number, "t_swap": t_swap, "verified": verified, "used": used, "verified_clearance": "2.3"}
-
-
-NOT_VERIFIED = Crash(False, math.nan, math.nan)
+NOT_VERIFIED = Crash(False)
 
 
 class Draws(unittest.TestCase):
@@ -55,31 +51,27 @@ class Draws(unittest.TestCase):
 
 
 class Crashes(unittest.TestCase):
-    def test_the_plan_driven_is_the_last_that_took_effect(self):
-        cycles = [cycle("1", "1"), cycle("2", "0"), cycle("3.4", "1", used="0"), cycle("3.6", "1")]
-        plans = [{"cycle": "1", "t": t, "x": x, "y": "0"} for t, x in (("1", "10"), ("2", "20"), ("4", "30"))]
-        for at, verified in ((3.5, False), (1.5, True), (3.6, True), (0.5, False)):
-            hit = {"time_s": str(at), "message": "hit O2 at 3.5 s at (25, -0.3), 17 m/s"}
-            self.assertEqual(crash_of(cycles, plans, hit).verified, verified, at)
+    def test_a_crash_is_what_the_program_measured(self):
+        self.assertFalse(crash_of({"outcome": "crash"}).verified)
+        found = {"cycle": 7, "kept_m": 0.3, "off_plan_m": 0.1, "off_belief_m": 0.25}
+        self.assertEqual(crash_of({"verified_crash": found}), Crash(True, 0.3, 0.1, 0.25))
+        self.assertEqual(crash_of({"verified_crash": found | {"off_belief_m": None}}).off_belief, math.inf)
 
-    def test_a_crash_is_measured_by_what_was_kept_and_how_far_the_plan_is(self):
-        plans = [{"cycle": n, "t": t, "x": x, "y": "0"} for n, t, x in
-                 (("1", "3", "0"), ("2", "1", "10"), ("2", "2", "20"), ("2", "4", "30"))]
-        hit = {"time_s": "3", "message": "hit O2 at 3 s at (25, -0.3), 17 m/s"}
-        crash = crash_of([cycle("1", "1", number="2")], plans, hit)
-        self.assertAlmostEqual(crash.kept, 0.3)
-        self.assertAlmostEqual(crash.off_plan, 0.3)
-        for wide, explained in ((0.31, True), (0.29, False)):
-            self.assertEqual(Crash(True, 0.3, wide).explained(), explained)
+    def test_a_certificate_is_wrong_where_the_errors_are_less_than_it_keeps(self):
+        for off_plan, off_belief, within, by_vehicle in ((0.1, 0.25, False, False), (0.1, 0.15, True, False),
+                                                         (0.35, 0, False, True), (0, math.inf, False, False)):
+            crash = Crash(True, 0.3, off_plan, off_belief)
+            self.assertEqual((crash.within_errors(), crash.by_vehicle()), (within, by_vehicle), crash)
+        self.assertFalse(NOT_VERIFIED.within_errors() or NOT_VERIFIED.by_vehicle())
 
     def test_of_a_drive_stays_what_is_needed(self):
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch) / "000001"
             (folder / "figures").mkdir(parents=True)
-            for name in ("cycles.csv", "plans.csv", "report.html", "figures/map.svg"):
+            for name in ("cycles.csv", "summary.json", "report.html", "figures/map.svg"):
                 (folder / name).write_text("text\n")
             thin(folder, crashed=True)
-            self.assertEqual(sorted(f.name for f in folder.iterdir()), ["cycles.csv", "plans.csv"])
+            self.assertEqual(sorted(f.name for f in folder.iterdir()), ["summary.json"])
             thin(folder, crashed=True)
             thin(folder, crashed=False)
             self.assertFalse(folder.exists())
@@ -90,24 +82,24 @@ class Page(unittest.TestCase):
     def setUp(self):
         few = {"gates-0001": trial("goal"), "gates-0002": trial("crash"), "crossing_at_rest-0001": trial("timeout")}
         self.trials = {level: dict(few) for level in LEVELS}
-        self.verified = {"small": {"gates-0002": Crash(True, 0.2, 0.5)}, "medium": {"gates-0002": NOT_VERIFIED},
+        self.verified = {"small": {"gates-0002": Crash(True, 0.2, 0.5, 0.1)}, "medium": {"gates-0002": NOT_VERIFIED},
                          "large": {"gates-0002": NOT_VERIFIED}}
 
     def test_it_counts_by_level_and_family(self):
         text = page(self.trials, self.verified, "A stamp.\n")
-        self.assertIn("| small | 3 | 1 | 0.0084–0.9057 | 1 | 1 | 1 | 1 | 0.310 |", text)
-        self.assertIn("| large | 3 | 1 | 0.0084–0.9057 | 1 | 0 | 0 | 1 | 0.310 |", text)
+        self.assertIn("| small | 3 | 1 | 0.0084–0.9057 | 1 | 1 | 0 | 1 | 1 | 0.310 |", text)
+        self.assertIn("| large | 3 | 1 | 0.0084–0.9057 | 1 | 0 | 0 | 0 | 1 | 0.310 |", text)
         self.assertIn("| gates | 1/2 | 1/2 | 1/2 | 1 | 1 | 1 |", text)
         self.assertIn("| crossing | 0/0 | 0/0 | 0/0 | 0 | 0 | 0 |", text)
-        self.assertIn("| gates-0002 | no | – | – | ended 3.5 | mass_factor ", text)
+        self.assertIn("| gates-0002 | no | – | – | – | ended 3.5 | mass_factor ", text)
 
     def test_no_more_than_some_are_listed_but_all_are_in_the_table(self):
         many = {f"gates-{k:04}": trial("crash") for k in range(belief_errors.MOST_LISTED + 3)}
-        words = {s: Crash(True, 0.2, 0.1) if s == "gates-0022" else NOT_VERIFIED for s in many}
+        words = {s: Crash(True, 0.2, 0.1, 0.15) if s == "gates-0022" else NOT_VERIFIED for s in many}
         trials, verified = {"large": many}, {"large": words}
         text = belief_errors.listed(trials, verified)
         self.assertEqual(text.count("| gates-"), belief_errors.MOST_LISTED)
-        self.assertIn("| gates-0022 | yes | 0.20 | 0.10 |", text)
+        self.assertIn("| gates-0022 | yes | 0.20 | 0.10 | 0.15 |", text)
         self.assertIn("And 3 more.", text)
         self.assertEqual(len(crashes(trials, verified).splitlines()), 1 + len(many))
 

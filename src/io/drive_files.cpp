@@ -36,13 +36,20 @@ Json warm_up_json(const sim::Cycle& cycle) {
 }
 
 /// Nothing for a planner that does not verify its plans.
-void add_verification(Json& summary, const sim::Drive& drive) {
+void add_verification(Json& summary, const sim::Scenario& scenario, const sim::Drive& drive) {
   const auto verification = sim::verification(drive);
   if (!verification) return;
   summary["cycles_unverified"] = verification->unverified;
   Json& rungs = summary["rungs"] = Json::object();
   for (const auto rung : {planner::Rung::new_plan, planner::Rung::rest, planner::Rung::least_bad})
     rungs[planner::to_string(rung)] = verification->of(rung);
+  const auto crash = sim::verified_crash(scenario, drive);
+  if (!crash) return;
+  summary["verified_crash"] = {
+      {"cycle", crash->cycle},
+      {"kept_m", number(crash->kept)},
+      {"off_plan_m", number(crash->off_plan)},
+      {"off_belief_m", crash->off_belief ? number(*crash->off_belief) : Json(nullptr)}};
 }
 
 void add_marks(Json& summary, const sim::Scenario& scenario, const sim::Drive& drive) {
@@ -61,13 +68,13 @@ void add_marks(Json& summary, const sim::Scenario& scenario, const sim::Drive& d
 }
 
 /// Median and greatest time of the solves on the clock; the warm-up stands by itself.
-void add_solve_times(Json& summary, const sim::Drive& drive) {
+void add_solve_times(Json& summary, const sim::Scenario& scenario, const sim::Drive& drive) {
   const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
   const auto unsolved = sim::unsolved(drive);
   summary["cycles"] = wall.size();
   summary["cycles_unsolved"] = unsolved.cycles;
   summary["cycles_best_iterate"] = unsolved.best_iterates;
-  add_verification(summary, drive);
+  add_verification(summary, scenario, drive);
   summary["solve_time_median_s"] = number(sim::median(wall));
   summary["solve_time_max_s"] = number(sim::greatest(wall));
   summary["cpu_time_median_s"] = number(sim::median(cpu));
@@ -113,7 +120,7 @@ std::string summary_json(const sim::Scenario& scenario, const sim::Drive& drive)
   }
   summary["tex_s"] = number(scenario.loop.tex);
   summary["floor"] = number(scenario.planner.floor);
-  add_solve_times(summary, drive);
+  add_solve_times(summary, scenario, drive);
   add_marks(summary, scenario, drive);
   summary["version"] = kVersion;
   return dump(summary);

@@ -13,15 +13,6 @@ namespace {
 
 using world::Obstacle;
 
-void go_straight(Obstacle& o, const world::Pose& at, double t0) {
-  o.trajectory = nullptr;
-  o.x = at.x - at.vx * t0;
-  o.y = at.y - at.vy * t0;
-  o.vx = at.vx;
-  o.vy = at.vy;
-  o.psi = at.psi;
-}
-
 /// More rows than these are not worth their time.
 constexpr int kMostParts = 6;
 
@@ -35,30 +26,8 @@ int parts_of(const Obstacle& rectangle) {
 
 }  // namespace
 
-std::vector<Obstacle> believed(const Settings& settings, std::vector<Obstacle> obstacles,
-                               double t0) {
-  const bool known = settings.prediction == Prediction::known;
-  if (!known) std::erase_if(obstacles, [&](const Obstacle& o) { return !o.present(t0, t0); });
-  for (auto& o : obstacles) {
-    if (o.margin_rate > 0) o.predicted_at = t0;
-    if (known || !o.trajectory) continue;
-    const world::Pose at = o.pose_at(t0);
-    if (settings.prediction == Prediction::constant_velocity)
-      go_straight(o, at, t0);
-    else
-      o.trajectory = std::make_shared<world::TurningTrajectory>(t0, at);
-  }
-  return obstacles;
-}
-
 bool varies(const Obstacle& obstacle) {
   return obstacle.trajectory || obstacle.margin_rate > 0;
-}
-
-bool belief_varies(const Settings& settings, const std::vector<Obstacle>& obstacles) {
-  return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& o) {
-    return o.margin_rate > 0 || (o.trajectory && settings.prediction != Prediction::known);
-  });
 }
 
 std::vector<Obstacle> stand_ins(const Settings& settings, const world::Footprint& footprint,

@@ -2,21 +2,15 @@
 
 #include <vector>
 
+#include "slalom/planner/belief.hpp"
 #include "slalom/planner/settings.hpp"
 #include "slalom/world/footprint.hpp"
 #include "slalom/world/obstacle.hpp"
 
 namespace slalom::planner {
 
-/// Obstacles as a planner that plans at t0 [s] takes them to move (Settings::prediction), and the
-/// seconds ahead of their margins counted from then.
-std::vector<world::Obstacle> believed(const Settings& settings,
-                                      std::vector<world::Obstacle> obstacles, double t0);
-
 /// Whether a row for it has numbers of their own at each moment.
 bool varies(const world::Obstacle& obstacle);
-/// Whether believed() depends on when one plans.
-bool belief_varies(const Settings& settings, const std::vector<world::Obstacle>& obstacles);
 
 /// Obstacles as rows have them (ObstacleRows): plain ellipses to a footprint that is a point, and
 /// circles, as they are; circles over bodies out of which they stick by Settings::cover_excess at

@@ -82,8 +82,9 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
   if (request.last_was_late) last_ = before_;
   if (counts_laps())
     along_ = task_.road->unwrapped(task_.road->project({request.X0p[X], request.X0p[Y]}).s, along_);
-  Cycle cycle{
-      .request = request, .obstacles = known(request), .verification = task_.planner.verification};
+  Cycle cycle{.request = request,
+              .obstacles = known_obstacles(task_, request),
+              .verification = task_.planner.verification};
   if (task_.planner.fallback) {
     continue_last(cycle);
     follow_course(cycle);
@@ -97,28 +98,10 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
   return choose(cycle);
 }
 
-std::vector<world::Obstacle> VerifiedPlanner::known(const Request& request) const {
-  auto obstacles = believed(task_.planner, request.obstacles.value_or(task_.obstacles), request.t0);
-  if (task_.planner.known == Known::range) {
-    const Seen seen = this->seen(request);
-    const world::Footprint footprint(task_.vehicle);
-    State from = request.X0p;
-    from[X] = seen.x;
-    from[Y] = seen.y;
-    std::erase_if(obstacles, [&](const auto& o) {
-      return !o.present(request.t0, request.t0) ||
-             footprint.distance(o, from, request.t0) > seen.radius;
-    });
-  }
-  return obstacles;
-}
-
-/// What the vehicle sees when it plans, at t0: there it is as far behind X0p as it drives by then.
+/// The disc that is seen when the vehicle plans.
 Seen VerifiedPlanner::seen(const Request& request) const {
-  const State& x = request.X0p;
-  const double driven = x[UX] * (request.t_start - request.t0);
-  return {x[X] - driven * std::cos(x[PSI]), x[Y] - driven * std::sin(x[PSI]),
-          task_.planner.L_range};
+  const world::Point place = planning_place(request);
+  return {place.x, place.y, task_.planner.L_range};
 }
 
 /// What a new plan keeps: what it loses by errors as they were lately leaves enough for its rest.

@@ -115,7 +115,6 @@ class VerifiedPlanner final : public PlanningMethod {
   };
 
   Request possible(Request request) const;
-  std::vector<world::Obstacle> known(const Request& request) const;
   Seen seen(const Request& request) const;
   Need need(const Cycle& cycle) const;
   void note_error(const Cycle& cycle, double state_error);

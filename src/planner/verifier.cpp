@@ -15,40 +15,29 @@ using namespace vehicle;
 /// An interval as short as this [s] is not divided further: what its bound does not show is
 /// refused.
 constexpr double kShortest = 1e-4;
-/// Speed grows by less than this within an interval between knots [m/s], and yaw rate [rad/s].
-constexpr double kSpeedSlack = 0.5, kTurnSlack = 0.3;
-/// Wheel loads are looked at this often [s] at least. Between, they change by less than what
-/// the load needed stands above that at which a wheel lifts.
-constexpr double kLoadStep = 0.026;
+/// Where loads come this near to what is needed, as a share of a wheel's mean static load, the
+/// plant itself says what they are between two knots.
+constexpr double kLowLoad = 0.05;
 /// What the integrator and the loop's other choice of instants may add to ax [m/s^2], ux [m/s] and
 /// sa [rad] at their limits.
 constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e-3;
 /// A vehicle stands when it is slower than this [m/s] and accelerates by less than this [m/s^2].
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
-/// A creep is steady after this [s]: slow tyres react within milliseconds.
-constexpr double kSteady = 0.5;
-/// Below this half of a turn a circle's chord is its arc [rad].
-constexpr double kStraight = 1e-6;
-/// Standing, distances are looked at this far apart at the least [m]; and this often at the least,
-/// where the motion is a trajectory's [s].
-constexpr double kLook = 0.01, kLookAgain = 1;
 /// A motion that begins beyond a limit is within it after this [s].
 constexpr double kToComeBack = 1;
 /// Within the goal's square by this much counts as there [m].
 constexpr double kInside = 0.1;
 /// Another goal is reached by so much [its unit].
 constexpr double kWell = 0.02;
-/// No point of the body accelerates by more [m/s^2]: the tyres' 10, and as much again for a yaw
-/// rate of 1 rad/s, or 2 rad/s^2, five metres off.
-constexpr double kMostAcceleration = 20;
 /// A motion that begins nearer to the road's edge than is needed keeps that but for this [m].
 constexpr double kEdgeSlack = 0.01;
 
 /// The plant's integrator as the loop has it by default.
 constexpr double kPlantTolerance = 1e-9, kSampleStep = 0.02;
 
-double speed(const Parameters& p, const State& x) {
-  return std::hypot(x[UX], x[V] + p.la * x[R]);
+/// Of the front axle's centre across the vehicle [m/s].
+double across(const Parameters& p, const State& x) {
+  return x[V] + p.la * x[R];
 }
 
 /// Distance of the footprint to an obstacle's edge, or a lower bound of it where it is beyond
@@ -73,6 +62,13 @@ struct Verifier::Interval {
   double t0, t1;
   const State &x0, &x1;
   Control u0, u1;
+
+  double duration() const { return t1 - t0; }
+};
+
+/// Of any point of the body within an interval [m/s], [m/s^2].
+struct Verifier::Fastest {
+  double speed, acceleration;
 };
 
 Plant Verifier::believed_plant(const Parameters& vehicle) {
@@ -106,7 +102,8 @@ double Verifier::within_seen(const State& x) const {
 }
 
 /// Where the motion begins beyond a limit, it has a while to come back, and goes no further.
-void Verifier::note_limits(double t, const State& x) {
+/// Returns the wheel loads.
+WheelLoads Verifier::note_limits(double t, const State& x) {
   auto& certificate = verdict_.certificate;
   const WheelLoads loads = plant_.dynamics().wheel_loads(x);
   const Excess excess = excess_of(x, loads);
@@ -124,6 +121,63 @@ void Verifier::note_limits(double t, const State& x) {
   if (!(excess.ux <= allowed.ux)) refuse(t, fmt::format("speed of {:.4g} m/s", x[UX]));
   if (!(excess.sa <= allowed.sa)) refuse(t, "steering angle");
   if (!(excess.ax <= allowed.ax)) refuse(t, fmt::format("acceleration of {:.3g} m/s^2", x[AX]));
+  return loads;
+}
+
+/// From the nearer end on, for half the interval at the most, by what the vehicle's tyres can do.
+Verifier::Fastest Verifier::fastest(const Interval& i) const {
+  const auto greater = [](double a, double b) { return std::max(std::fabs(a), std::fabs(b)); };
+  const Parameters& p = task_.vehicle;
+  const double half = i.duration() / 2;
+  const double turn = greater(i.x0[R], i.x1[R]) + quickness_.yaw * half;
+  const double sideways = greater(across(p, i.x0), across(p, i.x1)) + quickness_.across * half;
+  // The speed along the vehicle changes by ax; its direction in space turns.
+  const double acceleration = std::hypot(quickness_.along + sideways * turn, quickness_.across);
+  const double speed =
+      std::max(std::hypot(i.x0[UX], across(p, i.x0)), std::hypot(i.x1[UX], across(p, i.x1))) +
+      acceleration * half;
+  const double reach = footprint_.reach();
+  return {speed + turn * reach, acceleration + (quickness_.yaw + turn * turn) * reach};
+}
+
+/// Judges both halves of an interval; the plant gives the state between them.
+template <class Judge>
+void Verifier::halve(const Interval& i, const Judge& judge) const {
+  const double middle = (i.t0 + i.t1) / 2;
+  Control u;
+  for (std::size_t c = 0; c < kControls; ++c) u[c] = (i.u0[c] + i.u1[c]) / 2;
+  const State x = plant_.advance(i.x0, i.u0, u, i.t0, middle);
+  judge({i.t0, middle, i.x0, x, i.u0, u}, {middle, i.t1, x, i.x1, u, i.u1});
+}
+
+/// Loads at the ends of an interval and in its middle leave out a dip between. A parabola through
+/// the three dips below all by a quarter of what it is off the chord in the middle; four times that
+/// is allowed for.
+void Verifier::keep_loads(const Interval& i, const WheelLoads& first, const WheelLoads& last) {
+  const auto least = [](const WheelLoads& loads) {
+    return *std::min_element(loads.begin(), loads.end());
+  };
+  const Parameters& p = task_.vehicle;
+  const double low = need_.wheel_load + kLowLoad * (p.FzF0 + p.FzR0) / kWheels;
+  if (std::min(least(first), least(last)) >= low) {
+    State mean;
+    for (std::size_t s = 0; s < kStates; ++s) mean[s] = (i.x0[s] + i.x1[s]) / 2;
+    if (least(plant_.dynamics().wheel_loads(mean)) >= low) return;
+  }
+  halve(i, [&](const Interval& a, const Interval& b) {
+    const WheelLoads middle = note_limits(a.t1, a.x1);
+    if (!verdict_.certificate.refused.empty()) return;
+    const Excess allowed = i.t0 - begin_ < kToComeBack ? first_ : Excess{};
+    bool holds = true;
+    for (std::size_t w = 0; w < kWheels; ++w) {
+      const double off = std::fabs((first[w] + last[w]) / 2 - middle[w]);
+      const double bound = std::min({first[w], middle[w], last[w]}) - off;
+      holds = holds && bound >= need_.wheel_load - allowed.load[w];
+    }
+    if (holds || i.duration() < kShortest) return;
+    keep_loads(a, first, middle);
+    keep_loads(b, middle, last);
+  });
 }
 
 /// Along an interval, distance falls below the mean of its ends by half the way that vehicle and
@@ -135,24 +189,19 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   const double need =
       first ? std::min(need_.clearance, first_clearance_[obstacle]) : need_.clearance;
   const double margin0 = o.margin(i.t0), margin1 = o.margin(i.t1);
-  const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
-  const double rate = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
-                      kSpeedSlack + o.fastest(i.t0, i.t1) + turn * footprint_.reach() +
-                      o.margin_rate;
-  const double reach = rate * (i.t1 - i.t0);
+  const double rate = fastest(i).speed + o.fastest(i.t0, i.t1) + o.margin_rate;
+  const double reach = rate * i.duration();
   const double d0 = distance_within(footprint_, o, i.x0, i.t0, need + margin0 + reach);
   const double d1 = distance_within(footprint_, o, i.x1, i.t1, need + margin1 + reach);
   note_distance(obstacle, std::min(d0, d1), std::min(d0 - margin0, d1 - margin1));
   if (!(std::min(d0 - margin0, d1 - margin1) >= need))
     return refuse(i.t0, "clearance to " + o.name);
   if ((d0 - margin0 + (d1 - margin1) - reach) / 2 >= need) return;
-  if (i.t1 - i.t0 < kShortest) return refuse(i.t0, "clearance to " + o.name);
-  const double middle = (i.t0 + i.t1) / 2;
-  Control u;
-  for (std::size_t c = 0; c < kControls; ++c) u[c] = (i.u0[c] + i.u1[c]) / 2;
-  const State x = plant_.advance(i.x0, i.u0, u, i.t0, middle);
-  keep_off({i.t0, middle, i.x0, x, i.u0, u}, obstacle);
-  keep_off({middle, i.t1, x, i.x1, u, i.u1}, obstacle);
+  if (i.duration() < kShortest) return refuse(i.t0, "clearance to " + o.name);
+  halve(i, [&](const Interval& a, const Interval& b) {
+    keep_off(a, obstacle);
+    keep_off(b, obstacle);
+  });
 }
 
 /// Along an interval each point of the body is off its chord, and an edge bends away from its own,
@@ -161,23 +210,20 @@ void Verifier::keep_on_road(const Interval& i) {
   const double need = i.t0 - begin_ < kToComeBack && first_edge_ < need_.edge
                           ? std::max(first_edge_ - kEdgeSlack, std::min(first_edge_, 0.))
                           : need_.edge;
-  const double turn = std::max(std::fabs(i.x0[R]), std::fabs(i.x1[R])) + kTurnSlack;
-  const double fast = std::max(speed(task_.vehicle, i.x0), speed(task_.vehicle, i.x1)) +
-                      kSpeedSlack + turn * footprint_.reach();
-  const double dt = i.t1 - i.t0;
-  const double slack = (kMostAcceleration + task_.road->sharpest() * fast * fast) * dt * dt / 8;
+  const Fastest most = fastest(i);
+  const double bend = task_.road->sharpest() * most.speed * most.speed;
+  const double dt = i.duration();
+  const double slack = (most.acceleration + bend) * dt * dt / 8;
   const double least = std::min(footprint_.edge_distance(*task_.road, i.x0),
                                 footprint_.edge_distance(*task_.road, i.x1));
   verdict_.nearest_edge = std::min(verdict_.nearest_edge, least);
   if (!(least >= need)) return refuse(i.t0, "off the road");
   if (least - slack >= need) return;
   if (dt < kShortest) return refuse(i.t0, "off the road");
-  const double middle = (i.t0 + i.t1) / 2;
-  Control u;
-  for (std::size_t c = 0; c < kControls; ++c) u[c] = (i.u0[c] + i.u1[c]) / 2;
-  const State x = plant_.advance(i.x0, i.u0, u, i.t0, middle);
-  keep_on_road({i.t0, middle, i.x0, x, i.u0, u});
-  keep_on_road({middle, i.t1, x, i.x1, u, i.u1});
+  halve(i, [&](const Interval& a, const Interval& b) {
+    keep_on_road(a);
+    keep_on_road(b);
+  });
 }
 
 /// Notes the distance to an obstacle and what is left of it beside its margin.
@@ -187,83 +233,6 @@ void Verifier::note_distance(std::size_t obstacle, double distance, double spare
   if (!(distance < certificate.least_clearance)) return;
   certificate.least_clearance = distance;
   certificate.nearest = (*obstacles_)[obstacle].name;
-}
-
-/// The vehicle goes on without control: at constant speed along the circle on which its tyres roll,
-/// which the plant itself is driven onto.
-Verifier::Creep Verifier::creep_of(const Motion& motion) const {
-  const State& last = motion.states.back();
-  const State steady = plant_.advance(last, {}, {}, motion.end(), motion.end() + kSteady);
-  Creep creep{last, last[UX], steady[V] + task_.vehicle.la * steady[R], steady[R]};
-  creep.slack = std::fabs(last[AX]);
-  creep.fastest = std::hypot(creep.forward, creep.sideways) +
-                  std::fabs(creep.turn) * footprint_.reach() +
-                  creep.slack * task_.planner.standing_horizon;
-  return creep;
-}
-
-State Verifier::Creep::after(double time) const {
-  const double half = turn * time / 2;
-  const double chord = time * (std::fabs(half) < kStraight ? 1 : std::sin(half) / half);
-  const double c = std::cos(from[PSI] + half), s = std::sin(from[PSI] + half);
-  State x = from;
-  x[X] += chord * (forward * c - sideways * s);
-  x[Y] += chord * (forward * s + sideways * c);
-  x[PSI] += 2 * half;
-  return x;
-}
-
-/// Creeping on from `end` [s] the vehicle has `room` [m] left, which falls no faster than a point
-/// of the body moves.
-void Verifier::creep_within(const Creep& creep, double end,
-                            const std::function<double(const State&)>& room,
-                            const char* otherwise) {
-  for (double after = 0; after <= task_.planner.standing_horizon;) {
-    const double left = room(creep.after(after)) - creep.astray(after);
-    if (!(left >= 0)) return refuse(end + after, otherwise);
-    if (creep.fastest == 0) return;
-    after += std::max(left, kLook) / creep.fastest;
-  }
-}
-
-/// Creeping on from `end` [s] it keeps off an obstacle. Distance is looked at as often as both
-/// speeds allow it to fall to what is needed. Margins grow no more: plans to come know better.
-void Verifier::creep_off(const Creep& creep, double end, std::size_t obstacle) {
-  const auto& o = (*obstacles_)[obstacle];
-  const double horizon = task_.planner.standing_horizon;
-  double after = 0;
-  while (after <= horizon) {
-    const double t = end + after;
-    if (!o.present(t, end + horizon)) break;
-    const double spare = footprint_.distance(o, creep.after(after), t) - o.margin(end);
-    verdict_.nearest[obstacle] = std::min(verdict_.nearest[obstacle], spare);
-    const double left = spare - need_.clearance - creep.astray(after);
-    if (!(left >= kLook)) return refuse(t, "standing in the way of " + o.name);
-    const double rate =
-        creep.fastest + (o.trajectory ? o.fastest(t, t + kLookAgain) : std::hypot(o.vx, o.vy));
-    if (rate == 0 && !o.trajectory) break;
-    const double step = left / rate;
-    after += o.trajectory ? std::min(step, kLookAgain) : step;
-  }
-}
-
-/// After its end the motion creeps on at the speed and steering angle that it ends with.
-void Verifier::stand_for_good(const Motion& motion) {
-  const Creep creep = creep_of(motion);
-  const double end = motion.end();
-  if (task_.road)  // beyond its ends an open road goes on
-    creep_within(
-        creep, end,
-        [&](const State& x) { return footprint_.edge_distance(*task_.road, x) - need_.edge; },
-        "standing, but creeping off the road");
-  creep_within(
-      creep, end, [&](const State& x) { return -footprint_.outside(task_.region, x); },
-      "standing, but creeping out of the region");
-  if (std::isfinite(need_.seen.radius))
-    creep_within(
-        creep, end, [&](const State& x) { return within_seen(x); },
-        "standing, but creeping out of what is seen");
-  for (std::size_t k = 0; k < obstacles_->size(); ++k) creep_off(creep, end, k);
 }
 
 /// A body that begins nearer to an obstacle than is needed keeps that, but for kEdgeSlack. Of a
@@ -311,7 +280,9 @@ void Verifier::find_end(const Motion& motion, const Looks& looks) {
   }
   if (verdict_.end == MotionEnd::arrives) return;
   const State& last = motion.states.back();
-  if (last[UX] < kStanding && std::fabs(last[AX]) < kStandingAcceleration)
+  // Beyond its end the last control holds: it must be none.
+  if (last[UX] < kStanding && std::fabs(last[AX]) < kStandingAcceleration &&
+      motion.controls.back() == Control{})
     verdict_.end = MotionEnd::stands;
 }
 
@@ -334,18 +305,13 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   first_ = excess_of(motion.states[0], plant_.dynamics().wheel_loads(motion.states[0]));
   note_first_clearances(motion.states[0]);
   if (task_.road) first_edge_ = footprint_.edge_distance(*task_.road, motion.states[0]);
-  note_limits(motion.t[0], motion.states[0]);
+  WheelLoads loads = note_limits(motion.t[0], motion.states[0]);
   for (std::size_t k = 0; k + 1 < motion.size() && certificate.refused.empty(); ++k) {
     const Interval i{motion.t[k],          motion.t[k + 1],    motion.states[k],
                      motion.states[k + 1], motion.controls[k], motion.controls[k + 1]};
-    note_limits(i.t1, i.x1);
-    if (i.t1 - i.t0 > kLoadStep) {
-      const double middle = (i.t0 + i.t1) / 2;
-      State x;
-      for (std::size_t s = 0; s < kStates; ++s) x[s] = (i.x0[s] + i.x1[s]) / 2;
-      note_limits(middle, x);
-    }
+    const WheelLoads before = std::exchange(loads, note_limits(i.t1, i.x1));
     try {
+      keep_loads(i, before, loads);
       for (std::size_t o = 0; o < obstacles.size(); ++o) keep_off(i, o);
       if (task_.road) keep_on_road(i);
     } catch (const PlantError& error) {

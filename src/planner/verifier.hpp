@@ -9,6 +9,7 @@
 #include "motion.hpp"
 #include "slalom/planner/plan.hpp"
 #include "slalom/planner/task.hpp"
+#include "slalom/vehicle/agility.hpp"
 #include "slalom/vehicle/plant.hpp"
 #include "slalom/world/footprint.hpp"
 
@@ -63,7 +64,10 @@ class Verifier {
 
   /// Both outlive it.
   Verifier(const Task& task, const vehicle::Plant& plant)
-      : task_(task), plant_(plant), footprint_(task.vehicle) {}
+      : task_(task),
+        plant_(plant),
+        footprint_(task.vehicle),
+        quickness_(vehicle::quickness(task.vehicle)) {}
 
   /// `motion` among `obstacles`.
   Verdict judge(const Motion& motion, const std::vector<world::Obstacle>& obstacles,
@@ -74,6 +78,7 @@ class Verifier {
 
  private:
   struct Interval;
+  struct Fastest;
   /// By how much a state is beyond the vehicle's limits and the wheel loads needed.
   struct Excess {
     std::array<double, vehicle::kWheels> load{};
@@ -81,7 +86,12 @@ class Verifier {
   };
   Excess excess_of(const vehicle::State& state, const vehicle::WheelLoads& loads) const;
   double within_seen(const vehicle::State& state) const;
-  void note_limits(double t, const vehicle::State& state);
+  vehicle::WheelLoads note_limits(double t, const vehicle::State& state);
+  Fastest fastest(const Interval& interval) const;
+  template <class Judge>
+  void halve(const Interval& interval, const Judge& judge) const;
+  void keep_loads(const Interval& interval, const vehicle::WheelLoads& first,
+                  const vehicle::WheelLoads& last);
   void keep_off(const Interval& interval, std::size_t obstacle);
   void keep_on_road(const Interval& interval);
   void find_end(const Motion& motion, const Looks& looks);
@@ -111,6 +121,7 @@ class Verifier {
   const Task& task_;
   const vehicle::Plant& plant_;
   const world::Footprint footprint_;
+  const vehicle::Quickness quickness_;
   const std::vector<world::Obstacle>* obstacles_ = nullptr;
   Need need_{};
   double begin_ = 0;

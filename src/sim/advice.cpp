@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "slalom/vehicle/plant.hpp"
 #include "slalom/vehicle/plausible.hpp"
+#include "slalom/world/footprint.hpp"
 #include "slalom/world/path_exists.hpp"
 
 namespace slalom::sim {
@@ -107,6 +109,27 @@ void narrow_gaps(const Scenario& s, std::vector<std::string>& found) {
         between));
 }
 
+/// Until its first plan begins the vehicle goes straight on, whatever the planner finds.
+void before_first_plan(const Scenario& s, std::vector<std::string>& found) {
+  if (s.loop.latency == LatencyRule::instant) return;
+  const Plant plant(s.vehicle, s.loop.plant_tolerance, s.loop.sample_step);
+  const world::Footprint footprint(s.vehicle);
+  constexpr double kStep = 0.02;  // [s]
+  const int steps = static_cast<int>(std::ceil(s.loop.tex / kStep));
+  for (int i = 1; i <= steps; ++i) {
+    const double t = s.loop.tex * i / steps;
+    const State x = plant.advance(s.start, {}, {}, 0, t);
+    for (const auto& o : s.obstacles) {
+      if (!o.present(t, t) || footprint.distance(o, x, t) >= s.loop.sm_crash) continue;
+      found.push_back(fmt::format(
+          "before the first plan begins, at {:g} s, the vehicle goes straight on and hits {} at "
+          "{:.2f} s, whatever the planner finds",
+          s.loop.tex, o.name, t));
+      return;
+    }
+  }
+}
+
 void no_way(const Scenario& s, std::vector<std::string>& found) {
   if (s.road || s.goal.kind() != world::GoalKind::square) return;  // not what it searches
   world::PathSearch search;
@@ -127,6 +150,7 @@ std::vector<std::string> advice(const Scenario& scenario) {
   passes_between(scenario, found);
   goal_behind(scenario, found);
   narrow_gaps(scenario, found);
+  before_first_plan(scenario, found);
   no_way(scenario, found);
   for (auto& sentence : implausible(scenario.vehicle)) found.push_back(std::move(sentence));
   return found;

@@ -1,4 +1,6 @@
 #include "slalom/sim/marks.hpp"
+
+#include "slalom/sim/verification.hpp"
 #include "slalom/world/footprint.hpp"
 
 #include <fmt/format.h>
@@ -188,6 +190,21 @@ std::optional<Mark> away(const Scenario& scenario, const Drive& drive) {
               times};
 }
 
+/// A certificate that did not hold, for what was believed was not so.
+std::optional<Mark> crash_by_verified_plan(const Scenario& scenario, const Drive& drive) {
+  const auto crash = verified_crash(scenario, drive);
+  if (!crash) return std::nullopt;
+  return Mark{
+      "verified_crash",
+      fmt::format("the plan that was driven at the crash (cycle {}) was verified, {:.2f} m beyond "
+                  "the edge of a crash: the vehicle was {:.2f} m off it, and {}",
+                  crash->cycle, crash->kept, crash->off_plan,
+                  crash->off_belief ? fmt::format("{} {:.2f} m from where it was believed",
+                                                  drive.hit, *crash->off_belief)
+                                    : fmt::format("of {} the planner did not know", drive.hit)),
+      {drive.time}};
+}
+
 }  // namespace
 
 StartSlack start_slack(const Cycle& cycle) {
@@ -199,9 +216,10 @@ StartSlack start_slack(const Cycle& cycle) {
 
 std::vector<Mark> marks(const Scenario& scenario, const Drive& drive) {
   std::vector<Mark> result;
-  for (auto& mark : {through_obstacles(scenario, drive), through_edges(scenario, drive),
-                     beside(drive), low_load(scenario, drive), speed(scenario, drive),
-                     outside(scenario, drive), away(scenario, drive)})
+  for (auto& mark :
+       {through_obstacles(scenario, drive), through_edges(scenario, drive), beside(drive),
+        low_load(scenario, drive), speed(scenario, drive), outside(scenario, drive),
+        away(scenario, drive), crash_by_verified_plan(scenario, drive)})
     if (mark) result.push_back(*mark);
   return result;
 }

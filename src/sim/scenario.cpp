@@ -230,6 +230,25 @@ void check_goal(const Scenario& s, const std::string& where) {
   }
 }
 
+/// What is verified keeps all by which a drive fails.
+void check_verified(const Scenario& s, const std::string& where) {
+  if (s.planner.method != planner::Method::verified) return;
+  const auto require = [&](double kept, const char* key, double least, const char* failure) {
+    if (kept >= least) return;
+    throw InvalidValue(where + ": planner", fmt::format("{} = {:.6g}", key, kept),
+                       fmt::format("at least {} = {:.6g}, at which a drive fails", failure, least),
+                       {std::string("planner.") + key, std::string("loop.") + failure});
+  };
+  require(s.planner.kept_clearance, "kept_clearance", s.loop.sm_crash, "sm_crash");
+  require(s.planner.kept_wheel_load, "kept_wheel_load", s.loop.Fz_failure, "Fz_failure");
+  require(s.planner.verified_wheel_load, "verified_wheel_load", s.loop.Fz_failure, "Fz_failure");
+  if (s.loop.sm_crash > 0 && !world::Footprint(s.vehicle).is_point())
+    throw InvalidValue(where + ": loop", fmt::format("sm_crash = {:.6g}", s.loop.sm_crash),
+                       "0, for the plan of a body that begins too near to an obstacle is verified "
+                       "if it does not touch it",
+                       {"loop.sm_crash", "vehicle.footprint"});
+}
+
 }  // namespace
 
 void check(const Scenario& scenario, const std::string& where) {
@@ -247,6 +266,7 @@ void check(const Scenario& scenario, const std::string& where) {
   check_start_clear(scenario, where);
   check_goal(scenario, where);
   check_road(scenario, where);
+  check_verified(scenario, where);
 }
 
 }  // namespace slalom::sim

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -97,6 +98,32 @@ TEST_F(Scene, RefusesWhatLeavesTheRegionOrTheLimits) {
   EXPECT_NE(judge().certificate.refused.find("acceleration"), std::string::npos);
 }
 
+// Braking goes and comes again within an interval: at its ends the loads are the same.
+TEST_F(Scene, FindsALoadThatDipsBetweenTwoKnots) {
+  const Plant plant(task.vehicle, 1e-9, 0.02);
+  const Motion steady = motion;
+  motion = part_before(steady, 2);
+  const State from = motion.states.back();
+  motion.controls.back() = {0, -5};
+  const double begin = motion.end(), length = 0.5;
+  State x = plant.advance(from, {0, -5}, {0, 5}, begin, begin + length);
+  for (int k = 0; k <= 80; ++k) {
+    motion.add(begin + length + 0.05 * k, x, k == 0 ? Control{0, 5} : Control{});
+    x = plant.advance(x, motion.controls.back(), {}, motion.end(), motion.end() + 0.05);
+  }
+  const double whole = judge().certificate.least_wheel_load;
+  const State middle = plant.advance(from, {0, -5}, {0, 0}, begin, begin + length / 2);
+  const WheelLoads dip = plant.dynamics().wheel_loads(middle);
+  const double least = *std::min_element(dip.begin(), dip.end());
+  ASSERT_LT(least, whole - 200) << "at its knots the motion has more";
+  for (const double spare : {-10, 10}) {
+    need.wheel_load = least - spare;
+    const Verdict verdict = judge();
+    EXPECT_EQ(verdict.certificate.verified, spare > 0) << verdict.certificate.refused;
+    EXPECT_NEAR(verdict.certificate.least_wheel_load, least, 11);
+  }
+}
+
 TEST_F(Scene, AMotionThatBeginsBeyondALimitHasAWhileToComeBack) {
   task.vehicle.ux_max = 19.8;
   task.goal.y = 60;
@@ -135,6 +162,15 @@ TEST_F(Scene, MayStandOnlyWhereNothingComesForGood) {
   task.planner.standing_horizon = 20;
   late.x = 0;
   EXPECT_TRUE(judge({late}).certificate.verified);
+}
+
+// The plant holds a motion's last control beyond its end.
+TEST_F(Scene, MayStandOnlyWithoutControl) {
+  task.goal.y = 500;
+  drive(0.1);
+  motion.controls.back()[JX] = 0.1;
+  EXPECT_EQ(judge().end, MotionEnd::open);
+  EXPECT_FALSE(judge().certificate.verified);
 }
 
 TEST_F(Scene, ABodyIsWithinTheRegionByItsCorners) {

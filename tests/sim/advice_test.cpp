@@ -46,6 +46,19 @@ TEST(Advice, ObstaclesThatPassBetweenTwoNodes) {
   EXPECT_FALSE(says(s, "lorry"));
 }
 
+TEST(Advice, WhatIsHitBeforeTheFirstPlan) {
+  auto s = field();
+  const double speed = s.start[vehicle::UX];
+  s.obstacles = {circle("pole", 0, 0.6 * speed + 3, 1)};  // grown by 2 m, hit at .6 s
+  s.loop.tex = 0.5;
+  EXPECT_FALSE(says(s, "before the first plan")) << all(s);
+  s.loop.tex = 0.7;
+  EXPECT_TRUE(says(s, "begins, at 0.7 s, the vehicle goes straight on and hits pole at 0.6"))
+      << all(s);
+  s.loop.latency = LatencyRule::instant;
+  EXPECT_FALSE(says(s, "before the first plan")) << all(s);
+}
+
 TEST(Advice, AGoalBehindTheVehicle) {
   auto s = field();
   s.goal = {80, -10, 0, 10};

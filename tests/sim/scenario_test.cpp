@@ -78,6 +78,30 @@ TEST(Scenario, StartOutsideItsBoundsIsRefused) {
   expect_refused([](Scenario& s) { s.loop.Fz_failure = 6500; }, "Fz_r");
 }
 
+TEST(Scenario, APlannerThatVerifiesLessThanADriveFailsByIsRefused) {
+  const auto verified = [](auto change) {
+    return [change](Scenario& s) {
+      s.planner.method = planner::Method::verified;
+      change(s);
+    };
+  };
+  EXPECT_EQ(message(verified([](Scenario&) {})), "accepted");
+  expect_refused(verified([](Scenario& s) { s.loop.sm_crash = 2.1; }),
+                 "planner: found kept_clearance = 2.05, expected at least sm_crash = 2.1");
+  expect_refused(verified([](Scenario& s) { s.loop.Fz_failure = 300; }),
+                 "planner: found kept_wheel_load = 200, expected at least Fz_failure = 300");
+  expect_refused(verified([](Scenario& s) {
+                   s.planner.kept_wheel_load = 500;
+                   s.loop.Fz_failure = 450;
+                 }),
+                 "planner: found verified_wheel_load = 400");
+  expect_refused(verified([](Scenario& s) {
+                   s.loop.sm_crash = 0.2;
+                   s.vehicle.footprint = vehicle::FootprintKind::rectangle;
+                 }),
+                 "loop: found sm_crash = 0.2, expected 0");
+}
+
 TEST(Scenario, StartInsideAGrownObstacleIsRefused) {
   expect_refused([](Scenario& s) { s.obstacles[0] = testing::circle("O1", 5.9, 0, 4); },
                  "inside obstacle O1 grown by sm_crash = 2 m");

@@ -28,7 +28,7 @@ StartSlack start_slack(const Cycle& cycle);
 /// begin more than .1 m or 1 degree from the vehicle (start_slack); limits that plans keep and the
 /// plant broke: wheel loads by more than 100 N (wheel_load), speed by more than .1 m/s (speed), the
 /// region's sides by more than .1 m (region); the distance to the goal growing for 10 s
-/// (moves_away).
+/// (moves_away); a crash by a verified plan, with what was not as believed (verified_crash).
 std::vector<Mark> marks(const Scenario& scenario, const Drive& drive);
 
 }  // namespace slalom::sim

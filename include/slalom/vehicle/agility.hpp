@@ -15,6 +15,15 @@ struct Agility {
 
 Agility agility(const Parameters& parameters);
 
+/// What no motion of the vehicle exceeds, by the greatest forces of its tyres under any load that
+/// hard driving and braking give an axle: accelerations of the front axle's centre along and across
+/// the vehicle [m/s^2], the first beside what yawing adds, and of yaw [rad/s^2].
+struct Quickness {
+  double along, across, yaw;
+};
+
+Quickness quickness(const Parameters& parameters);
+
 /// Steady lateral acceleration [m/s^2] at which the tyres slide or an inner wheel has Fz_min left.
 double most_lateral(const Parameters& parameters);
 
