@@ -105,6 +105,7 @@ class CheckLayers(unittest.TestCase):
     def test_long_files(self):
         self.assert_wrong("src/sim/x.cpp", "\n" * 401, "401 lines, more than 400")
         self.assert_wrong("tests/sim/x_test.cpp", "\n" * 401, "401 lines, more than 400")
+        self.assert_wrong("python/tests/test_x.py", "\n" * 401, "401 lines, more than 400")
 
     def test_empty_tree_is_no_success(self):
         self.assertEqual(self.run_on({"README.md": ""}).returncode, 1)

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 struct SweepOptions {
   std::string study, out, shard = "1/1";
   std::vector<std::string> overrides;
-  int jobs = 0;  ///< 0: one a processor
+  int jobs = 0;  ///< 0: one for each processor
   std::int64_t limit = -1;
   bool resume = false, force = false, json = false, quiet = false;
   std::string again;  ///< outcome of trials that are run again

@@ -38,7 +38,7 @@ std::vector<double> numbers_at(nb::handle given, const Trajectory& guess, bool a
   if (numbers.size() == times.size()) return numbers;
   if (at_times || function || numbers.empty())
     throw InvalidValue("guess of " + name, std::to_string(numbers.size()) + " numbers",
-                       std::to_string(times.size()) + ", one a time");
+                       std::to_string(times.size()) + ", one for each time");
   std::vector<double> spread;
   for (const double tau : guess.tau) spread.push_back(at_equal_steps(numbers, tau));
   return spread;

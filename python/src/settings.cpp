@@ -22,7 +22,7 @@ void check_length(const std::variant<T, std::vector<T>>& choice, std::size_t int
                   const std::string& where) {
   if (const auto* list = std::get_if<std::vector<T>>(&choice); list && list->size() != intervals)
     throw InvalidValue(where, std::to_string(list->size()) + " entries",
-                       std::to_string(intervals) + ", one an interval, or one for all");
+                       std::to_string(intervals) + ", one for each interval, or one for all");
 }
 
 /// Of an interval, where the scheme has a choice and the user made none.

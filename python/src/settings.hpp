@@ -23,7 +23,7 @@ using SchemeChoice = std::variant<std::string, std::vector<std::string>>;
 using PointsChoice = std::optional<std::variant<int, std::vector<int>>>;
 
 /// How Python says a grid: a number of intervals or breakpoints; a scheme and its points, each one
-/// for all intervals or one an interval.
+/// for all intervals or one for each interval.
 struct GridChoice {
   MeshChoice mesh = 40;
   SchemeChoice scheme = "hermite_simpson";
@@ -49,8 +49,8 @@ nlp::Options options_of(const nb::kwargs& given, const std::vector<std::string>&
 
 /// None; an earlier Solution or a Simulation, by name; or a dictionary over straight lines between
 /// the bounds of both ends: "t0" and "tf", or "t", times from t0 to tf; and by name each state's
-/// and control's number, numbers (one a time of "t", else at equal steps) or function of times, and
-/// each static parameter's and slack's number.
+/// and control's number, numbers (one for each time of "t", else at equal steps) or function of
+/// times, and each static parameter's and slack's number.
 ocp::Trajectory guess_of(const ocp::Problem& problem, nb::handle given);
 
 /// What Problem.solve's keywords come to. The settings may point to `warm_start`.

@@ -187,13 +187,13 @@ void bind_trajectory(nb::class_<Solved>& type) {
           [](const Solved& s, const std::string& n) {
             return to_numpy(named([&] { return s.answer.state(n); }));
           },
-          "name"_a, "Values of a state, one a point of `t`.")
+          "name"_a, "Values of a state, one for each point of `t`.")
       .def(
           "control",
           [](const Solved& s, const std::string& n) {
             return to_numpy(named([&] { return s.answer.control(n); }));
           },
-          "name"_a, "Values of a control, one a point of `t`.")
+          "name"_a, "Values of a control, one for each point of `t`.")
       .def(
           "costate",
           [](const Solved& s, const std::string& n) {

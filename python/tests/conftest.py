@@ -15,7 +15,7 @@ def interrupts_arrive():
 
 
 def unexpected_skips(reporter):
-    """Reasons for which tests were skipped and that SLALOM_MAY_SKIP, one a line, does not have; without it, none."""
+    """Reasons for which tests were skipped and that SLALOM_MAY_SKIP, one on each line, does not have; without it, none."""
     known = os.environ.get("SLALOM_MAY_SKIP")
     if known is None:
         return set()

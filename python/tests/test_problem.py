@@ -97,8 +97,8 @@ def test_an_array_outlives_its_solution():
     (lambda p: p.solve(backend="nothing"), "interior_point"),
     (lambda p: p.solve(guess={"t": [0, 1, 0.5]}), "rise"),
     (lambda p: p.solve(guess={"t": [0]}), "at least two"),
-    (lambda p: p.solve(guess={"t": [0, 1], "x": [1, 2, 3]}), "3 numbers.*2, one a time"),
-    (lambda p: p.solve(guess={"x": lambda t: [1, 2]}), "2 numbers.*101, one a time"),
+    (lambda p: p.solve(guess={"t": [0, 1], "x": [1, 2, 3]}), "3 numbers.*2, one for each time"),
+    (lambda p: p.solve(guess={"x": lambda t: [1, 2]}), "2 numbers.*101, one for each time"),
     (lambda p: p.solve(guess={"uu": 1}), "perhaps 'u'"),
 ])
 def test_bad_input_is_a_value_error_that_says_so(state, message):

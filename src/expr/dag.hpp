@@ -73,8 +73,8 @@ class Dag {
   int mask_depth_ = 0;
 };
 
-/// The vertices `ids` as expressions of `inputs`, one an input of the graph; what several of them
-/// use is one node.
+/// The vertices `ids` as expressions of `inputs`, one for each input of the graph; what several of
+/// them use is one node.
 std::vector<Expr> expressions(const Dag& dag, const std::vector<Dag::Id>& ids,
                               const std::vector<Expr>& inputs);
 

@@ -23,7 +23,7 @@ void check(const Vector& knots, std::size_t values) {
     throw InvalidValue(where, fmt::format("{} knots", knots.size()), "at least 2");
   if (values != knots.size())
     throw InvalidValue(where, fmt::format("{} values", values),
-                       fmt::format("{}, one a knot", knots.size()));
+                       fmt::format("{}, one for each knot", knots.size()));
   for (std::size_t i = 0; i < knots.size(); ++i) {
     if (!std::isfinite(knots[i]))
       throw InvalidValue(where, fmt::format("knot {} = {}", i, knots[i]), "finite numbers");

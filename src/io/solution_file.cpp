@@ -46,7 +46,7 @@ ocp::Schemes read_schemes(const JsonReader& reader, std::size_t intervals) {
   const auto of_interval = numbers.counts();
   if (of_interval.size() != intervals)
     numbers.refuse(fmt::format("{} numbers", of_interval.size()),
-                   fmt::format("{}, one an interval of the mesh", intervals));
+                   fmt::format("{}, one for each interval of the mesh", intervals));
   for (std::size_t k = 0; k < intervals; ++k) {
     if (of_interval[k] >= tables.size())
       numbers.at(k).refuse(fmt::format("{}", of_interval[k]),
@@ -84,7 +84,7 @@ std::vector<Item> read_at_points(const JsonReader& reader, std::size_t count) {
     const auto& points = result.points;
     if (!points.empty() && points.size() != result.values.size())
       item.at("values").refuse(fmt::format("{} numbers", result.values.size()),
-                               fmt::format("{}, one a point", points.size()));
+                               fmt::format("{}, one for each point", points.size()));
     for (std::size_t k = 0; k < points.size(); ++k)
       if (points[k] >= count)
         item.at("points").at(k).refuse(fmt::format("{}", points[k]),

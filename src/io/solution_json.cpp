@@ -57,7 +57,7 @@ ocp::Trajectory read_trajectory(const JsonReader& reader, std::size_t states,
        {std::pair("states", result.states.size()), std::pair("controls", result.controls.size())})
     if (rows != result.tau.size())
       reader.at(key).refuse(fmt::format("{} points", rows),
-                            fmt::format("{}, one a tau", result.tau.size()));
+                            fmt::format("{}, one for each tau", result.tau.size()));
   result.static_parameters = reader.at("static_parameters").list();
   result.slacks = reader.at("slacks").list();
   result.integrals = reader.at("integrals").list();

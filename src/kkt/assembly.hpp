@@ -25,8 +25,8 @@ struct FrontPlan {
   std::vector<Term> hessian, diagonal, jacobian, flexibility;
 };
 
-/// A chain of fronts, one a stage and one for the border. A front knows the rows of later stages
-/// that it or a front before it has entries of.
+/// A chain of fronts, one for each stage and one for the border. A front knows the rows of later
+/// stages that it or a front before it has entries of.
 std::vector<FrontPlan> plan_chain(const Pattern& pattern);
 /// A forest of fronts in an order that keeps the factors sparse, blind to the stages.
 std::vector<FrontPlan> plan_forest(const Pattern& pattern);

@@ -31,7 +31,7 @@ class LaneRuns {
   struct Run {
     std::uint32_t source, target, count;
     std::int32_t source_step, target_step;
-    std::uint32_t first;  ///< of its coefficients, one a lane
+    std::uint32_t first;  ///< of its coefficients, one for each lane
     bool ones;            ///< all coefficients are 1
     bool sets;            ///< scatter sets its targets
   };

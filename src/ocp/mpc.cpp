@@ -138,7 +138,7 @@ const OptionTable<MpcSettings>& mpc_options() {
           .choice("on_unsolved", &S::on_unsolved, {"last_plan", "stop"},
                   "What is driven when a solve failed.")
           .integer("max_unsolved", &S::max_unsolved, {.lo = 0, .hi = 1e9}, "1",
-                   "Solves that may fail on end while the last plan is driven.", "NLOptControl")
+                   "Solves that may fail in a row while the last plan is driven.", "NLOptControl")
           .boolean("warm_start", &S::warm_start, "Multipliers too are shifted from plan to plan.")
           .boolean("warm_up", &S::warm_up, "One solve more before the first, from the same state.")
           .real("expand_goal", &S::expand_goal, {.lo = 1}, "1",

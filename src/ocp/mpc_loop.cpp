@@ -50,7 +50,7 @@ void check(const Problem& problem, const MpcSettings& settings) {
   const std::size_t controls = settings.first_controls.size();
   if (controls != 0 && controls != problem.controls().size())
     throw InvalidValue(where + ": first_controls", fmt::format("{}", controls),
-                       fmt::format("{}, one a control, or none", problem.controls().size()));
+                       fmt::format("{}, one for each control, or none", problem.controls().size()));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class MpcLoop {
   Plans plans_;
   std::vector<MpcCycle> cycles_;
   std::vector<double> measured_;
-  int index_ = 0, unsolved_ = 0;  ///< of the last cycle; solves failed on end
+  int index_ = 0, unsolved_ = 0;  ///< of the last cycle; solves failed in a row
   double plan_end_ = kInfinity;
   MpcStatus status_ = MpcStatus::running;
   std::string message_;

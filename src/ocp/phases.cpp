@@ -30,7 +30,7 @@ class PhasedTranscription::Impl {
     if (problem.phases().empty()) throw InvalidValue(problem.name(), "no phases", "at least one");
     if (grids.size() != problem.phases().size())
       throw InvalidValue(problem.name() + ": grids", fmt::format("{}", grids.size()),
-                         fmt::format("{}, one a phase", problem.phases().size()));
+                         fmt::format("{}, one for each phase", problem.phases().size()));
     for (std::size_t p = 0; p < grids.size(); ++p)
       parts_.push_back(
           std::make_unique<Transcription>(problem.phases()[p], grids[p].mesh, grids[p].schemes));

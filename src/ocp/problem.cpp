@@ -201,7 +201,8 @@ Expr Problem::final(const Expr& state) const {
 void Problem::dynamics(const Expr& state, const Expr& rate) {
   auto& target = states_[state_index(state, "dynamics")];
   if (target.has_rate)
-    throw InvalidValue(name_ + ": dynamics", "a second rate of " + target.name, "one a state");
+    throw InvalidValue(name_ + ": dynamics", "a second rate of " + target.name,
+                       "one for each state");
   target.rate = rate;
   target.has_rate = true;
 }
@@ -310,7 +311,7 @@ void Problem::set_members(ConstraintId family, std::vector<std::string> names,
     const std::size_t once = target.symbols.size();
     if (numbers.size() != once && (once == 0 || numbers.empty() || numbers.size() % once != 0))
       throw InvalidValue(where, fmt::format("a member with {} numbers", numbers.size()),
-                         fmt::format("{}, one a symbol, or so many for each point", once));
+                         fmt::format("{}, one for each symbol, or so many for each point", once));
     if (!std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
       throw InvalidValue(where, "a member with NaN or infinity", "finite numbers");
   }

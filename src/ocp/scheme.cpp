@@ -168,7 +168,7 @@ Scheme scheme(const std::string& name, int points) {
 }
 
 Schemes::Schemes(std::vector<Scheme> list) : list_(std::move(list)) {
-  if (list_.empty()) throw InvalidValue("schemes", "none", "one, or one an interval");
+  if (list_.empty()) throw InvalidValue("schemes", "none", "one, or one for each interval");
 }
 
 void Schemes::check(const Mesh& mesh) const {

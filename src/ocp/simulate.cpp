@@ -55,7 +55,7 @@ void check(const System& system, const Vector& x0, const Controls& controls, dou
                        fmt::format("{}", system.states.size()));
   if (!system.scales.empty() && system.scales.size() != system.states.size())
     throw InvalidValue(where, fmt::format("{} scales", system.scales.size()),
-                       fmt::format("{}, one a state, or none", system.states.size()));
+                       fmt::format("{}, one for each state, or none", system.states.size()));
   for (std::size_t i = 0; i < x0.size(); ++i)
     if (!std::isfinite(x0[i]))
       throw InvalidValue(where, fmt::format("initial {} = {}", system.states[i], x0[i]),

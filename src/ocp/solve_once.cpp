@@ -28,7 +28,7 @@ template <class List>
 void check_count(const PhasedProblem& problem, const char* what, const List& list) {
   if (!list.empty() && list.size() != problem.phases().size())
     throw InvalidValue(problem.name() + ": " + what, std::to_string(list.size()),
-                       std::to_string(problem.phases().size()) + ", one a phase, or none");
+                       std::to_string(problem.phases().size()) + ", one for each phase, or none");
 }
 
 void tell_end(const SetUpWatch& watch, nlp::Status status, const nlp::Options& options,

@@ -44,7 +44,7 @@ void check_points(const Problem& problem, const List& variables, const std::vect
                   std::size_t points, const char* what) {
   if (rows.size() != points)
     throw InvalidValue(place(problem), fmt::format("{} points of {}", rows.size(), what),
-                       fmt::format("{}, one a tau", points));
+                       fmt::format("{}, one for each tau", points));
   for (std::size_t k = 0; k < points; ++k) {
     if (rows[k].size() != variables.size())
       throw InvalidValue(place(problem), fmt::format("{} {} at point {}", rows[k].size(), what, k),

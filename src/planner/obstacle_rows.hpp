@@ -15,9 +15,9 @@ namespace slalom::planner {
 /// Of a rectangle about the body's point of reference, or an ellipse's semi-axes.
 HalfSides half_sides(const world::Obstacle& obstacle);
 
-/// Rows of an OCP that keep a vehicle off obstacles as stand_ins() leaves them, one a pair. A
-/// point keeps off the paper's ellipses as in its Eqn. 7, and off all else by a Separation; so does
-/// a body, of which circles are places with a margin.
+/// Rows of an OCP that keep a vehicle off obstacles as stand_ins() leaves them, one for each pair.
+/// A point keeps off the paper's ellipses as in its Eqn. 7, and off all else by a Separation; so
+/// does a body, of which circles are places with a margin.
 class ObstacleRows {
  public:
   /// Each kind is a family of rows.

@@ -135,7 +135,7 @@ void check(const RecordedPlan& recording, const std::string& where) {
   for (const std::size_t rows : {recording.states.size(), recording.controls.size()})
     if (rows != t.size())
       refuse("states and controls", fmt::format("{} rows", rows),
-             fmt::format("{}, one a time", t.size()));
+             fmt::format("{}, one for each time", t.size()));
   if (!all_finite(recording.states)) refuse("states", "NaN or infinity", "finite numbers");
   if (!all_finite(recording.controls)) refuse("controls", "NaN or infinity", "finite numbers");
 }

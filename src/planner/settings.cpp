@@ -192,7 +192,7 @@ void add_tolerances_and_solver(Table& table) {
               "factorisation, or Ipopt, if the machine has its library.")
       .real("floor", &S::floor, Range::non_negative(), "cost",
             "Barrier floor mu: how far a plan stays off the limits. 0 solves to tol. The paper's "
-            "solver stopped at about 1; every drive of the paper comes out within .78 to 1.05.",
+            "solver stopped at about 1.",
             "formulation section 5")
       .real("tol", &S::tol, Range::positive(), "1", "Optimality tolerance of the solver.", kSection)
       .integer("max_iterations", &S::max_iterations, Range::closed(1, 1000000), "1",
@@ -231,7 +231,7 @@ void add_verification(Table& table) {
       .real(
           "arrival_floor", &S::arrival_floor, Range::non_negative(), "cost",
           "Barrier floor of the OCP over the whole way. At the paper's floor the thousands of rows "
-          "of a whole way weigh more than seconds: E_C's optimum takes 47 s in place of 26 s.")
+          "of a whole way weigh more than seconds.")
       .integer("arrival_N", &S::arrival_N, Range::closed(2, 1000), "1",
                "Mesh intervals of the OCP over the whole way, by Hermite-Simpson.")
       .real("arrival_tf_max", &S::arrival_tf_max, Range::positive(), "s", "Longest way of the OCP.")

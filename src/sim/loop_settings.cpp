@@ -31,8 +31,9 @@ const OptionTable<LoopSettings>& loop_options() {
             "deterministic; with deadline tex, a cycle charged more than tex yields no plan.")
         .numbers(
             "solve_times", &L::solve_times, Range::non_negative(), "s",
-            "Of latency recorded: one a cycle, again from the first after the last; a list, or "
-            "a CSV file with the column solve_time_s (a drive's cycles.csv), or one a line.")
+            "Of latency recorded: one for each cycle, again from the first after the last; a list, "
+            "or "
+            "a CSV file with the column solve_time_s (a drive's cycles.csv), or one on each line.")
         .real("latency_median", &L::latency_median, Range::non_negative(), "s",
               "Of latency model: median of the solve times.")
         .real(

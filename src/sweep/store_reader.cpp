@@ -108,7 +108,7 @@ TrialRecord read_trial(const Statement& statement, const SweepTable& study, cons
   r.planner = row.one_of(study.planners, "a planner of the study");
   r.values = row.list();
   row.require(r.values.size() == study.columns.size(), fmt::format("{} values", r.values.size()),
-              fmt::format("{}, one a column of the study", study.columns.size()));
+              fmt::format("{}, one for each column of the study", study.columns.size()));
   r.repeat = static_cast<int>(row.integer(1, study.repeats));
   r.outcome = row.one_of(outcomes(), "a known outcome");
   r.hit = row.text();

@@ -104,7 +104,7 @@ void read_draw(const io::Value& map, int seed, std::size_t stream, PlacedAxis& a
   }
 }
 
-/// values: one a key, or for several keys lists of one value each.
+/// values: one for each key, or for several keys lists of one value each.
 void read_values(const io::Value& list, PlacedAxis& axis) {
   const auto n = axis.axis.keys.size();
   axis.listed.resize(n);
@@ -117,7 +117,7 @@ void read_values(const io::Value& list, PlacedAxis& axis) {
       add(item, 0);
       continue;
     }
-    const auto content = fmt::format("a list of {} values, one a key", n);
+    const auto content = fmt::format("a list of {} values, one for each key", n);
     if (some_items(item, content).size() != n)
       throw InvalidValue(item.place.to_string(), fmt::format("{} values", item.items.size()),
                          content);

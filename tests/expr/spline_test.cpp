@@ -98,7 +98,7 @@ TEST(Splines, RefuseTablesThatAreNone) {
     return std::string("accepted");
   };
   EXPECT_EQ(message({1}, {1}), "spline: found 1 knots, expected at least 2");
-  EXPECT_EQ(message({1, 2}, {1}), "spline: found 1 values, expected 2, one a knot");
+  EXPECT_EQ(message({1, 2}, {1}), "spline: found 1 values, expected 2, one for each knot");
   EXPECT_EQ(message({1, 2, 2}, {1, 2, 3}),
             "spline: found knot 2 = 2 after 2, expected strictly increasing knots");
   EXPECT_EQ(message({1, 2}, {1, std::nan("")}),

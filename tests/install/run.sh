@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run.sh CMAKE BUILD: installs the build tree BUILD into a fresh prefix, builds the consumer in this
-# folder and the README's programs from that prefix alone, and runs them and the installed program.
+# folder and the programs of docs/cpp.md from that prefix alone, and runs them and the installed program.
 set -euo pipefail
 
 cmake=$1
@@ -14,15 +14,15 @@ prefix=$work/prefix
   cat "$work/install.log"
   exit 1
 }
-# The README's C++ blocks, in their order: readme_1.cpp, readme_2.cpp, ...
-mkdir "$work/readme"
-awk -v folder="$work/readme" '
-  /^```cpp$/ { file = folder "/readme_" ++count ".cpp"; next }
+# The page's C++ blocks, in their order: page_1.cpp, page_2.cpp, ...
+mkdir "$work/page"
+awk -v folder="$work/page" '
+  /^```cpp$/ { file = folder "/page_" ++count ".cpp"; next }
   /^```$/ { file = "" }
-  file { print > file }' "$here/../../README.md"
+  file { print > file }' "$here/../../docs/cpp.md"
 
 "$cmake" -S "$here" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Debug \
-  -DREADME_PROGRAMS="$work/readme"
+  -DPAGE_PROGRAMS="$work/page"
 "$cmake" --build "$work/consumer"
 # Without Sleef the package is not found, and says why.
 sleef=$(dirname "$(realpath "$(g++ -print-file-name=libsleef.so)")")
@@ -36,20 +36,20 @@ fi
 export SLALOM_CONFIG_DIR=$prefix/share/slalom/config
 "$work/consumer/consumer"
 
-# expect PROGRAM PATTERN: what the README's program prints.
+# expect PROGRAM PATTERN: what the page's program prints.
 expect() {
   local says
   says=$("$work/consumer/$1")
   grep -Eq "$2" <<<"$says" || {
-    echo "$1 of the README says '$says', expected $2"
+    echo "$1 of docs/cpp.md says '$says', expected $2"
     exit 1
   }
   echo "$1: $says"
 }
-expect readme_1 '^goal at 6\.[0-9]+ s$'
-expect readme_2 '^solved (4|3\.9999|4\.0000)[0-9]* [0-9.]+e-[0-9]+$'
-if [ -e "$work/readme/readme_3.cpp" ]; then
-  echo "the README has a third program that nothing here expects"
+expect page_1 '^goal at 6\.[0-9]+ s$'
+expect page_2 '^solved (4|3\.9999|4\.0000)[0-9]* [0-9.]+e-[0-9]+$'
+if [ -e "$work/page/page_3.cpp" ]; then
+  echo "docs/cpp.md has a third program that nothing here expects"
   exit 1
 fi
 

@@ -266,7 +266,7 @@ TEST_F(SolutionFile, DamageIsRefusedByPlaceAndRule) {
   expect(text.substr(0, text.size() / 2), "found no valid JSON");
   expect("[]", "found no 'format'");
   expect(with(text, "slalom solution 1", "slalom solution 9"), "found 'slalom solution 9'");
-  expect(with(text, "\"tau\":[0.0,", "\"tau\":["), "one a tau");
+  expect(with(text, "\"tau\":[0.0,", "\"tau\":["), "one for each tau");
   expect(with(text, "\"mesh\":[0.0,0.1,", "\"mesh\":[0.0,0.7,"), "mesh: found");
   expect(with(text, "\"scheme_of_interval\":[0,1,0]", "\"scheme_of_interval\":[0,2,0]"),
          "scheme_of_interval[1]: found 2, expected the number of one of 2 schemes");

@@ -16,6 +16,11 @@ namespace slalom::nlp {
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 using Vector = std::vector<double>;
 
+/// Whether a back end stops at a barrier floor; one that does not refuses it.
+inline bool stops_at_floor(const std::string& backend) {
+  return backend != "knitro";
+}
+
 /// A problem written by hand: functions with dense first and second derivatives.
 class SmallProblem : public Problem {
  public:

@@ -117,7 +117,7 @@ TEST(MpcErrors, NameWhatIsWrong) {
   EXPECT_EQ(refused([](S& s) {
               s.first_controls = {1, 2};
             }),
-            "cart: mpc: first_controls: found 2, expected 1, one a control, or none");
+            "cart: mpc: first_controls: found 2, expected 1, one for each control, or none");
   EXPECT_EQ(refused([](S& s) {
               s.start_tolerance = {{"y", 1}};
             }),

@@ -299,7 +299,7 @@ TEST(Phases, ErrorsSayWhatAndTheRule) {
             "both: connect: found phase 2, expected one of the 2 phases, from 0");
   both.connect(0, 1);
   EXPECT_EQ(refusal([&] { PhasedTranscription(both, {{}}); }),
-            "both: grids: found 1, expected 2, one a phase");
+            "both: grids: found 1, expected 2, one for each phase");
   EXPECT_EQ(refusal([&] { both.link("x from a to b", a.x); }),
             "both: found the link 'x from a to b' twice, expected names that differ");
   both.link("inside", a.x - 1);

@@ -191,7 +191,7 @@ TEST(ProblemErrors, States) {
   EXPECT_EQ(line.transcription_refusal(),
             "line: state y: found no dynamics, expected a call of dynamics for each state");
   EXPECT_EQ(refusal([&] { line.problem.dynamics(line.x, line.u); }),
-            "line: dynamics: found a second rate of x, expected one a state");
+            "line: dynamics: found a second rate of x, expected one for each state");
   EXPECT_EQ(refusal([&] { line.problem.dynamics(line.u, line.u); }),
             "line: dynamics: found 'u', expected a state of this problem");
   EXPECT_EQ(refusal([&] { (void)line.problem.initial(2 * line.x); }),
@@ -254,7 +254,7 @@ TEST(ProblemErrors, Families) {
               p.set_members(family, {"one"}, {{1, 2, 3}});
             }),
             where +
-                "found a member with 3 numbers, expected 2, one a symbol, or so many for "
+                "found a member with 3 numbers, expected 2, one for each symbol, or so many for "
                 "each point");
   EXPECT_EQ(refusal([&] {
               p.set_members(family, {"one"}, {{1, kNaN}});
@@ -315,7 +315,7 @@ TEST(ProblemErrors, GuessOfAnotherShape) {
   Trajectory bad = guess;
   bad.states.pop_back();
   EXPECT_EQ(refusal([&] { (void)transcription.point(bad); }),
-            "line: guess: found 1 points of states, expected 2, one a tau");
+            "line: guess: found 1 points of states, expected 2, one for each tau");
   bad = guess;
   bad.controls[1].clear();
   EXPECT_EQ(refusal([&] { (void)transcription.point(bad); }),

@@ -55,7 +55,8 @@ TEST(FirstOcp, PublishedSolutionsToAllPrintedDigits) {
       {"E_C P_D", E_C(), 909.7726, 4.179134, 7.68836, 88.55504, -1932.5254},
   };
   for (const auto& c : cases)
-    for (const auto& backend : nlp::backends()) {
+    for (const auto solver : solvers()) {
+      const std::string backend = to_string(solver);
       SCOPED_TRACE(std::string(c.name) + " with " + backend);
       const auto problem = problem_of(c.scene, false);
       ocp::SolveSettings settings{.mesh = ocp::Mesh::uniform(c.scene.planner.N),

@@ -116,7 +116,7 @@ TEST(WorkerPool, AKillByOthersIsNoFailure) {
   for (const std::int64_t id : run.left) EXPECT_EQ(run.attempts.at(id), 2);
 }
 
-/// A worker that ends by the signals of a job, one an attempt: "SEGV KILL SEGV".
+/// A worker that ends by the signals of a job, one for each attempt: "SEGV KILL SEGV".
 PoolSettings by_turns(const test::TemporaryFolder& folder) {
   auto settings = shell(1);
   settings.command[2] = "cd " + folder.path().string() +

@@ -13,7 +13,7 @@ namespace slalom::nlp {
 /// follow Structure.
 struct Dependence {
   double objective = 0;          ///< of f
-  std::vector<double> gradient;  ///< of the slope of the Lagrangian f + y' g, one a variable
+  std::vector<double> gradient;  ///< of the slope of the Lagrangian f + y' g, one for each variable
   std::vector<double> rows;      ///< of g
   Limits limits;                 ///< of the bounds; read where these are finite
 };

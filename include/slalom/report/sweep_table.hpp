@@ -12,7 +12,7 @@ struct TrialRecord {
   std::int64_t trial = 0;  ///< 1, 2, ... in the study's order
   std::string identity;    ///< hash of the resolved configuration
   std::string scenario, planner;
-  std::vector<std::string> values;  ///< one a column of the table
+  std::vector<std::string> values;  ///< one for each column of the table
   int repeat = 1;
   /// As sim::to_string(Outcome) has it; "failed" where no attempt came to an end, "invalid" where
   /// the values contradict each other. Both state why in `message`.

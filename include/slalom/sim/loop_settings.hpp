@@ -29,7 +29,7 @@ struct LoopSettings {
   Deadline deadline = Deadline::by_planner;
   LatencyRule latency = LatencyRule::paper;
   std::vector<double>
-      solve_times;              ///< `recorded`: one a cycle, again from the first after the last
+      solve_times;  ///< `recorded`: one for each cycle, again from the first after the last
   double latency_median = 0.1;  ///< `model`: of the lognormal distribution [s]
   double latency_spread = 0.5;  ///< standard deviation of its logarithm
   int latency_seed = 0;

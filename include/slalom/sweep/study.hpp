@@ -48,9 +48,9 @@ class AxisPoints {
 
  private:
   struct Column {
-    std::vector<double> numbers;                           ///< one a point, while all are numbers
-    std::vector<std::string> words;                        ///< else what there is, each once,
-    std::vector<std::uint32_t> chosen;                     ///< and which of them each point has
+    std::vector<double> numbers;        ///< one for each point, while all are numbers
+    std::vector<std::string> words;     ///< else what there is, each once,
+    std::vector<std::uint32_t> chosen;  ///< and which of them each point has
     std::unordered_map<std::string, std::uint32_t> index;  ///< of words
 
     std::size_t size() const { return numbers.size() + chosen.size(); }
@@ -71,7 +71,7 @@ struct Axis {
 struct Trial {
   std::int64_t number = 0;          ///< 1, 2, ... in the study's order
   std::size_t base = 0;             ///< index into Study::bases
-  std::vector<std::string> values;  ///< one a column of Study::columns()
+  std::vector<std::string> values;  ///< one for each column of Study::columns()
   int repeat = 1;                   ///< 1, ..., repeats
 };
 

@@ -300,7 +300,7 @@ class Run final : public Restoration::Watch {
   BestIterate best_;
   std::optional<Status> end_;
   bool no_interior_ = false, barrier_too_low_ = false;
-  int low_iterations_ = 0;  ///< on end, with mu (nearly) at its least and the rows met
+  int low_iterations_ = 0;  ///< in a row, with mu (nearly) at its least and the rows met
   double first_objective_ = 0;
   int iterations_ = 0, tiny_steps_ = 0;
   double handed_back_ = 0;  ///< violation that the last restoration ended with

@@ -52,7 +52,7 @@ void LineSearch::reset(double violation_at_start) {
 }
 
 /// Pairs from another region may block good steps here (section 3.2, accelerating heuristics):
-/// where they alone did so in several searches on end, they go, for a tighter bound on the
+/// where they alone did so in several searches in a row, they go, for a tighter bound on the
 /// violation.
 void LineSearch::note_blocked(bool by_filter, const Merit& now) {
   blocked_ = by_filter ? blocked_ + 1 : 0;

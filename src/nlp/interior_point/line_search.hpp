@@ -67,7 +67,7 @@ class LineSearch {
   SlackForm& form_;
   Filter filter_;
   double most_violation_ = 0, small_violation_ = 0;
-  int blocked_ = 0;  ///< searches on end whose step the filter alone shortened
+  int blocked_ = 0;  ///< searches in a row whose step the filter alone shortened
   Point trial_;
   Step corrected_;
   std::vector<double> residuals_;  ///< that a second-order correction is for

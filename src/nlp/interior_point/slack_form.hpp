@@ -85,7 +85,7 @@ class SlackForm {
   /// Row residuals g - s; returns their 1-norm.
   virtual double residuals(const Evaluation& e, std::span<const double> w,
                            std::span<double> out) const;
-  /// Gradient of f + y' (g - s), one an entry of w.
+  /// Gradient of f + y' (g - s), one for each entry of w.
   virtual void lagrangian_gradient(const Evaluation& e, std::span<const double> y,
                                    std::span<double> out) const;
   /// Change of f + slope' w along dw.

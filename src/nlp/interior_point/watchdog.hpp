@@ -30,7 +30,7 @@ class Watchdog {
 
   int shortened_ = 0;  ///< steps in a row
   int leaps_ = 0;      ///< of the attempt under way; 0: none
-  int failed_ = 0;     ///< attempts on end, with none but shortened steps between them
+  int failed_ = 0;     ///< attempts in a row, with none but shortened steps between them
   int most_leaps_ = 0;
   int softened_ = 0;  ///< soft steps since the filter last accepted one
   double mu_ = 0, slope_ = 0, alpha_ = 0;
