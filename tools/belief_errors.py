@@ -12,14 +12,13 @@ import json
 import math
 import random
 import re
-import shutil
 import statistics
 from typing import NamedTuple
 
 from measured import command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, arrivals, by_family, make_scenarios
 from sensitivity import QUANTITIES
-from sweeps import arrives, head, interval, row, setting, swept
+from sweeps import arrives, drive_folder, head, interval, row, setting, swept_thinly
 from verified_planner import REAL_TIME, number
 
 LEVELS = {"small": 0.1, "medium": 0.5, "large": 1.0}  # shares of the ranges
@@ -27,7 +26,6 @@ SEED, DIFFICULTY = 5, 0.6
 ALL_FAMILIES = FAMILIES + TIMED_FAMILIES
 MOST_LISTED = 20  # crashes of a level on the page
 ROUNDING = 1e-6  # of what a certificate keeps [m]
-CHUNK = 200  # drives between which folders are thinned: each drive leaves more than a megabyte
 
 HEAD = """# Errors of belief, all at once
 
@@ -105,31 +103,11 @@ def write_files(options, level, plain):
     return study
 
 
-def drive_folder(out, trial):
-    return out / "drives" / f"{int(trial['trial']):06}"
-
-
-def thin(folder, crashed):
-    """Leaves of a drive's folder what a crash is judged by, or nothing."""
-    if not folder.is_dir():
-        return
-    if not crashed:
-        shutil.rmtree(folder)
-        return
-    for path in folder.iterdir():
-        if path.is_dir():
-            shutil.rmtree(path)
-        elif path.name != "summary.json":
-            path.unlink()
-
-
 def drive_level(options, level, plain):
     """Runs or completes the drives of a level; its trials by scenario, and by scenario what is known of a crash."""
-    study, out, trials = write_files(options, level, plain), options.work / level, []
-    while len(trials) < len(plain):
-        trials = swept(options.program, study, out, "--limit", str(CHUNK))
-        for trial in trials:
-            thin(drive_folder(out, trial), trial["outcome"] == "crash")
+    study, out = write_files(options, level, plain), options.work / level
+    trials = swept_thinly(options.program, study, out, len(plain),
+                          lambda trial: ("summary.json",) if trial["outcome"] == "crash" else ())
     verified = {}
     for trial in trials:
         if trial["outcome"] == "crash":

@@ -4,12 +4,11 @@
 import math
 import pathlib
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import belief_errors  # noqa: E402
-from belief_errors import LEVELS, Crash, crash_of, crashes, drawn, errors, page, thin, with_errors  # noqa: E402
+from belief_errors import LEVELS, Crash, crash_of, crashes, drawn, errors, page, with_errors  # noqa: E402
 from sensitivity import QUANTITIES  # noqa: E402
 
 FILE = ("plant:\n" + "".join(f"  {q.key.split('.')[1]}: {q.neutral}\n" for q in QUANTITIES if "plant" in q.key)
@@ -63,19 +62,6 @@ class Crashes(unittest.TestCase):
             crash = Crash(True, 0.3, off_plan, off_belief)
             self.assertEqual((crash.within_errors(), crash.by_vehicle()), (within, by_vehicle), crash)
         self.assertFalse(NOT_VERIFIED.within_errors() or NOT_VERIFIED.by_vehicle())
-
-    def test_of_a_drive_stays_what_is_needed(self):
-        with tempfile.TemporaryDirectory() as scratch:
-            folder = pathlib.Path(scratch) / "000001"
-            (folder / "figures").mkdir(parents=True)
-            for name in ("cycles.csv", "summary.json", "report.html", "figures/map.svg"):
-                (folder / name).write_text("text\n")
-            thin(folder, crashed=True)
-            self.assertEqual(sorted(f.name for f in folder.iterdir()), ["summary.json"])
-            thin(folder, crashed=True)
-            thin(folder, crashed=False)
-            self.assertFalse(folder.exists())
-            thin(folder, crashed=True)  # of a trial whose process died
 
 
 class Page(unittest.TestCase):

@@ -17,6 +17,7 @@ MEASURES = {"outcome": "goal", "hit": "", "message": "reached the goal", "time_s
             "least_clearance_obstacle": "O2", "least_wheel_load_N": 1500, "median_cpu_time_s": 0.001,
             "p99_cpu_time_s": 0.002, "max_cpu_time_s": 0.003, "max_solve_time_s": 0.004}  # fmt: skip
 BUILT_IN = "scenario: E_C\nplanners: [P_C, P_D]\n"  # a study that is named and no file
+CYCLES = "cycle,status,planning_cpu_s,solve_time_s\n0,solved,9,9\n1,solved,0.001,0.002\n2,solved,0.003,0.004\n"
 CRASH = {"outcome": "crash", "hit": "O2", "message": "hit O2 at 3 s at (6, 200), 20 m/s", "goal_time_s": ""}
 
 
@@ -61,12 +62,14 @@ def sweep(study, out):
         for number, cells in enumerate(itertools.product(scenarios(text), planners, *values), 1):
             names = ("scenario", "planner", *keys)
             writer.writerow({"trial": number, **dict(zip(names, cells)), **ended(cells)})
+            if "keep: drives" in text:
+                simulate(cells, out / "drives" / f"{number:06}")
 
 
 def simulate(arguments, out):
     out.mkdir(parents=True, exist_ok=True)
     (out / "summary.json").write_text(json.dumps(ended(arguments)))
-    (out / "cycles.csv").write_text("cycle,status\n1,solved\n")
+    (out / "cycles.csv").write_text(CYCLES)
     (out / "plant.csv").write_text("t,x,y\n")
 
 

@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import tempfile
 
@@ -45,6 +46,38 @@ def swept(program, study, out, *arguments):
     """Runs a study, or what is left of it, into `out`; its trials."""
     subprocess.run([program, "sweep", study, "--out", out, *arguments], check=True)
     return trials(out)
+
+
+CHUNK = 200  # drives between which folders are thinned: each drive leaves more than a megabyte
+
+
+def drive_folder(out, trial):
+    """Where a sweep of a study with `keep: drives` has a trial's files."""
+    return pathlib.Path(out) / "drives" / f"{int(trial['trial']):06}"
+
+
+def thin(folder, kept):
+    """Leaves the files named `kept` of a drive's folder; without any, nothing."""
+    if not folder.is_dir():
+        return
+    if not kept:
+        shutil.rmtree(folder)
+        return
+    for path in folder.iterdir():
+        if path.is_dir():
+            shutil.rmtree(path)
+        elif path.name not in kept:
+            path.unlink()
+
+
+def swept_thinly(program, study, out, count, kept, *arguments):
+    """As swept(), of a study of `count` trials with `keep: drives`, of which only the files `kept(trial)` stay."""
+    found = []
+    while len(found) < count:
+        found = swept(program, study, out, "--limit", str(CHUNK), *arguments)
+        for trial in found:
+            thin(drive_folder(out, trial), kept(trial))
+    return found
 
 
 def arrives(trial):

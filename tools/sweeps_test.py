@@ -1,14 +1,29 @@
 #!/usr/bin/env python3
-"""Quantiles, and intervals and tests of shares, beside exact fractions."""
+"""What stays of drives; quantiles, and intervals and tests of shares, beside exact fractions."""
 
 import math
 import pathlib
 import sys
+import tempfile
 import unittest
 from fractions import Fraction
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from sweeps import interval, mcnemar, quantile  # noqa: E402
+from sweeps import interval, mcnemar, quantile, thin  # noqa: E402
+
+
+class Folders(unittest.TestCase):
+    def test_of_a_drive_stays_what_is_needed(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch) / "000001"
+            (folder / "figures").mkdir(parents=True)
+            for name in ("cycles.csv", "summary.json", "report.html", "figures/map.svg"):
+                (folder / name).write_text("text\n")
+            thin(folder, ("summary.json",))
+            self.assertEqual([f.name for f in folder.iterdir()], ["summary.json"])
+            thin(folder, ())
+            self.assertFalse(folder.exists())
+            thin(folder, ("summary.json",))  # of a trial whose process died
 
 
 class Quantiles(unittest.TestCase):

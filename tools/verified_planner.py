@@ -13,7 +13,8 @@ from typing import NamedTuple
 from first_sight import saved
 from measured import ROOT, command_of, page_parser, stamp, write
 from random_scenarios import FAMILIES, TIMED_FAMILIES, arrivals, by_family, make_scenarios, sweep
-from sweeps import arrives, driven, head, interval, mcnemar, row, setting, swept
+from sweeps import (arrives, drive_folder, driven, head, interval, mcnemar, quantile, row, rows_of, setting, swept,
+                    swept_thinly)
 
 PLANNERS = ("P_D", "P_E")
 # As it would be on a vehicle: a cycle ends within its horizon, and what planning takes is charged.
@@ -59,6 +60,7 @@ axes:
   - key: obstacles.O2.vy
     range: {{from: 0, to: {fastest}, count: {points}}}
 set: {settings}
+keep: {keep}
 """
 # Speeds of O2 up to which the grids go [m/s].
 GRIDS = {-40: "O2 coming at up to 40 m/s", -20: "O2 coming at up to 20 m/s, as the paper's text says"}
@@ -101,10 +103,26 @@ def studied(options, name, text):
     return swept(options.program, study, options.work / name, "--jobs", str(options.jobs))
 
 
+def by_axes(trials):
+    return {(t["loop.tex"], t["obstacles.O2.vy"]): t for t in trials}
+
+
 def paper_sweep(options, name, planner, settings, fastest=min(GRIDS)):
     """Runs or completes the paper's sweep under a name; its trials by horizon and speed of O2."""
-    text = SWEEP.format(planner=planner, points=options.points, fastest=fastest, settings=setting(settings))
-    return {(t["loop.tex"], t["obstacles.O2.vy"]): t for t in studied(options, name, text)}
+    text = SWEEP.format(planner=planner, points=options.points, fastest=fastest, settings=setting(settings),
+                        keep="figures")
+    return by_axes(studied(options, name, text))
+
+
+def timed_sweep(options, name, fastest):
+    """P_E's sweep; its trials, and the rows of each one's cycles.csv, by horizon and speed of O2."""
+    study, out = options.work / f"{name}.yaml", options.work / name
+    study.write_text(SWEEP.format(planner="P_E", points=options.points, fastest=fastest, settings=setting(REAL_TIME),
+                                  keep="drives"))
+    trials = swept_thinly(options.program, study, out, options.points**2, lambda trial: ("cycles.csv",),
+                          "--jobs", str(options.jobs))
+    cycles = {key: rows_of(drive_folder(out, trial) / "cycles.csv") for key, trial in by_axes(trials).items()}
+    return by_axes(trials), cycles
 
 
 def offline_times(options, speeds):
@@ -163,18 +181,20 @@ def compared(trials):
     return text + "\n"
 
 
-def real_time(trials):
-    """Processor time of P_E's cycles beside the horizon, by horizon."""
-    text = head(["tex [s]", "drives", "arrive", "median of a cycle [ms]", "99 % of a drive's cycles, greatest [ms]",
-                 "longest [ms]", "longest over tex", "longest on the clock over tex"])
-    for tex, group in itertools.groupby(trials.items(), key=lambda item: item[0][0]):
-        own = [t for _, t in group]
-        longest = max(float(t["max_cpu_time_s"]) for t in own)
-        text += row([f"{float(tex):.4g}", len(own), sum(map(arrives, own)),
-                     number(1e3 * statistics.median(float(t["median_cpu_time_s"]) for t in own), 2),
-                     number(1e3 * max(float(t["p99_cpu_time_s"]) for t in own), 1),
-                     number(1e3 * longest, 1), number(longest / float(tex), 2),
-                     number(max(float(t["max_solve_time_s"]) for t in own) / float(tex), 2)])
+def real_time(trials, cycles):
+    """Processor time and time by the clock of P_E's cycles beside the horizon, by horizon: of all cycles of its drives but
+    the warm-up."""
+    text = head(["tex [s]", "drives", "arrive", "cycles", "median of a cycle [ms]", "99 % [ms]", "longest [ms]",
+                 "longest over tex", "mean over tex", "by the clock: longest over tex", "mean over tex"])
+    for tex, group in itertools.groupby(trials, key=lambda key: key[0]):
+        keys = list(group)
+        own = [row for key in keys for row in cycles[key] if row["cycle"] != "0"]
+        cpu, clock = ([float(row[column]) for row in own] for column in ("planning_cpu_s", "solve_time_s"))
+        horizon = float(tex)
+        text += row([f"{horizon:.4g}", len(keys), sum(arrives(trials[key]) for key in keys), len(own),
+                     *(number(1e3 * quantile(cpu, share), digits) for share, digits in ((0.5, 2), (0.99, 1), (1, 1))),
+                     *(number(value / horizon, digits) for times in (cpu, clock)
+                       for value, digits in ((max(times), 2), (statistics.mean(times), 4)))])
     return text
 
 
@@ -262,9 +282,10 @@ def main():
     text = HEAD.format(stamp=stamp(command, options.program), jobs=options.jobs)
     text += "## The paper's sweep\n\nE_C, execution horizons of .01 to 1 s.\n"
     for fastest, title in GRIDS.items():
-        trials = {p: paper_sweep(options, f"sweep{fastest}-{p}", p, settings_of(p), fastest) for p in PLANNERS}
+        trials = {"P_D": paper_sweep(options, f"sweep{fastest}-P_D", "P_D", {}, fastest)}
+        trials["P_E"], cycles = timed_sweep(options, f"sweep{fastest}-P_E", fastest)
         text += (f"\n### {title[0].upper()}{title[1:]}\n\n" + totals(trials) + "\n" + compared(trials) + "\n"
-                 + others(trials) + "\n" + real_time(trials["P_E"]))
+                 + others(trials) + "\n" + real_time(trials["P_E"], cycles))
         if fastest == min(GRIDS):
             text += "\n" + beside_offline(options, trials)
     text += by_range(options)

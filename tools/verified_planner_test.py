@@ -34,6 +34,12 @@ class Page(unittest.TestCase):
         self.assertIn("Of the offline drives 0 do not arrive", text)
         self.assertIn("| P_D arrives too | 2 | 1.000 | 1.000 | 1.000 |", text)
 
+    def test_times_are_those_of_all_cycles_of_a_horizon_but_the_warm_up(self):
+        text, _ = self.verified_planner("none")
+        self.assertIn("| 1 | 2 | 2 | 4 | 2.00 | 3.0 | 3.0 | 0.00 | 0.0020 | 0.00 | 0.0030 |", text)
+        kept = {file.name for file in (self.folder / "work/sweep-40-P_E/drives/000001").iterdir()}
+        self.assertEqual(kept, {"cycles.csv"})
+
     def test_an_offline_drive_that_does_not_arrive_bounds_nothing(self):
         text, _ = self.verified_planner("^E_C P_E -40(.0)?$")  # the study without an axis of horizons
         self.assertIn("Of the offline drives 1 do not arrive", text)
