@@ -156,6 +156,12 @@ void bind_verification(nb::module_& module) {
       .def_ro("name", &Candidate::name, doc::planner_Candidate_name)
       .def_ro("cost", &Candidate::cost, doc::planner_Candidate_cost)
       .def_ro("certificate", &Candidate::certificate)
+      .def_prop_ro(
+          "path",
+          [](const Candidate& c) {
+            return table(c.path, 2, [](const world::Point& p) { return std::array{p.x, p.y}; });
+          },
+          nb::rv_policy::move, doc::planner_Candidate_path)
       .def("__repr__", [](const Candidate& c) { return "<Candidate: " + c.name + ">"; });
 }
 
@@ -176,6 +182,11 @@ void bind_plan(nb::module_& module) {
           },
           "What is known of it; None for planners that do not verify.")
       .def_ro("candidates", &Plan::candidates, "The motions that were looked at, in that order.")
+      .def_prop_ro(
+          "fallback", [](const Plan& p) { return planner::fallback(p); },
+          nb::rv_policy::reference_internal,
+          "What would be driven in place of a new plan: the rest of the last one, a Candidate, if "
+          "that is verified too; else None.")
       .def_prop_ro(
           "t", [](const Plan& p) { return to_numpy(p.t); }, nb::rv_policy::move,
           doc::planner_Plan_t)

@@ -181,6 +181,8 @@ def test_verified_plans():
     taken = min((c for c in plan.candidates if c.certificate.verified), key=lambda c: c.cost)
     assert taken.cost == plan.cost and taken.name
     assert taken.certificate.least_clearance == certificate.least_clearance
+    np.testing.assert_allclose(taken.path[[0, -1]], plan.states[[0, -1], :2])
+    assert plan.fallback is None  # there is no plan before
 
     blocked = scenario.replace(set={"obstacles.O1.x": 200, "obstacles.O1.y": 20, "obstacles.O1.vx": 0})
     plan = slalom.Planner(blocked).plan(scenario.start)

@@ -20,6 +20,18 @@ void Motion::append(const Motion& other) {
     add(other.t[k], other.states[k], other.controls[k]);
 }
 
+std::vector<world::Point> path_of(const Motion& motion) {
+  constexpr std::size_t kMost = 60;
+  std::vector<world::Point> path;
+  const std::size_t every = 1 + motion.size() / kMost;
+  path.reserve(kMost + 1);
+  for (std::size_t k = 0; k < motion.size(); k += every)
+    path.push_back({motion.states[k][vehicle::X], motion.states[k][vehicle::Y]});
+  if (motion.size() > 0 && (motion.size() - 1) % every != 0)
+    path.push_back({motion.states.back()[vehicle::X], motion.states.back()[vehicle::Y]});
+  return path;
+}
+
 double apart(const vehicle::State& a, const vehicle::State& b) {
   return std::hypot(a[vehicle::X] - b[vehicle::X], a[vehicle::Y] - b[vehicle::Y]);
 }

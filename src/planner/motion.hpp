@@ -5,6 +5,7 @@
 
 #include "slalom/vehicle/plant.hpp"
 #include "slalom/vehicle/state.hpp"
+#include "slalom/world/pose.hpp"
 
 namespace slalom::planner {
 
@@ -45,6 +46,9 @@ Motion part_before(const Motion& motion, double at);
 /// What there is of a motion from t0 on, which is not before it begins. The state between two knots
 /// is the plant's. Throws PlantError.
 Motion part_from(const Motion& motion, double t0, const vehicle::Plant& plant);
+
+/// Some places along a motion, its first and last among them.
+std::vector<world::Point> path_of(const Motion& motion);
 
 /// Between the places of two states [m].
 double apart(const vehicle::State& a, const vehicle::State& b);

@@ -45,6 +45,12 @@ std::vector<double> times(const Plan& plan) {
 
 }  // namespace
 
+const Candidate* fallback(const Plan& plan) {
+  if (plan.rung != Rung::new_plan || plan.candidates.empty()) return nullptr;
+  const Candidate& first = plan.candidates.front();  // the rest is looked at first
+  return first.name == to_string(Rung::rest) && first.certificate.verified ? &first : nullptr;
+}
+
 bool usable(const Plan& plan) {
   return vehicle::ControlSignal::usable(times(plan), plan.controls);
 }

@@ -156,7 +156,8 @@ bool VerifiedPlanner::consider(Cycle& cycle, Proposal proposal, const Course& co
   const Certificate& certificate = option.certificate();
   const bool good = cycle.trusts(option) && option.motion().size() > 1;
   if (good) option.cost = cost_of(option.motion(), option.proposal.verdict);
-  cycle.looked_at.push_back({option.proposal.name, option.cost, certificate});
+  cycle.looked_at.push_back(
+      {option.proposal.name, option.cost, certificate, path_of(option.motion())});
   if (good)
     cycle.good.push_back(std::move(option));
   else if (option.motion().size() > 1)
@@ -193,7 +194,7 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
     cycle.rest_unchanged = false;
   }
   cycle.rest_unchanged = cycle.rest_unchanged && still_holds(cycle);
-  cycle.rest = Option{{"rest", std::move(motion), last_.option->proposal.verdict,
+  cycle.rest = Option{{to_string(Rung::rest), std::move(motion), last_.option->proposal.verdict,
                        last_.option->proposal.solved && cycle.rest_unchanged},
                       last_.option->cost,
                       last_.course};
@@ -202,7 +203,7 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
     rest.verdict = verifier_.judge(rest.motion, cycle.obstacles, lesser_need(cycle), cycle.looks());
     if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
-  cycle.looked_at.push_back({"rest", cycle.rest->cost, rest.verdict.certificate});
+  cycle.looked_at.push_back({to_string(Rung::rest), cycle.rest->cost, rest.verdict.certificate, {}});
   if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) cycle.refused.push_back(*cycle.rest);
 }
 
@@ -280,8 +281,10 @@ Plan VerifiedPlanner::choose(Cycle& cycle) {
   Plan plan;
   plan.t_start = cycle.t_start();
   plan.report.backend = "verified";
-  plan.candidates = std::move(cycle.looked_at);
   const Option* option = chosen(cycle, plan.rung);
+  if (cycle.rest && plan.rung != Rung::rest)  // the first that was looked at
+    cycle.looked_at.front().path = path_of(cycle.rest->motion());
+  plan.candidates = std::move(cycle.looked_at);
   if (!option) {
     plan.rung = Rung::none;
     plan.report.status = PlanStatus::infeasible;

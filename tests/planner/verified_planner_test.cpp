@@ -43,7 +43,14 @@ TEST(VerifiedPlanner, ItsFirstPlanIsVerifiedAndWhatTheCertificateSays) {
   EXPECT_GE(plan.certificate.least_clearance, t.planner.verified_clearance);
   EXPECT_NEAR(clearance(t, northwards(), plan), plan.certificate.least_clearance, 0.02);
   EXPECT_EQ(plan.certificate.nearest, "O1");
-  EXPECT_FALSE(plan.candidates.empty());
+  const auto driven = std::find_if(plan.candidates.begin(), plan.candidates.end(), [&](const auto& c) {
+    return c.cost == plan.report.cost;
+  });
+  ASSERT_NE(driven, plan.candidates.end());
+  EXPECT_EQ(driven->path.front().y, plan.states.front()[Y]);
+  EXPECT_EQ(driven->path.back().y, plan.states.back()[Y]);
+  EXPECT_GT(driven->path.size(), 20u);
+  EXPECT_LE(driven->path.size(), 61u);
 }
 
 TEST(VerifiedPlanner, TheRestOfAPlanIsDrivenOnWhileItIsGood) {

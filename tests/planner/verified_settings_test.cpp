@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -66,6 +68,19 @@ TEST(VerifiedSettings, ABetterPlanIsLookedForAndDrivenAsTheySay) {
   EXPECT_EQ(rung([](Settings& s) { s.hysteresis = 60; }), Rung::rest);
   EXPECT_EQ(rung([](Settings& s) { s.improvement_period = 60; }), Rung::rest);
   EXPECT_EQ(rung([](Settings& s) { s.improvement_time = 1e-9; }), Rung::rest);
+}
+
+TEST(VerifiedSettings, TheFallbackOfANewPlanIsTheRestOfTheLast) {
+  const Plan better = after_a_detour([](Settings&) {});
+  const Candidate* rest = fallback(better);
+  ASSERT_NE(rest, nullptr);
+  EXPECT_GT(rest->path.back().y, 100) << "it leads to the goal too";
+  double aside = 0;
+  for (const auto& place : rest->path) aside = std::max(aside, std::fabs(place.x));
+  EXPECT_GT(aside, 15) << "around the wall that was";
+  const Plan none = after_a_detour([](Settings& s) { s.hysteresis = 60; });
+  EXPECT_EQ(fallback(none), nullptr);
+  EXPECT_TRUE(none.candidates.front().path.empty()) << "it is the plan itself";
 }
 
 TEST(VerifiedSettings, TheOcpHasSoManyIterationsAndSoMuchTime) {

@@ -7,6 +7,7 @@
 #include "slalom/nlp/solver.hpp"
 #include "slalom/vehicle/control_signal.hpp"
 #include "slalom/vehicle/state.hpp"
+#include "slalom/world/pose.hpp"
 
 namespace slalom::planner {
 
@@ -99,6 +100,9 @@ struct Candidate {
   std::string name;  ///< what it comes from, e.g. "way 2, solved"
   double cost = 0;   ///< to compare candidates, in the cost's unit; only verified ones have it
   Certificate certificate;
+  /// Where it leads: some places of the front axle's centre, its first and last among them; none
+  /// of a rest that is driven.
+  std::vector<world::Point> path;
 };
 
 /// A planned trajectory at its mesh nodes. Controls are linear between nodes.
@@ -119,6 +123,10 @@ struct Plan {
 
   bool empty() const { return t.empty(); }
 };
+
+/// What would be driven in place of a new plan: the rest of the last one, if that is verified too;
+/// else nullptr.
+const Candidate* fallback(const Plan& plan);
 
 /// Whether a plan can be driven: its times and controls make a valid signal. It need not be solved.
 bool usable(const Plan& plan);
