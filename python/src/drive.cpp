@@ -10,6 +10,7 @@
 #include "binding.hpp"
 #include "scenario.hpp"
 #include "slalom/io/drive_files.hpp"
+#include "slalom/io/results_folder.hpp"
 #include "slalom/sim/closed_loop.hpp"
 
 namespace slalom::python {
@@ -162,12 +163,13 @@ void bind_drive(nb::module_& module) {
   type.def(
       "write",
       [](const Driven& d, const std::filesystem::path& folder, bool force) {
-        io::prepare_folder(folder, force);
+        const io::ResultsFolder held(folder, force);
         io::write_drive(folder, d.scenario, d.drive);
       },
       "folder"_a, nb::kw_only(), "force"_a = false,
       "Writes what `slalom simulate --out` does: tables, the report's page, resolved.yaml. Raises "
-      "Error when\nthe folder holds results and not `force`.");
+      "Error when\nthe folder holds results and not `force`, or another process writes its results "
+      "there.");
   module.def(
       "simulate", &simulate, "scenario"_a, nb::kw_only(), "planner"_a = nb::none(),
       "tex"_a = nb::none(), "set"_a = nb::dict(), "on_cycle"_a = nb::none(),

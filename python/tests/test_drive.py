@@ -1,5 +1,6 @@
 """Scenarios, planning and drives from Python are those of the command line."""
 
+import fcntl
 import os
 import re
 import signal
@@ -280,6 +281,13 @@ def test_frame_plot_and_files(tmp_path):
     with pytest.raises(slalom.Error, match="out"):
         drive.write(tmp_path / "out")
     drive.write(tmp_path / "out", force=True)
+    with open(tmp_path / "out" / ".results.lock", "w") as other:  # as another process has it
+        fcntl.flock(other, fcntl.LOCK_EX)
+        for force in (False, True):
+            with pytest.raises(slalom.Error, match="another process writes its results there"):
+                drive.write(tmp_path / "out", force=force)
+    drive.write(tmp_path / "out", force=True)
+    assert not (tmp_path / "out" / ".results.lock").exists()
     path = drive.plot().axes[0]
     np.testing.assert_array_equal(path.lines[0].get_xdata(), drive.states[:, 0])
     assert len(path.patches) == 1
