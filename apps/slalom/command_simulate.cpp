@@ -13,6 +13,7 @@
 #include "slalom/io/drive_files.hpp"
 #include "slalom/io/recording_file.hpp"
 #include "slalom/io/results_folder.hpp"
+#include "slalom/sim/advice.hpp"
 #include "slalom/sim/closed_loop.hpp"
 
 namespace slalom::app {
@@ -80,6 +81,9 @@ int simulate(const SimulateOptions& options) {
 
   Recordings recordings(options, scenario);
   sim::Drive drive;
+  if (!options.quiet && !options.json)
+    for (const auto& sentence : sim::advice_at_start(scenario))
+      fmt::print(stderr, "slalom: note: {}\n", sentence);
   {
     Progress progress(scenario.name + " " + scenario.planner.name, options.quiet);
     sim::LoopHooks hooks;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "slalom/vehicle/plant.hpp"
 #include "slalom/vehicle/plausible.hpp"
@@ -17,6 +18,7 @@ namespace {
 using namespace vehicle;
 
 constexpr double kSlowest = 5;  // a plan is not slower than this [m/s]
+constexpr double kSame = 1e-6;  // of places [m] and of shares of a way
 
 bool verifies(const Scenario& s) {
   return s.planner.method == planner::Method::verified;
@@ -34,6 +36,60 @@ double gap_between(const world::Obstacle& p, const world::Obstacle& q) {
   // From each centre to the other's edge along the line between them: exact for circles.
   return world::distance(p, q.x, q.y, 0) + world::distance(q, p.x, p.y, 0) -
          std::hypot(p.x - q.x, p.y - q.y);
+}
+
+/// The point of an obstacle nearest to one outside: back by the distance, against its gradient.
+world::Point nearest_of(const world::Obstacle& o, world::Point p) {
+  constexpr double h = 1e-4;
+  const auto d = [&](double x, double y) { return world::distance(o, x, y, 0); };
+  const double off = d(p.x, p.y);
+  if (off <= 0) return p;
+  const world::Point up{d(p.x + h, p.y) - d(p.x - h, p.y), d(p.x, p.y + h) - d(p.x, p.y - h)};
+  return p - up * (off / up.norm());
+}
+
+/// The ends of the shortest way between two obstacles that stand apart, by projections on either in
+/// turn (W. Cheney and A. A. Goldstein, "Proximity maps for convex sets", 1959).
+std::pair<world::Point, world::Point> ends_of_gap(const world::Obstacle& p,
+                                                  const world::Obstacle& q) {
+  constexpr int kTurns = 100;
+  std::pair<world::Point, world::Point> ends{{p.x, p.y}, {q.x, q.y}};
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const world::Point before = ends.first;
+    ends.first = nearest_of(p, ends.second);
+    ends.second = nearest_of(q, ends.first);
+    if ((ends.first - before).norm() < kSame) break;
+  }
+  return ends;
+}
+
+/// Whether an obstacle reaches into the way from a point to another. Along it the distance to a
+/// convex body has one minimum.
+bool lies_between(const world::Obstacle& o, world::Point from, world::Point to) {
+  const world::Point along = to - from;
+  if ((world::Point{o.x, o.y} - from).norm() > along.norm() + o.reach()) return false;
+  const auto off = [&](double share) {
+    const world::Point at = from + along * share;
+    return world::distance(o, at.x, at.y, 0);
+  };
+  double low = 0, high = 1;
+  while (high - low > kSame) {
+    const double third = (high - low) / 3;
+    if (off(low + third) < off(high - third))
+      high -= third;
+    else
+      low += third;
+  }
+  return off((low + high) / 2) < 0;
+}
+
+/// Whether anything that stands fills a part of the gap between two: whoever passes between them
+/// then passes between one of them and that.
+bool filled(const Scenario& s, const world::Obstacle& p, const world::Obstacle& q) {
+  const auto [from, to] = ends_of_gap(p, q);
+  return std::any_of(s.obstacles.begin(), s.obstacles.end(), [&, from = from, to = to](auto& o) {
+    return &o != &p && &o != &q && !o.moves() && lies_between(o, from, to);
+  });
 }
 
 /// Rows of obstacles hold at nodes: an obstacle that moves farther between two than it is long,
@@ -70,7 +126,7 @@ void passes_between(const Scenario& s, std::vector<std::string>& found) {
       static_cast<int>(std::ceil(closing * horizon / covers))));
 }
 
-void goal_behind(const Scenario& s, std::vector<std::string>& found) {
+void behind(const Scenario& s, std::vector<std::string>& found) {
   if (s.road || verifies(s) || s.arrived(s.start, 0)) return;  // roads lead around
   const double bearing = std::atan2(s.goal.y - s.start[Y], s.goal.x - s.start[X]) - s.start[PSI];
   const double off = std::fabs(std::remainder(bearing, 2 * std::numbers::pi));
@@ -93,7 +149,7 @@ void narrow_gaps(const Scenario& s, std::vector<std::string>& found) {
       const auto &p = s.obstacles[i], &q = s.obstacles[j];
       if (p.moves() || q.moves()) continue;
       const double gap = gap_between(p, q);
-      if (gap <= 0 || gap >= 2 * margin + body_width(s)) continue;
+      if (gap <= 0 || gap >= 2 * margin + body_width(s) || filled(s, p, q)) continue;
       ++count;
       if (gap < narrowest) {
         narrowest = gap;
@@ -145,10 +201,16 @@ void no_way(const Scenario& s, std::vector<std::string>& found) {
 
 }  // namespace
 
+std::vector<std::string> advice_at_start(const Scenario& scenario) {
+  std::vector<std::string> found;
+  behind(scenario, found);
+  return found;
+}
+
 std::vector<std::string> advice(const Scenario& scenario) {
   std::vector<std::string> found;
   passes_between(scenario, found);
-  goal_behind(scenario, found);
+  behind(scenario, found);
   narrow_gaps(scenario, found);
   before_first_plan(scenario, found);
   no_way(scenario, found);

@@ -149,6 +149,13 @@ class Simulate(ProgramTest):
         self.assertEqual(result.code, 0)
         self.assertEqual(self.entries(), [])
 
+    def test_a_goal_behind_the_vehicle_is_said_as_the_drive_starts(self):
+        behind = ("simulate", "E_C", "--set", "goal.y=-90", "--set", "loop.timeout=0.5")
+        self.assertRegex(run(*behind).err, r"^slalom: note: the goal lies .* behind it.*\n$")
+        self.assertEqual(run(*behind, "--planner", "P_E").err, "")
+        for machine in ("--json", "--quiet"):
+            self.assertEqual(run(*behind, machine).err, "")
+
     def test_json_is_the_summary_and_nothing_else(self):
         result = run("simulate", "E_B", "--planner", "P_C", "--json")
         self.assertEqual((result.code, result.err), (0, ""))

@@ -63,8 +63,10 @@ TEST(Advice, AGoalBehindTheVehicle) {
   auto s = field();
   s.goal = {80, -10, 0, 10};
   EXPECT_TRUE(says(s, "97 degrees off the vehicle's heading")) << all(s);
+  EXPECT_EQ(advice_at_start(s).size(), 1u);
   s.goal.y = 10;
   EXPECT_FALSE(says(s, "off the vehicle's heading"));
+  EXPECT_TRUE(advice_at_start(s).empty());
   s.goal = {80, -10, 0, 10};
   s.start[vehicle::PSI] -= 4 * std::numbers::pi + 0.2;
   EXPECT_FALSE(says(s, "off the vehicle's heading"));
@@ -77,6 +79,46 @@ TEST(Advice, GapsThatAreTooNarrow) {
       << all(s);
   s.obstacles[1].x = 6.1;
   EXPECT_FALSE(says(s, "gap"));
+}
+
+TEST(Advice, AGapThatSomethingFillsIsNone) {
+  auto s = field();
+  s.loop.timeout = 1;  // of the search for a way, which is not what is asked
+  s.obstacles = {circle("wall1", -2, 60, 2), circle("wall2", 2, 60, 2), circle("wall3", 6, 60, 2)};
+  EXPECT_FALSE(says(s, "narrower")) << all(s);  // wall1 and wall3 are 4 m apart
+  s.obstacles[1].y += 2.5;                      // beside the way between them
+  EXPECT_TRUE(says(s, "3 gaps between")) << all(s);
+  s.obstacles[1] = circle("wall2", 2, 60, 0.5);  // in it: two gaps of 1.5 m
+  EXPECT_TRUE(says(s, "2 gaps between")) << all(s);
+  EXPECT_TRUE(says(s, "the narrowest: wall1 and wall2, 1.50 m")) << all(s);
+  s.obstacles[1].vx = 3;  // drives out of it
+  EXPECT_TRUE(says(s, "a gap between")) << all(s);
+  // One beyond another on one line is between nothing.
+  s.obstacles = {circle("wall1", -2, 60, 2), circle("wall2", 4.5, 60, 2),
+                 circle("post", 15, 60, 1)};
+  EXPECT_TRUE(says(s, "a gap between")) << all(s);
+}
+
+/// Of two boxes that come together at one end, what stands where they are far apart fills nothing.
+TEST(Advice, AGapIsWhereItIsNarrowest) {
+  auto s = field();
+  s.loop.timeout = 1;  // of the search for a way, which is not what is asked
+  const auto box = [](const char* name, double x, double psi) {
+    const auto shape = world::Polygon::rectangle(30, 2);
+    world::Obstacle o{name, x, 60, shape.reach(), shape.reach()};
+    o.outline = std::make_shared<world::Polygon>(shape);
+    o.psi = psi;
+    return o;
+  };
+  const double lean = 0.3, up = std::numbers::pi / 2;
+  s.obstacles = {box("left", -7.5, up - lean), box("right", 7.5, up + lean)};
+  const double gap = world::distance(s.obstacles[0], s.obstacles[1].corners_at(0), 0);
+  ASSERT_GT(gap, 3);
+  ASSERT_LT(gap, 5);
+  s.obstacles.push_back(circle("post", 0, 60, 0.5));
+  EXPECT_TRUE(says(s, "the narrowest: left and right")) << all(s);
+  s.obstacles[2].y = 60 + 15 * std::cos(lean);
+  EXPECT_FALSE(says(s, "left and right")) << all(s);
 }
 
 TEST(Advice, GapsBetweenBoxesThatABodyDoesNotFit) {

@@ -13,4 +13,8 @@ namespace slalom::sim {
 /// loads that do not sum to the weight. Takes up to a second.
 std::vector<std::string> advice(const Scenario& scenario);
 
+/// Of these, what is to be said as a drive starts, for it may drive on until its timeout: a goal
+/// behind the vehicle. Found at once.
+std::vector<std::string> advice_at_start(const Scenario& scenario);
+
 }  // namespace slalom::sim
