@@ -63,9 +63,9 @@ NO_DRIVE, NO_CAUSE, UNREPORTED = "no drive", "no cause", "unreported"
 KINDS = {
     NO_DRIVE: ("all that are not refused", f"no end within {LONGEST} s, or an end with an error and without a drive"),
     NO_CAUSE: ("drives that end as `not_optimal`", "the message does not say what was in the way of a plan"),
-    UNREPORTED: ("drives with solved plans by P_A to P_D, with hard rows for obstacles and a model other than the kinematic one",
-                 "a plan that counts as solved is deeper in an obstacle's margin, between its nodes, than `planner.passage_depth`"
-                 f" and {TOLERANCE:g} m more"),
+    UNREPORTED: ("drives with solved plans by P_A to P_D",
+                 "a plan whose status is `solved` is deeper in an obstacle's margin, at its nodes or between, than"
+                 f" `planner.passage_depth` and {TOLERANCE:g} m more"),
 }
 
 
@@ -155,7 +155,7 @@ def drive(options, file):
     if done.returncode != 0:
         return Drive(name, planner, settings, *without_a_drive(done))
     summary = json.loads((out / "summary.json").read_text())
-    judged = {NO_DRIVE: ""} | unexplained(summary) | unreported(out, planner, settings)
+    judged = {NO_DRIVE: ""} | unexplained(summary) | unreported(out, planner)
     for path in out.glob("*"):  # but for what a fault is looked at by
         if not any(judged.values()) and path.is_file():
             path.unlink()
@@ -180,10 +180,10 @@ def unexplained(summary):
     return {NO_CAUSE: "" if any(cause in message for cause in causes) else "names no cause: " + message}
 
 
-def unreported(out, planner, settings):
-    """Plans that are called solved and go through an obstacle between their nodes."""
-    if (planner == "P_E" or settings.get("planner.obstacle_constraint") == "soft"
-            or settings.get("planner.model") == "kinematic"):
+def unreported(out, planner):
+    """Plans that are called solved and go through an obstacle, at their nodes or between: as soft rows let them, or
+    where no row stands."""
+    if planner == "P_E":
         return {}
     resolved = (out / "resolved.yaml").read_text()
     value = lambda key: float(re.search(rf"(?m)^  {key}: ([-+.\deE]+)$", resolved).group(1))  # noqa: E731
@@ -200,7 +200,7 @@ def unreported(out, planner, settings):
         least = min((depth(nodes, o, float(cycles[index]["t0"]) if held else None, la) for o in obstacles),
                     default=math.inf)
         if least < kept:
-            return {UNREPORTED: f"cycle {index}: solved, and {least:.2f} m from an obstacle's edge between nodes"}
+            return {UNREPORTED: f"cycle {index}: solved, and {least:.2f} m from an obstacle's edge"}
     return {UNREPORTED: ""} if plans else {}
 
 

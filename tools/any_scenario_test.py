@@ -5,6 +5,7 @@ import math
 import pathlib
 import re
 import sys
+import tempfile
 import types
 import unittest
 
@@ -84,10 +85,25 @@ class Faults(unittest.TestCase):
         self.assertIn("- 0-gates-0002, P_A, hangs: late (loop.tex=1)", text)
         self.assertNotIn("check` takes them", text)
 
-    def test_plans_that_are_not_looked_at_are_not_counted(self):
-        for planner, settings in (("P_E", {}), ("P_D", {"planner.model": "kinematic"}),
-                                  ("P_D", {"planner.obstacle_constraint": "soft"})):
-            self.assertEqual(unreported(pathlib.Path("/nowhere"), planner, settings), {})
+    def test_plans_of_p_e_are_not_looked_at(self):
+        self.assertEqual(unreported(pathlib.Path("/nowhere"), "P_E"), {})
+
+    def test_a_solved_plan_through_an_obstacle_is_a_fault_by_any_settings(self):
+        resolved = (TEXT + "planner:\n  sm_start: 2.5\n  sm_end: 4\n  passage_depth: 0.5\n  moving_avoidance: true\n"
+                    "  obstacle_constraint: soft\n  model: kinematic\nvehicle:\n  la: 1.5\n")
+        nodes = [(0, 0), (1, 20), (2, 40)]  # eastwards below O 1, whose shorter axis is 1 m
+        for y, status, fault in ((98.9, "solved", True), (96, "solved", False), (98.9, "passes_through: 1.6 m", False)):
+            with self.subTest(y=y, status=status), tempfile.TemporaryDirectory() as folder:
+                out = pathlib.Path(folder)
+                (out / "resolved.yaml").write_text(resolved)
+                (out / "cycles.csv").write_text(f"cycle,t0,status\n1,0,{status}\n")
+                (out / "plans.csv").write_text("cycle,t,x,y,psi,v,r,ux\n" + "".join(
+                    f"1,{t},{x - 20},{y},0,0,0,20\n" for t, x in nodes))
+                found = unreported(out, "P_D")
+                if status != "solved":
+                    self.assertEqual(found, {})
+                else:
+                    self.assertEqual(bool(found[UNREPORTED]), fault, found)
 
 
 if __name__ == "__main__":

@@ -77,7 +77,7 @@
       ${fact('Solver', `${cycle.rung ? '' : escape(cycle.status) + ', '}${cycle.iterations} iterations`)}
       ${cycle.start_slack[0] > 0.005 || cycle.start_slack[1] > 0.05 ? fact('Begins', `${number(cycle.start_slack[0], 2)} m and ${number(cycle.start_slack[1], 1)}° beside the vehicle`) : ''}
       ${cycle.blocks ? fact('What blocks', escape(cycle.blocks)) : ''}
-      ${cycle.passage ? fact('Between nodes', `${number(cycle.passage[0], 2)} m into the margin of ${escape(cycle.passage[1])}`) : ''}
+      ${cycle.passage ? fact(cycle.passage[2] > 0 ? 'Soft rows' : 'Between nodes', `${number(cycle.passage[0], 2)} m into the margin of ${escape(cycle.passage[1])}${cycle.passage[2] > 0 ? `, up to ${number(cycle.passage[2], 2)} m at nodes` : ''}`) : ''}
       ${cycle.road_exit ? fact('Between nodes', `${number(cycle.road_exit[0], 2)} m off the road at its ${cycle.road_exit[1]} edge`) : ''}
       ${fact('Goal', cycle.goal_in_range ? 'in range' : 'out of range')}
       ${fact('Obstacles', plan.held !== null ? `held where they are at ${number(plan.held, 2)} s` : 'move as predicted')}

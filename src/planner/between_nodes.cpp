@@ -202,6 +202,20 @@ Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& ob
   return deepest;
 }
 
+double deepest_at_nodes(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
+                        double margin, const world::Footprint& footprint) {
+  double deepest = 0;
+  for (std::size_t k = 0; k < plan.t.size(); ++k) {
+    const double t =
+        plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[k];
+    for (const auto& o : obstacles)
+      if (o.present(t, t))
+        deepest =
+            std::max(deepest, margin + o.margin(t) - footprint.distance(o, plan.states[k], t));
+  }
+  return deepest;
+}
+
 RoadExit farthest_exit(const Plan& plan, const world::Road& road, const world::Footprint& footprint,
                        double la) {
   RoadExit farthest;

@@ -18,6 +18,10 @@ inline constexpr double kPassageResolution = 0.02;
 Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
                         double margin, const world::Footprint& footprint, double la);
 
+/// The same at its nodes alone [m].
+double deepest_at_nodes(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
+                        double margin, const world::Footprint& footprint);
+
 /// How far a plan's footprint goes beyond an edge of its road between its nodes, on the same
 /// cubics. Depth 0 where it stays on the road, or leaves it by less than kPassageResolution.
 RoadExit farthest_exit(const Plan& plan, const world::Road& road, const world::Footprint& footprint,

@@ -291,20 +291,23 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
 }
 
 /// Notes how deep a plan goes into an obstacle between its nodes, also into one that the OCP leaves
-/// out, and how far beyond the edges of its road.
+/// out, and how far beyond the edges of its road. Soft rows let a plan in at its nodes too.
 void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
   SolveReport& report = plan.report;
   std::string found;
-  if (settings_.obstacle_constraint == ObstacleConstraint::hard) {
-    const auto known =
-        believed(settings_, cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles,
-                 cycle.request.t0);
-    report.passage = deepest_passage(plan, known, std::min(settings_.sm_start, settings_.sm_end),
-                                     footprint_, task_.vehicle.la);
-    const Passage& deepest = report.passage;
-    if (deepest.depth > settings_.most_passage())
-      found = fmt::format("{:.2f} m deep into the margin of {} at {:.2f} s", deepest.depth,
-                          deepest.obstacle, deepest.t);
+  const auto known =
+      believed(settings_, cycle.request.obstacles ? *cycle.request.obstacles : task_.obstacles,
+               cycle.request.t0);
+  const double margin = std::min(settings_.sm_start, settings_.sm_end);
+  report.passage = deepest_passage(plan, known, margin, footprint_, task_.vehicle.la);
+  Passage& deepest = report.passage;
+  if (settings_.obstacle_constraint == ObstacleConstraint::soft)
+    deepest.at_nodes = deepest_at_nodes(plan, known, margin, footprint_);
+  if (deepest.depth > settings_.most_passage()) {
+    found = fmt::format("{:.2f} m deep into the margin of {} at {:.2f} s", deepest.depth,
+                        deepest.obstacle, deepest.t);
+    if (deepest.at_nodes > kPassageResolution)
+      found += fmt::format(", up to {:.2f} m at nodes, whose rows are soft", deepest.at_nodes);
   }
   if (task_.road) {
     report.road_exit = farthest_exit(plan, *task_.road, footprint_, task_.vehicle.la);
@@ -316,6 +319,12 @@ void RecedingHorizon::look_between(const Cycle& cycle, Plan& plan) const {
   if (report.status != PlanStatus::solved || found.empty()) return;
   report.status = PlanStatus::passes_through;
   report.detail = found;
+}
+
+/// Whether a plan goes into obstacles as soft rows at its nodes let it: finer meshes are of no
+/// help.
+bool RecedingHorizon::let_in(const SolveReport& report) const {
+  return report.passage.unseen() <= settings_.most_passage() && report.road_exit.depth == 0;
 }
 
 /// Where the cycle has no plan: from the guess bent to the left and to the right of the obstacle
@@ -356,14 +365,17 @@ void RecedingHorizon::try_free_way(const Cycle& cycle, Attempt& best) {
 }
 
 /// On finer meshes, whose rows stand closer, until the plan stays out of obstacles and on its
-/// road; a plan that never does is not solved, if they must.
+/// road, or soft rows know of all that it enters; a plan that never does is not solved, if they
+/// must.
 void RecedingHorizon::refine(const Cycle& cycle, Attempt& best) {
-  if (best.plan.report.status != PlanStatus::passes_through) return;
+  if (best.plan.report.status != PlanStatus::passes_through || let_in(best.plan.report)) return;
   best.carries = false;  // what is tried takes the multipliers' place
   for (const int times : kRefined) {
     auto start = best.trajectory;
     Attempt finer = attempt(cycle, times * settings_.N, start, false);
-    if (finer.plan.report.status == PlanStatus::solved) {
+    const SolveReport& report = finer.plan.report;
+    const bool passes = report.status == PlanStatus::passes_through;
+    if (passes ? let_in(report) : report.status == PlanStatus::solved) {
       best = std::move(finer);
       return;
     }

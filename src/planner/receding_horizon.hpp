@@ -66,6 +66,7 @@ class RecedingHorizon final : public PlanningMethod {
   Attempt read(const Cycle& cycle, int intervals, const nlp::Options& options);
   std::string what_blocks(const Plan& plan) const;
   void look_between(const Cycle& cycle, Plan& plan) const;
+  bool let_in(const SolveReport& report) const;
   void try_sides(const Cycle& cycle, const ocp::Trajectory& guess, Attempt& best);
   void try_free_way(const Cycle& cycle, Attempt& best);
   void refine(const Cycle& cycle, Attempt& best);

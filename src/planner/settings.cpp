@@ -61,7 +61,9 @@ void add_what_tells_planners_apart(Table& table) {
       .choice(
           "obstacle_constraint", &S::obstacle_constraint, {"hard", "soft"},
           "hard: a plan stays off its obstacles (paper Eqn. 7); soft: it pays w_obstacle for how "
-          "far its rows fall below 1, integrated over time (l1).")
+          "far its rows fall below 1, integrated over time (l1). A plan that is so let into a "
+          "margin "
+          "deeper than passage_depth is driven, with the status passes_through.")
       .real("w_obstacle", &S::w_obstacle, Range::positive(), "1/s",
             "Weight of going into obstacles, where they are soft.")
       .choice(
@@ -85,7 +87,8 @@ void add_what_tells_planners_apart(Table& table) {
           "on finer meshes, up to eight times the intervals, and is not solved if that does not "
           "help; by_shape: is solved again where the vehicle has a body or an obstacle is no plain "
           "ellipse, and driven if that does not help; where all is as in the paper, as report; "
-          "ignore: is not looked for.")
+          "ignore: is not looked for. A plan that soft rows let in at its nodes is not solved "
+          "again.")
       .real(
           "passage_depth", &S::passage_depth, Range::non_negative(), "m",
           "How deep a plan may go into a margin between its nodes: by the defaults, down to the 2 "

@@ -203,7 +203,8 @@ void VerifiedPlanner::continue_last(Cycle& cycle) {
     rest.verdict = verifier_.judge(rest.motion, cycle.obstacles, lesser_need(cycle), cycle.looks());
     if (rest.motion.size() > 1) cycle.rest->cost = cost_of(rest.motion, rest.verdict);
   }
-  cycle.looked_at.push_back({to_string(Rung::rest), cycle.rest->cost, rest.verdict.certificate, {}});
+  cycle.looked_at.push_back(
+      {to_string(Rung::rest), cycle.rest->cost, rest.verdict.certificate, {}});
   if (!cycle.trusts(*cycle.rest) && rest.motion.size() > 1) cycle.refused.push_back(*cycle.rest);
 }
 

@@ -313,7 +313,8 @@ Json cycle_data(const sim::Cycle& cycle, std::size_t cycles) {
   const sim::StartSlack slack = sim::start_slack(cycle);
   json["start_slack"] = {rounded(slack.distance, 3), rounded(slack.heading * 180 / M_PI, 2)};
   if (report.passage.depth > 0)
-    json["passage"] = {rounded(report.passage.depth, 3), report.passage.obstacle};
+    json["passage"] = {rounded(report.passage.depth, 3), report.passage.obstacle,
+                       rounded(report.passage.at_nodes, 3)};
   if (report.road_exit.depth > 0)
     json["road_exit"] = {rounded(report.road_exit.depth, 3), report.road_exit.edge()};
   add_verification(json, cycle.plan);

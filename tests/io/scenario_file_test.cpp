@@ -122,7 +122,8 @@ TEST(ScenarioFile, APlannerChosenForAResolvedFileKeepsNothingOfTheOneBefore) {
   const auto road = folder / "road.yaml", resolved = folder / "resolved.yaml";
   test::write(road,
               "start: {x: 0, y: 0, psi: 0, ux: 9}\ngoal: {s: 90}\nplanner: {base: P_D, kappa: 7}\n"
-              "loop: {sm_crash: 0}\nroad: {points: [[-20, 0, 4, 4], [20, 0, 4, 4], [60, 5, 4, 4], [95, 22, 4, 4]]}\n");
+              "loop: {sm_crash: 0}\nroad: {points: [[-20, 0, 4, 4], [20, 0, 4, 4], [60, 5, 4, 4], "
+              "[95, 22, 4, 4]]}\n");
   for (const auto& before : built_in_planners())
     for (const auto& chosen : built_in_planners()) {
       SCOPED_TRACE(before.name + " to " + chosen.name);

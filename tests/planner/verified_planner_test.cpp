@@ -43,9 +43,8 @@ TEST(VerifiedPlanner, ItsFirstPlanIsVerifiedAndWhatTheCertificateSays) {
   EXPECT_GE(plan.certificate.least_clearance, t.planner.verified_clearance);
   EXPECT_NEAR(clearance(t, northwards(), plan), plan.certificate.least_clearance, 0.02);
   EXPECT_EQ(plan.certificate.nearest, "O1");
-  const auto driven = std::find_if(plan.candidates.begin(), plan.candidates.end(), [&](const auto& c) {
-    return c.cost == plan.report.cost;
-  });
+  const auto driven = std::find_if(plan.candidates.begin(), plan.candidates.end(),
+                                   [&](const auto& c) { return c.cost == plan.report.cost; });
   ASSERT_NE(driven, plan.candidates.end());
   EXPECT_EQ(driven->path.front().y, plan.states.front()[Y]);
   EXPECT_EQ(driven->path.back().y, plan.states.back()[Y]);

@@ -25,7 +25,8 @@ enum class PlanStatus {
   not_confirmed,   ///< the solver says solved, but the residuals are too large
   no_prediction,   ///< the state to plan from could not be predicted
   unverified,      ///< the least bad motion, driven although it could not be verified
-  passes_through,  ///< solved, but the plan goes through an obstacle or an edge between its nodes
+  passes_through,  ///< solved, but the plan goes through an obstacle or an edge between its nodes,
+                   ///< or through an obstacle whose rows are soft at them
 };
 /// The word in files: the solver's word, "not_confirmed", "no prediction", "unverified" or
 /// "passes_through".
@@ -33,11 +34,16 @@ const char* to_string(PlanStatus status);
 /// The solver's status as a PlanStatus.
 PlanStatus plan_status(nlp::Status status);
 
-/// Where a plan goes into an obstacle's margin between its nodes.
+/// Where a plan goes into an obstacle's margin between its nodes; where rows are soft, also at
+/// them.
 struct Passage {
   double depth = 0;      ///< [m]; 0: nowhere
   std::string obstacle;  ///< its name
   double t = 0;          ///< absolute time [s]
+  double at_nodes = 0;   ///< the deepest at a node, into any obstacle; 0 where rows are hard [m]
+
+  /// How much deeper between the nodes than their rows know [m].
+  double unseen() const { return depth - at_nodes; }
 };
 
 /// Where a plan leaves its road between its nodes.
