@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from program import SOURCE, ProgramTest, run
+from program import SOURCE, ProgramTest, interrupt, run, start, until
 
 CIRCUIT = (SOURCE / "config/scenarios/circuit.yaml").read_text()
 COARSE = ("--interval", 20, "--meshes", 1)
@@ -38,6 +38,20 @@ class Results(ProgramTest):
                     self.assertEqual(run(*command, "--out", out, "--force").code, 0)
                     self.assertEqual(sorted(p.name for p in out.iterdir()), sorted([*names, "notes.txt"]))
         self.assertEqual((out / "notes.txt").read_text(), "mine")
+
+    def test_of_two_at_once_the_second_is_refused(self):
+        out = self.folder / "out"
+        first = start("simulate", "E_C", "--set", "loop.tex=0.001", "--out", out)  # thousands of cycles
+        self.addCleanup(first.kill)
+        until(lambda: (out / ".results.lock").exists() or first.poll() is not None)
+        for command in FILES:
+            for forced in ((), ("--force",)):
+                with self.subTest(command=command[0], forced=forced):
+                    self.assert_refused(run(*command, "--out", out, *forced), 3, "another process writes its results there")
+        self.assertIsNone(first.poll(), "the first is still at it")
+        self.assertEqual(interrupt(first).code, 130)
+        self.assertEqual(json.loads((out / "summary.json").read_text())["scenario"], "E_C")
+        self.assert_refused(run(*DRIVE, "--out", out), 3, "holds results already", "--force")
 
     def test_figures_of_ones_own_stay(self):
         out = self.folder / "out"

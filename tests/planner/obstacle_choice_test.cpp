@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "planner/expect_plan.hpp"
 #include "planner/scenes.hpp"
 
 namespace slalom::planner {
@@ -134,6 +135,36 @@ TEST(ObstacleChoice, InReachPlansAsAllDo) {
   scene.planner.obstacle_choice = ObstacleChoice::in_reach;
   const Plan some = Planner(scene).plan(scene.first);
   EXPECT_LT(distance(all, some, [](const State& x) { return std::pair(x[0], x[1]); }), 0.1);
+}
+
+/// The list changes in a cycle without a plan, after which the next starts from the plan before it:
+/// that one's multipliers are not those of the list's rows.
+TEST(ObstacleChoice, APlanAfterOneThatFailedStartsFromWhatBelongsToTheLastOne) {
+  for (const auto choice : {ObstacleChoice::in_reach, ObstacleChoice::nearest}) {
+    Scene scene = E_B();
+    scene.planner.obstacle_choice = choice;
+    scene.planner.obstacle_count = 2;
+    const auto& o = scene.obstacles;
+    const world::Obstacle far{"far", 1000, 0, 1, 1, 0, 0};  // out of reach
+    Request first = scene.first;
+    first.obstacles = {{o[0], o[1], far}};
+    Planner failing(scene), fresh(scene);
+    const Plan plan = failing.plan(first);
+    ASSERT_TRUE(plan.report.solved);
+    expect_same(fresh.plan(first), plan);
+
+    Request second = next_cycle(first, plan), third = second;
+    const double x = second.X0p[0], y = second.X0p[1];
+    third.obstacles = {{o[0], o[2], {"O4", x + 25, y, 1, 1, 0, 0}, far}};
+    if (choice == ObstacleChoice::nearest) third.obstacles->erase(third.obstacles->begin());
+    second.obstacles = third.obstacles;
+    for (auto& each : *second.obstacles)  // all upon the vehicle, and too large for any way out
+      if (each.name != "far") each = {each.name, x, y, 60, 60, 0, 0};
+    ASSERT_FALSE(failing.plan(second).report.solved);
+    const Plan after = failing.plan(third);
+    EXPECT_TRUE(after.report.solved) << after.report.status_text();
+    expect_same(fresh.plan(third), after);
+  }
 }
 
 TEST(ObstacleChoice, ASolveIsReplayedWithTheObstaclesItHad) {

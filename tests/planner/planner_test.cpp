@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "planner/expect_plan.hpp"
 #include "planner/scenes.hpp"
@@ -285,6 +286,30 @@ TEST(Planner, SolvesWithoutObstacles) {
   Scene scene = E_A();
   scene.obstacles.clear();
   expect_solved(Planner(scene).plan(scene.first));
+}
+
+/// 40 m from rest at 2.1 m/s^2 take 6.19 s; P_A, which has no weight on time, takes longer.
+TEST(Planner, AStartFromRestIsSolvedByPlannersAToD) {
+  struct Differences {
+    double w_t, w_ce;
+    bool moving_avoidance;
+  };
+  for (const Differences& d :
+       {Differences{0, 0, false}, {100, 0, false}, {100, 1, false}, {100, 1, true}})
+    for (const double ux : {0., 0.01})
+      for (const auto& [goal, y] : {std::pair(40., 0.), {49., 0.5}, {50., 0.5}}) {
+        SCOPED_TRACE(testing::Message() << d.w_t << ' ' << d.w_ce << ' ' << ux << ' ' << goal);
+        Scene scene;
+        scene.planner.w_t = d.w_t;
+        scene.planner.w_ce = d.w_ce;
+        scene.planner.moving_avoidance = d.moving_avoidance;
+        scene.vehicle.ux_max = 20;
+        scene.goal = {.x = goal, .y = 0, .psi = 0, .sigma = 2};
+        scene.first = {{0, y, 0, 0, 0, 0, ux, 0}, 0, 0.5};
+        const Plan plan = Planner(scene).plan(scene.first);
+        expect_solved(plan);
+        if (goal == 40 && d.w_t > 0) EXPECT_NEAR(plan.tf, 6.19, 0.02);
+      }
 }
 
 TEST(Planner, WithoutAFloorItSolvesToTheOptimum) {

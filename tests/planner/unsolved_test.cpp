@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -41,6 +43,35 @@ TEST(Unsolved, AnImpossiblePlanIsNeitherSolvedNorDrivenAndSaysWhy) {
     EXPECT_FALSE(plan.report.worst_constraint.empty());
     EXPECT_EQ(plan.states.size(), 11u) << "the last iterate is returned";
   }
+}
+
+/// Parked cars block the road. What is said to be in the way says by how much, and that is true: by
+/// that margin there is a plan.
+TEST(Unsolved, TheMarginThatWouldDoDoes) {
+  Scene scene;
+  scene.vehicle.ux_max = 15;
+  scene.goal = {.x = 200, .y = 0, .psi = 0, .sigma = 10};
+  scene.region.y_min = -6;
+  scene.region.y_max = 6;
+  for (int k = 0; k < 4; ++k)
+    scene.obstacles.push_back({"wall" + std::to_string(k + 1), 100, -6 + 4. * k, 2, 2, 0, 0});
+  scene.first = {{50, 0, 0, 0, 0, 0, 12, 0}, 3.5, 4};
+  const Plan refused = Planner(scene).plan(scene.first);
+  ASSERT_EQ(refused.report.status, PlanStatus::infeasible);
+  const std::string& blocks = refused.report.blocks;
+  double wanted = 0, would_do = 0;
+  ASSERT_EQ(
+      std::sscanf(blocks.c_str(),
+                  "wall%*d in the way: node 10 of the plan comes to %*f m from its edge, where "
+                  "a margin of %lf m is kept and %lf m would do",
+                  &wanted, &would_do),
+      2)
+      << blocks;
+  EXPECT_EQ(wanted, scene.planner.sm_end);
+  scene.planner.sm_end = would_do;
+  scene.planner.sm_start = std::min(scene.planner.sm_start, would_do);
+  const Plan plan = Planner(scene).plan(scene.first);
+  EXPECT_TRUE(plan.report.solved) << plan.report.status_text() << ", " << plan.report.blocks;
 }
 
 TEST(Unsolved, AFailedPlanIsNoStartForTheNext) {
