@@ -100,10 +100,13 @@
       return this.height - margin.bottom - w * (this.height - margin.top - margin.bottom);
     }
 
-    layout() {
+    measure() {
       const rect = this.svg.getBoundingClientRect();
       this.width = Math.max(rect.width, 120);
       this.height = Math.max(rect.height, 60);
+    }
+
+    layout() {
       this.svg.setAttribute('viewBox', `0 0 ${this.width} ${this.height}`);
       this.svg.replaceChildren();
       this.shownPlans = [];
@@ -161,14 +164,33 @@
       }
     }
 
+    /** The shown part of a curve. Of values in one half pixel, the first, least, greatest and last: others cannot be seen. */
     path(times, values) {
       let d = '';
       let pen = 'M';
-      for (let i = 0; i < times.length; ++i) {
-        if (values[i] === null || values[i] === undefined) { pen = 'M'; continue; }
+      let column = null;
+      const there = (i) => values[i] !== null && values[i] !== undefined;
+      const line = (i) => {
         d += `${pen}${this.x(times[i]).toFixed(1)} ${this.y(values[i]).toFixed(1)}`;
         pen = 'L';
+      };
+      const close = () => {
+        if (column) [...new Set([column.first, ...[column.least, column.most].sort((a, b) => a - b), column.last])].forEach(line);
+        column = null;
+      };
+      const end = Math.min(slalom.lastAtOrBefore(times, shown.to) + 2, times.length);
+      for (let i = Math.max(slalom.lastAtOrBefore(times, shown.from), 0); i < end; ++i) {
+        if (!there(i)) { close(); pen = 'M'; continue; }
+        const at = Math.floor(2 * this.x(times[i]));
+        if (!column || column.at !== at) {
+          close();
+          column = { at, first: i, least: i, most: i, last: i };
+        }
+        if (values[i] < values[column.least]) column.least = i;
+        if (values[i] > values[column.most]) column.most = i;
+        column.last = i;
       }
+      close();
       return d;
     }
 
@@ -300,13 +322,25 @@
       }
       const bottom = this.height - margin.bottom;
       const [{ clocked, end }] = drives;
-      this.bars = new Map(clocked.map((c) => {
+      this.bars = new Map();
+      let last = null;
+      for (const c of clocked) {
         const x0 = this.x(c.t0);
         const x1 = this.x(Math.min(slalom.plannedUntil(c), end));
+        if (x1 < margin.left || x0 > this.width - margin.right) continue;
         const y = Math.min(this.y(c.wall), bottom - 1);
-        return [c, element('rect', { x: x0 + 0.5, width: Math.max(x1 - x0 - 1, 1), y, height: bottom - y,
-          class: c.solved ? 'bar' : 'bar bad' }, this.plot)];
-      }));
+        // Of several in one pixel, the highest.
+        if (!last || last.at !== Math.floor(x0) || last.solved !== c.solved) {
+          last = { at: Math.floor(x0), solved: c.solved, y: bottom, bar: element('rect', { x: x0 + 0.5,
+            width: Math.max(x1 - x0 - 1, 1), class: c.solved ? 'bar' : 'bar bad' }, this.plot) };
+        }
+        if (y < last.y) {
+          last.y = y;
+          last.bar.setAttribute('y', y);
+          last.bar.setAttribute('height', bottom - y);
+        }
+        this.bars.set(c, last.bar);
+      }
     }
 
     moveTo(t) {
@@ -316,8 +350,8 @@
       }
       this.placeCursor(t);
       const current = drives[0].solvingAt(t);
-      if (this.now) this.bars.get(this.now).classList.remove('now');
-      if (current) this.bars.get(current).classList.add('now');
+      this.bars.get(this.now)?.classList.remove('now');
+      this.bars.get(current)?.classList.add('now');
       this.now = current;
       this.values.innerHTML = current
         ? `<span>cycle ${current.index} <b>${number(current.wall, 3)}</b></span><span class="unit">CPU ${number(current.cpu, 3)}</span>`
@@ -342,7 +376,9 @@
     new ResizeObserver(() => { layout(); moveTo(slalom.now); }).observe(document.getElementById('charts'));
   }
 
+  /** All are measured before any is drawn, for each would have the browser lay the page out anew. */
   function layout() {
+    for (const chart of charts) chart.measure();
     for (const chart of charts) chart.layout();
   }
 

@@ -331,6 +331,33 @@
     ctx.globalAlpha = 1;
   }
 
+  /** The obstacles that a drive's plans do not get past at t: where they are, and dashed where they will be then. */
+  function blockers(view, drive, t) {
+    const { ctx, colour } = view;
+    ctx.strokeStyle = ctx.fillStyle = colour[drive.ink('ink')];
+    ctx.lineWidth = 3;
+    for (const { name, t: then } of drive.blockersAt(t)) {
+      const o = drive.data.obstacles.find((one) => one.name === name);
+      const ring = (at, dash) => {
+        const p = o && at !== null && obstacleAt(o, at);
+        if (!p) return null;
+        outline(on(view), o, p, 4 / view.camera.scale, 9);
+        ctx.setLineDash(dash);
+        ctx.stroke();
+        ctx.setLineDash([]);
+        return p;
+      };
+      if (o && moves(o)) ring(then, [4, 4]);
+      const p = ring(t, []);
+      if (!p) continue;
+      ctx.font = font('600', 12);
+      ctx.textAlign = 'left';
+      ctx.textBaseline = 'middle';
+      const reach = o.polygon ? Math.max(...o.polygon.map(([x, y]) => Math.hypot(x, y))) : o.a;
+      ctx.fillText(`${name} in the way`, view.x(p.x) + Math.max(reach * view.camera.scale + 4, 9) + 6, view.y(p.y));
+    }
+  }
+
   /** What stands on the course of the drives there are now. */
   function scene() {
     return {
@@ -341,5 +368,5 @@
     };
   }
 
-  slalom.course = { scene, ground, goals, obstacles, names, wordsAt, ghosts, ellipse, outline };
+  slalom.course = { scene, ground, goals, obstacles, names, wordsAt, ghosts, blockers, ellipse, outline };
 })(window.slalom = window.slalom || {});

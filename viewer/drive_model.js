@@ -136,6 +136,7 @@
       /** The cycles on the clock: not the warm-up. */
       this.clocked = data.cycles.filter((c) => c.index > 0);
       this.clockedFrom = this.clocked.map((c) => c.t0);
+      this.plannedAt = this.clocked.map((c) => c.t0 + c.tex);
     }
 
     get name() {
@@ -164,10 +165,22 @@
       return i < 0 ? null : this.driven[i];
     }
 
+    /** The cycle that was planned last at t, if that gave no plan to drive; else null. */
+    failedAt(t) {
+      const cycle = this.clocked[lastAtOrBefore(this.plannedAt, t + 1e-6)];
+      return cycle && !this.overAt(t) && !cycle.solved && !cycle.used ? cycle : null;
+    }
+
+    /** The obstacles that plans do not get past at t, by name, each with when: of the plan being driven and of one that failed. */
+    blockersAt(t) {
+      return [this.cycleAt(t), this.failedAt(t)].flatMap((cycle) => (cycle && cycle.blocker ? [cycle.blocker] : []));
+    }
+
     /** When the next plan takes over from that of a planner that verifies; others' are drawn whole. */
     cutAt(cycle) {
-      const next = cycle.rung ? this.driven[this.driven.indexOf(cycle) + 1] : undefined;
-      return next ? next.t_swap : Infinity;
+      if (!cycle.rung) return Infinity;
+      const next = this.driven[this.driven.indexOf(cycle) + 1];
+      return cycle.until ?? (next ? next.t_swap : Infinity);
     }
 
     /** The cycle that is being solved while the vehicle drives through t, or null. */

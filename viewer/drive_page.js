@@ -47,14 +47,15 @@
   /** What the plans being driven are. */
   function showCycles() {
     const cycles = drives.map((drive) => drive.cycleAt(slalom.now));
-    const states = drives.map((drive, i) => drive.overAt(slalom.now) || cycles[i]);
+    const failed = drives.map((drive) => drive.failedAt(slalom.now));
+    const states = [...drives.map((drive, i) => drive.overAt(slalom.now) || cycles[i]), ...failed];
     if (states.length === shownStates.length && states.every((state, i) => state === shownStates[i])) return;
     shownStates = states;
     const words = new Set(cycles.map(ghostWords));
     document.getElementById('ghost-words').textContent = words.size === 1 ? [...words][0] : ghostWords(null);
     document.getElementById('cycle').innerHTML = drives.map((drive, i) => {
       const head = drives.length > 1 ? `<h3><i class="swatch drive" style="background:var(--${drive.colour})"></i>${drive.letter} ${escape(drive.name)}</h3>` : '';
-      return `<div>${head}${drive.overAt(slalom.now) ? `<p class="sub">${escape(drive.data.outcome_words)}: the drive is over.</p>` : cycleWords(cycles[i])}</div>`;
+      return `<div>${head}${drive.overAt(slalom.now) ? `<p class="sub">${escape(drive.data.outcome_words)}: the drive is over.</p>` : failedWords(failed[i]) + cycleWords(cycles[i])}</div>`;
     }).join('');
   }
 
@@ -65,12 +66,18 @@
     return cycle.rung ? 'obstacles along the plan and at its end' : 'obstacles at the plan’s nodes and end';
   }
 
+  /** A cycle that gave no plan, and what was in the way. */
+  function failedWords(cycle) {
+    if (!cycle) return '';
+    return `<p class="bad failed">Cycle ${cycle.index} was not solved, ${escape(cycle.status)}${cycle.blocks ? `: ${escape(cycle.blocks)}` : ''}</p>`;
+  }
+
   /** A plan in words and numbers. */
   function cycleWords(cycle) {
     if (!cycle) return '<p class="sub">None yet: the vehicle goes straight on at constant speed until the first plan takes over.</p>';
     const { plan } = cycle;
     return `<div class="row"><dl>
-      ${fact('Cycle', cycle.index)}
+      ${fact('Cycle', `${cycle.index}${cycle.left_out ? ` <small>the next ${cycle.left_out} are left out</small>` : ''}`)}
       ${fact('Planned during', `${number(cycle.t0, 2)} – ${number(cycle.t0 + cycle.tex, 2)} s`)}
       ${fact('Horizon tf', `${number(plan.tf, 2)} s`)}
       ${fact('Solve time', `${number(cycle.wall, 3)} s <small>CPU ${number(cycle.cpu, 3)} s</small>`)}
@@ -150,7 +157,12 @@
     line.replaceChildren();
     for (const drive of drives) {
       const { data, end } = drive;
+      const there = new Set();
       const add = (t, kind, title) => {
+        // Of those that cannot be told apart, one.
+        const key = `${Math.round(2000 * (t - span.start) / Math.max(span.end - span.start, 1e-9))} ${kind}`;
+        if (there.has(key)) return;
+        there.add(key);
         const mark = document.createElement('i');
         mark.className = kind;
         mark.title = (drives.length > 1 ? `${drive.letter}: ` : '') + title;
@@ -166,6 +178,24 @@
     }
   }
 
+  /** What the page of a long drive leaves out. */
+  function leftOutWords(drive) {
+    const { samples, cycles, detailed, nodes } = drive.data.left_out;
+    const of = ([kept, all], what) => (kept < all ? `${kept} of ${all} ${what}` : `all ${all} ${what}`);
+    return `${drives.length > 1 ? `${drive.letter}: ` : ''}This drive is too long for a page of all of it: here are ${of(samples, 'samples')}
+      (among them the dips of wheel load and clearance) and ${of(cycles, 'cycles')} (among them those that failed, changed something or were the worst),
+      ${detailed < cycles[0] ? `${detailed} of these with cost terms and candidates` : 'with cost terms and candidates'}${nodes === null ? '' : `, and up to ${nodes} nodes of each plan`}.
+      The CSV files beside the page have all samples, cycles and nodes.`;
+  }
+
+  function showLeftOut() {
+    const words = document.getElementById('left-out');
+    const long = drives.filter((drive) => drive.data.left_out);
+    words.textContent = long.map(leftOutWords).join(' ').replace(/\s+/g, ' ');
+    words.hidden = !long.length;
+    document.getElementById('blocker-key').hidden = !drives.some((drive) => drive.data.cycles.some((c) => c.blocker));
+  }
+
   /** Shows the drives that there are now, from the time it was at. */
   function refresh() {
     slider.min = String(span.start);
@@ -174,6 +204,7 @@
     compare.show();
     stage.survey();
     showMarks();
+    showLeftOut();
     verification.show();
     choice.refresh();
     setTime(slalom.now);

@@ -13,6 +13,30 @@
     ctx.stroke();
   }
 
+  /**
+   * Strokes `count` places of a line, at(i) its pixels, as far as they lie in a box of pixels; those
+   * that are less than half a pixel from the last are passed over.
+   */
+  function traceLong(ctx, count, at, [left, top, right, bottom]) {
+    const beside = ([ax, ay], [bx, by]) => (ax < left && bx < left) || (ax > right && bx > right) || (ay < top && by < top) || (ay > bottom && by > bottom);
+    ctx.beginPath();
+    let last = null;
+    let down = false;
+    for (let i = 0; i < count; ++i) {
+      const p = at(i);
+      if (last && i < count - 1 && Math.abs(p[0] - last[0]) + Math.abs(p[1] - last[1]) < 0.5) continue;
+      if (last && !beside(last, p)) {
+        if (!down) ctx.moveTo(...last);
+        ctx.lineTo(...p);
+        down = true;
+      } else {
+        down = false;
+      }
+      last = p;
+    }
+    ctx.stroke();
+  }
+
   function drawPath(view, drive, t) {
     const { ctx, colour } = view;
     const { plant } = drive.data;
@@ -21,13 +45,9 @@
     ctx.strokeStyle = colour[drive.ink('blue')];
     ctx.lineWidth = lineWidth(view);
     ctx.lineJoin = 'round';
-    ctx.beginPath();
     const last = slalom.lastAtOrBefore(plant.t, t);
-    for (let i = 0; i <= last; ++i) {
-      if (i === 0) ctx.moveTo(view.x(plant.x[i]), view.y(plant.y[i])); else ctx.lineTo(view.x(plant.x[i]), view.y(plant.y[i]));
-    }
-    ctx.lineTo(view.x(sample.x), view.y(sample.y));
-    ctx.stroke();
+    traceLong(ctx, last + 2, (i) => (i > last ? [view.x(sample.x), view.y(sample.y)] : [view.x(plant.x[i]), view.y(plant.y[i])]),
+      [0, 0, view.width, view.height]);
   }
 
   /** Solid as far as it is driven before the next plan takes over, dashed after that. */
@@ -191,7 +211,7 @@
       const { x, y } = drive.data.plant;
       ctx.strokeStyle = colour[drive.ink('blue')];
       ctx.lineWidth = 1;
-      trace(ctx, x.map((px, i) => [mx(px), my(y[i])]));
+      traceLong(ctx, x.length, (i) => [mx(x[i]), my(y[i])], [left - 4, top - 4, left + w * k + 4, top + h * k + 4]);
       if (!sample) continue;
       ctx.fillStyle = ctx.strokeStyle;
       ctx.beginPath();

@@ -80,6 +80,7 @@
     course.obstacles(view, t);
     if (layers.ghosts) for (const { drive, cycle } of at) if (cycle) course.ghosts(view, drive, cycle);
     course.names(view, t);
+    for (const { drive } of at) course.blockers(view, drive, t);
     for (const { drive, cycle, sample } of at) over(drive, cycle, sample, t);
     if (camera.mode !== 'course') slalom.drawMap(view, at, t);
   }

@@ -28,13 +28,13 @@
 
   function legend(drive) {
     const keys = Object.entries(RUNGS).map(([rung, words]) =>
-      `<span class="key"><i class="swatch rung ${rung}"></i>${words} <b>${drive.clocked.filter((c) => c.rung === rung).length}</b></span>`);
+      `<span class="key"><i class="swatch rung ${rung}"></i>${words} <b>${drive.data.rungs[rung]}</b></span>`);
     return `<span>Plans${drives.length > 1 ? ` of ${drive.letter}` : ''}:</span>${keys.join('')}`;
   }
 
   /** The strips and their legend, of the drives there are now whose planners verify. */
   function show() {
-    const verifying = drives.filter((drive) => drive.data.cycles.some((c) => c.rung));
+    const verifying = drives.filter((drive) => drive.data.rungs);
     document.getElementById('rungs').replaceChildren(...verifying.map(strip));
     const words = document.getElementById('rung-legend');
     words.innerHTML = verifying.map(legend).join('');
@@ -56,6 +56,7 @@
 
   /** The candidates of a cycle as a table; the one that was taken stands out. */
   function table(cycle) {
+    if (cycle.rung && !cycle.candidates) return '<p class="sub">What else there was is left out of the page of so long a drive.</p>';
     if (!cycle.candidates || !cycle.candidates.length) return '';
     const certificate = JSON.stringify(cycle.certificate);
     const taken = cycle.candidates.findIndex((c) => JSON.stringify(c.certificate) === certificate

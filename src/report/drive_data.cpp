@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "cycle_data.hpp"
+#include "page_json.hpp"
 #include "shapes.hpp"
 #include "slalom/sim/marks.hpp"
 #include "slalom/sim/verification.hpp"
+#include "thinning.hpp"
 #include "words.hpp"
 
 namespace slalom::report {
@@ -15,39 +18,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// `value` with `digits` decimals; null when it is not finite.
-Json rounded(double value, int digits) {
-  if (!std::isfinite(value)) return nullptr;
-  const double power = std::pow(10.0, digits);
-  const double scaled = std::round(value * power);
-  if (!std::isfinite(scaled) || std::abs(scaled) > 1e15) return value;
-  const double result = scaled / power;
-  return result == 0 ? Json(0) : Json(result);
-}
-
-/// `value` as it is; null when it is not finite.
-Json exact(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-constexpr int kStateDigits[] = {4, 4, 5, 5, 5, 6, 4, 4};
-constexpr int kControlDigits[] = {6, 5};
-constexpr int kTimeDigits = 6;
-
-// What a page carries at the most, so that one of an hour's drive opens at once: samples of the
-// plant, nodes of all plans together, and cycles with the terms of their cost.
-// Of all obstacles together, rows of the motions that are given.
-constexpr std::size_t kMostSamples = 11'000, kMostNodes = 24'000, kMostTerms = 2'000,
-                      kMostTrackRows = 40'000;
-
-/// Which of `count` entries are kept of at most `most`: evenly, the first and last among them.
-std::vector<std::size_t> kept(std::size_t count, std::size_t most) {
-  std::vector<std::size_t> indices;
-  most = std::min(std::max<std::size_t>(most, 2), count);
-  for (std::size_t k = 0; k < most; ++k)
-    indices.push_back(most == 1 ? 0 : k * (count - 1) / (most - 1));
-  return indices;
-}
+// What a page carries at the most, so that one of an hour's drive opens at once: in all, what its
+// frame with all settings takes of that, and what is left for the cycles at the least [bytes].
+constexpr std::size_t kPageBytes = 4'800'000, kFrameBytes = 200'000, kCycleBytes = 500'000;
+// Samples of the plant; rows of the motions that are given, of all obstacles together; points of
+// all lanes; times of a mark.
+constexpr std::size_t kMostSamples = 11'000, kMostTrackRows = 40'000, kMostLanePoints = 16'000,
+                      kMostTimes = 1'000;
 
 /// Least and greatest acceleration [m/s^2] at speeds as far apart as those at 0 and `ux_step`
 /// [m/s].
@@ -117,9 +94,10 @@ double end_of(const sim::Drive& drive) {
   return std::isfinite(end) ? end : drive.time;
 }
 
-Json places(const std::vector<world::Point>& points) {
+Json places(const std::vector<world::Point>& points, std::size_t most) {
   Json json = Json::array();
-  for (const auto& p : points) json.push_back({rounded(p.x, 2), rounded(p.y, 2)});
+  for (const auto k : kept_evenly(points.size(), most))
+    json.push_back({rounded(points[k].x, 2), rounded(points[k].y, 2)});
   return json;
 }
 
@@ -135,11 +113,14 @@ Json goal_data(const sim::Scenario& scenario) {
 
 Json road_data(const world::Road& road) {
   const RoadLines lines = lines_of(road);
-  Json json = {{"left", places(lines.left)},
-               {"right", places(lines.right)},
-               {"middle", places(lines.middle)},
+  const auto whole = [](const auto& line) { return places(line, line.size()); };
+  Json json = {{"left", whole(lines.left)},
+               {"right", whole(lines.right)},
+               {"middle", whole(lines.middle)},
                {"lanes", Json::array()}};
-  for (const auto& lane : road.lanes()) json["lanes"].push_back(places(lane));
+  const auto& lanes = road.lanes();
+  for (const auto& lane : lanes)
+    json["lanes"].push_back(places(lane, kMostLanePoints / lanes.size()));
   return json;
 }
 
@@ -212,7 +193,7 @@ Json summary_data(const sim::Drive& drive) {
           {"cycles_unverified", verification ? Json(verification->unverified) : Json(nullptr)}};
 }
 
-Json plant_data(const std::vector<sim::PlantSample>& plant) {
+Json plant_data(const std::vector<sim::PlantSample>& plant, const std::vector<double>& marked) {
   auto t = Json::array();
   std::array<Json, vehicle::kStates> states;
   std::array<Json, vehicle::kControls> controls;
@@ -221,7 +202,7 @@ Json plant_data(const std::vector<sim::PlantSample>& plant) {
   controls.fill(Json::array());
   loads.fill(Json::array());
   auto clearance = Json::array();
-  for (const std::size_t k : kept(plant.size(), kMostSamples)) {
+  for (const std::size_t k : kept_samples(plant, marked, kMostSamples)) {
     const auto& sample = plant[k];
     t.push_back(rounded(sample.t, kTimeDigits));
     for (std::size_t i = 0; i < vehicle::kStates; ++i)
@@ -244,82 +225,43 @@ Json plant_data(const std::vector<sim::PlantSample>& plant) {
   return json;
 }
 
-/// `nodes`: so many of its nodes at the most.
-Json plan_data(const planner::Plan& plan, std::size_t nodes) {
-  const auto indices = kept(plan.t.size(), nodes);
-  Json json;
-  json["t_start"] = rounded(plan.t_start, kTimeDigits);
-  json["tf"] = rounded(plan.tf, kTimeDigits);
-  json["held"] =
-      plan.obstacle_time_held >= 0 ? rounded(plan.obstacle_time_held, kTimeDigits) : Json(nullptr);
-  json["t"] = Json::array();
-  for (const auto k : indices) json["t"].push_back(rounded(plan.t[k], kTimeDigits));
-  for (std::size_t i = 0; i < vehicle::kStates; ++i) {
-    auto& column = json[vehicle::kStateNames[i]] = Json::array();
-    for (const auto k : indices) column.push_back(rounded(plan.states[k][i], kStateDigits[i]));
-  }
-  for (std::size_t i = 0; i < vehicle::kControls; ++i) {
-    auto& column = json[vehicle::kControlNames[i]] = Json::array();
-    for (const auto k : indices) column.push_back(rounded(plan.controls[k][i], kControlDigits[i]));
+/// What the outcome does not tell, and all times of it.
+Json marks_data(const std::vector<sim::Mark>& marks) {
+  Json json = Json::array();
+  for (const auto& mark : marks) {
+    auto times = Json::array();
+    for (const auto k : kept_evenly(mark.times.size(), kMostTimes))
+      times.push_back(rounded(mark.times[k], kTimeDigits));
+    json.push_back({{"kind", mark.kind}, {"text", mark.text}, {"times", times}});
   }
   return json;
 }
 
-Json certificate_data(const planner::Certificate& c) {
-  return {{"verified", c.verified},
-          {"clearance", rounded(c.least_clearance, 4)},
-          {"nearest", c.nearest},
-          {"wheel_load", rounded(c.least_wheel_load, 1)},
-          {"until", rounded(c.until, kTimeDigits)},
-          {"refused", c.refused}};
-}
-
-/// Of a planner that verifies: where its plan comes from, what is known of it, and what else there
-/// was, each a candidate with its cost (null: refused).
-void add_verification(Json& json, const planner::Plan& plan) {
-  if (plan.rung == planner::Rung::none) return;
-  json["rung"] = planner::to_string(plan.rung);
-  json["certificate"] = certificate_data(plan.certificate);
-  json["candidates"] = Json::array();
-  for (const auto& candidate : plan.candidates) {
-    const bool verified = candidate.certificate.verified;
-    json["candidates"].push_back({{"name", candidate.name},
-                                  {"cost", verified ? rounded(candidate.cost, 4) : Json(nullptr)},
-                                  {"certificate", certificate_data(candidate.certificate)}});
-  }
-}
-
-Json cycle_data(const sim::Cycle& cycle, std::size_t cycles) {
-  const auto& report = cycle.plan.report;
+/// How many cycles on the clock have a plan of each rung; null for planners that do not verify.
+Json rungs_data(const sim::Drive& drive) {
+  const auto verification = sim::verification(drive);
+  if (!verification) return nullptr;
   Json json;
-  json["index"] = cycle.index;
-  json["t0"] = rounded(cycle.t0, kTimeDigits);
-  json["tex"] = rounded(cycle.tex, kTimeDigits);
-  json["t_swap"] = rounded(cycle.t_swap, kTimeDigits);
-  json["used"] = cycle.used;
-  json["solved"] = report.solved;
-  json["status"] = report.status_text();
-  json["iterations"] = report.iterations;
-  json["wall"] = rounded(report.wall_s, 6);
-  json["cpu"] = rounded(report.cpu_s, 6);
-  json["cost"] = rounded(report.cost, 4);
-  json["terms"] = Json::array();
-  for (const auto& [name, value] : report.cost_terms)
-    if (cycles <= kMostTerms) json["terms"].push_back(Json::array({name, rounded(value, 4)}));
-  json["worst"] = report.worst_constraint;
-  if (!report.blocks.empty()) json["blocks"] = report.blocks;
-  json["violation"] = exact(report.worst_violation);
-  json["goal_in_range"] = cycle.plan.goal_in_range;
-  const sim::StartSlack slack = sim::start_slack(cycle);
-  json["start_slack"] = {rounded(slack.distance, 3), rounded(slack.heading * 180 / M_PI, 2)};
-  if (report.passage.depth > 0)
-    json["passage"] = {rounded(report.passage.depth, 3), report.passage.obstacle,
-                       rounded(report.passage.at_nodes, 3)};
-  if (report.road_exit.depth > 0)
-    json["road_exit"] = {rounded(report.road_exit.depth, 3), report.road_exit.edge()};
-  add_verification(json, cycle.plan);
-  json["plan"] = plan_data(cycle.plan, kMostNodes / cycles);
+  for (const auto rung : {planner::Rung::new_plan, planner::Rung::rest, planner::Rung::least_bad})
+    json[planner::to_string(rung)] = verification->of(rung);
   return json;
+}
+
+/// Puts the cycles in, in what the page has left, and says what it leaves out.
+void add_cycles(Json& json, const sim::Scenario& scenario, const sim::Drive& drive,
+                const std::vector<double>& marked) {
+  const std::size_t so_far =
+      kFrameBytes + json.dump(-1, ' ', false, Json::error_handler_t::replace).size();
+  const std::size_t left = kPageBytes - std::min(kPageBytes - kCycleBytes, so_far);
+  CyclesData data = cycles_data(scenario, drive, marked, left);
+  const std::size_t samples = json["plant"]["t"].size(), cycles = data.cycles.size();
+  json["left_out"] = nullptr;
+  if (samples < drive.plant.size() || data.detailed < drive.cycles.size() || !data.all_nodes)
+    json["left_out"] = {{"samples", {samples, drive.plant.size()}},
+                        {"cycles", {cycles, drive.cycles.size()}},
+                        {"detailed", data.detailed},
+                        {"nodes", data.all_nodes ? Json(nullptr) : Json(data.nodes)}};
+  json["cycles"] = std::move(data.cycles);
 }
 
 }  // namespace
@@ -337,16 +279,14 @@ nlohmann::ordered_json drive_data(const sim::Scenario& scenario, const sim::Driv
   json["goal_time"] = drive.goal_time ? exact(*drive.goal_time) : Json(nullptr);
   json["least_clearance_t"] =
       std::isfinite(drive.least_clearance) ? exact(drive.least_clearance_t) : Json(nullptr);
-  json["marks"] = Json::array();
-  for (const auto& mark : sim::marks(scenario, drive)) {
-    auto times = Json::array();
-    for (const double t : mark.times) times.push_back(rounded(t, kTimeDigits));
-    json["marks"].push_back({{"kind", mark.kind}, {"text", mark.text}, {"times", times}});
-  }
-  json["plant"] = plant_data(drive.plant);
-  json["cycles"] = Json::array();
-  for (const auto& cycle : drive.cycles)
-    json["cycles"].push_back(cycle_data(cycle, drive.cycles.size()));
+  const auto marks = sim::marks(scenario, drive);
+  std::vector<double> marked = {drive.least_clearance_t};
+  if (drive.goal_time) marked.push_back(*drive.goal_time);
+  for (const auto& mark : marks) marked.insert(marked.end(), mark.times.begin(), mark.times.end());
+  json["marks"] = marks_data(marks);
+  json["rungs"] = rungs_data(drive);
+  json["plant"] = plant_data(drive.plant, marked);
+  add_cycles(json, scenario, drive, marked);
   return json;
 }
 

@@ -9,8 +9,9 @@ namespace {
 
 using world::TrajectoryRow;
 
-constexpr int kPoints = 48;       ///< of a whole turn
-constexpr double kRoadStep = 2;   ///< along a road [m]
+constexpr int kPoints = 48;      ///< of a whole turn
+constexpr double kRoadStep = 2;  ///< along a road [m], and of a long one so many steps:
+constexpr double kRoadSteps = 8000;
 constexpr double kStep = 0.1;     ///< between looks at a motion [s]
 constexpr double kMoment = 1e-3;  ///< [s]
 constexpr double kPlace = 0.01;   ///< [m]
@@ -114,8 +115,9 @@ Track track_of(const world::Trajectory& trajectory, double begin, double end, st
 }
 
 RoadLines lines_of(const world::Road& road) {
-  RoadLines lines{road.edge(true, kRoadStep), road.edge(false, kRoadStep), {}};
-  const double parts = std::ceil(road.length() / kRoadStep);
+  const double step = std::max(kRoadStep, road.length() / kRoadSteps);
+  RoadLines lines{road.edge(true, step), road.edge(false, step), {}};
+  const double parts = std::ceil(road.length() / step);
   for (double k = 0; k <= parts; ++k)
     lines.middle.push_back(road.at(road.length() * k / parts).point());
   if (road.closed())

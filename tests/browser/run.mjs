@@ -13,8 +13,10 @@ import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from '
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { lookAt, openBrowser } from './browser.mjs';
+import './blockers.mjs';
 import './compare.mjs';
 import { legibility } from './legibility.mjs';
+import './long.mjs';
 import { changedPage, driveDir, made, out, report, slalom, textOf, timeOf, until, valuesOf } from './pages.mjs';
 import './shapes.mjs';
 import './signals.mjs';

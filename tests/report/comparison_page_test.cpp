@@ -68,10 +68,10 @@ TEST(ComparisonPage, IsOfWhatThePagesCarryToBeCompared) {
 TEST(ComparisonPage, RefusesWhatIsNoDriveOfThisFormat) {
   EXPECT_EQ(refusal("<html></html>"),
             "B/report.html: found no drive, expected the report.html of 'slalom simulate'");
-  EXPECT_EQ(refusal(changed("\"slalom drive 2\"", "\"slalom drive 0\"")),
-            "B/report.html: format: found \"slalom drive 0\", expected \"slalom drive 2\"");
+  EXPECT_EQ(refusal(changed("\"slalom drive 3\"", "\"slalom drive 0\"")),
+            "B/report.html: format: found \"slalom drive 0\", expected \"slalom drive 3\"");
   EXPECT_EQ(refusal(changed("\"format\"", "\"other\"")),
-            "B/report.html: format: found none, expected \"slalom drive 2\"");
+            "B/report.html: format: found none, expected \"slalom drive 3\"");
   EXPECT_EQ(refusal(changed("\"plant\":", "\"plant\"")),
             "B/report.html: found a drive that is damaged, expected the report.html of 'slalom "
             "simulate'");

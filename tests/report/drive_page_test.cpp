@@ -155,29 +155,32 @@ TEST(DrivePage, IsSelfContained) {
       std::regex_search(page, std::regex("url\\((?!#)|@import|https?://(?!www\\.w3\\.org)")));
 }
 
-TEST(DrivePage, OfAnHoursDriveIsSmall) {
+TEST(DrivePage, SaysWhichObstacleIsInTheWay) {
+  auto scenario = synthetic_scenario();
+  scenario.obstacles.push_back({"O1 b", 30, 20, 3, 3, 0, 0});
   auto drive = synthetic_drive();
-  const auto sample = drive.plant.back();
-  const auto cycle = drive.cycles.back();
-  const double first = drive.plant.front().t;
-  drive.plant.clear();
-  drive.cycles.resize(1);
-  for (int k = 0; k < 180'000; ++k) {
-    drive.plant.push_back(sample);
-    drive.plant.back().t = first + 0.02 * k;
-  }
-  for (int k = 1; k <= 7'200; ++k) {
-    drive.cycles.push_back(cycle);
-    drive.cycles.back().index = k;
-  }
-  const auto page = drive_page(synthetic_scenario(), drive);
-  EXPECT_LT(page.size(), 5'000'000u);
-  const auto data = page_data(page);
-  EXPECT_EQ(data["plant"]["t"].front(), first);
-  EXPECT_NEAR(data["plant"]["t"].back(), drive.plant.back().t, 1e-6);
-  const auto& plan = data["cycles"].back()["plan"];
-  EXPECT_EQ(plan["x"].size(), plan["t"].size());
-  EXPECT_DOUBLE_EQ(plan["t"].back(), cycle.plan.t.back());
+  const auto blocked = [&](std::size_t k, const char* blocks, const char* row) {
+    auto& report = drive.cycles[k].plan.report;
+    report.solved = false;
+    report.blocks = blocks;
+    report.worst_constraint = row;
+  };
+  blocked(2, "O1 in the way: node 3 of the plan comes 1 m inside its edge",
+          "obstacle[O1] at node 3");
+  blocked(3, "O1 b in the way: node 1 of", "shaped obstacle[O1 b] at node 1");
+  blocked(4, "wheel load falls short by 3", "wheel load at node 1");
+  auto& refused = drive.cycles[5].plan;
+  refused.rung = planner::Rung::least_bad;
+  refused.certificate = {false, 0.1, "O2", 2000, 5, "clearance to O2 at 3.25 s", 3.25};
+  const auto cycles = page_data(drive_page(scenario, drive))["cycles"];
+  EXPECT_EQ(cycles[2]["blocker"]["name"], "O1");
+  EXPECT_NEAR(cycles[2]["blocker"]["t"], drive.cycles[2].plan.t_start + drive.cycles[2].plan.t[3],
+              1e-3);
+  EXPECT_EQ(cycles[3]["blocker"]["name"], "O1 b") << "not O1";
+  EXPECT_NEAR(cycles[3]["blocker"]["t"], drive.cycles[3].plan.obstacle_time_held, 1e-3);
+  EXPECT_FALSE(cycles[4].contains("blocker"));
+  EXPECT_EQ(cycles[5]["blocker"], nlohmann::json({{"name", "O2"}, {"t", 3.25}}));
+  EXPECT_FALSE(cycles[1].contains("blocker"));
 }
 
 TEST(DrivePage, SaysWhatTheOutcomeDoesNot) {
