@@ -195,8 +195,7 @@ void bind_problem_of_phases(nb::module_& module) {
             p.link(name, value, none ? ocp::Bounds::equal(0) : bounds(lower, upper, equal));
           },
           "name"_a, "value"_a, nb::kw_only(), "lower"_a = nb::none(), "upper"_a = nb::none(),
-          "equal"_a = nb::none(),
-          (std::string(doc::ocp_PhasedProblem_link) + "\nWithout bounds it equals 0.").c_str())
+          "equal"_a = nb::none(), doc::ocp_PhasedProblem_link)
       .def(
           "connect",
           [](Phases& p, std::size_t from, std::size_t to, const std::vector<std::string>& without,

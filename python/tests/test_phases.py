@@ -42,6 +42,7 @@ def test_grids_and_guesses_of_single_phases():
     (lambda p: p.solve(max_iteration=3), ValueError, "max_iterations"),
     (lambda p: p.connect(0, 7), ValueError, "phase 7"),
     (lambda p: p.link("time from speed up to slow down", slalom.Expr(0)), ValueError, "twice"),
+    (lambda p: p.link("free", slalom.Expr.symbol("z"), upper=float("inf")), ValueError, "link free.*no bounds"),
     (lambda p: p.link("foreign", slalom.Expr.symbol("z")) or p.solve(), ValueError, "'z'"),
     (lambda p: p.add(slalom.Problem("speed up")), ValueError, "twice"),
     (lambda p: p.solve()["up"], KeyError, "no phase 'up'"),

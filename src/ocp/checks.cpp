@@ -2,12 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <vector>
 
 #include "slalom/base/error.hpp"
 #include "symbols.hpp"
 
 namespace slalom::ocp {
+
+void check_bounds(const std::string& where, Bounds bounds) {
+  if (std::isnan(bounds.lower) || std::isnan(bounds.upper))
+    throw InvalidValue(where, "NaN in its bounds", "numbers");
+  if (bounds.lower > bounds.upper)
+    throw InvalidValue(where, fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
+                       "a lower bound not above the upper one");
+  if (bounds.lower == kInfinity || bounds.upper == -kInfinity)
+    throw InvalidValue(where, fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
+                       "bounds that some number satisfies");
+}
+
+void check_row_bounds(const std::string& where, Bounds bounds) {
+  check_bounds(where, bounds);
+  if (!bounds.bounded())
+    throw InvalidValue(where, "no bounds", "a lower or upper bound, or a number that it equals");
+}
 
 void check_times(const Problem& problem) {
   const Bounds &t0 = problem.t0().bounds, &tf = problem.tf().bounds;

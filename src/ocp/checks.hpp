@@ -1,9 +1,17 @@
 #pragma once
 
+#include <string>
+
 #include "builder.hpp"
 #include "slalom/ocp/problem.hpp"
 
 namespace slalom::ocp {
+
+/// Throws InvalidValue, naming `where`, for bounds that no number satisfies.
+void check_bounds(const std::string& where, Bounds bounds);
+
+/// The same of a row, which without bounds would be no row.
+void check_row_bounds(const std::string& where, Bounds bounds);
 
 /// Throws InvalidValue where the bounds of t0 and tf leave no time that runs forward.
 void check_times(const Problem& problem);

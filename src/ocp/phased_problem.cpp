@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "checks.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
 #include "slalom/ocp/phases.hpp"
@@ -29,10 +30,7 @@ void PhasedProblem::add_links(const std::vector<Link>& links) {
     for (const auto& known : links_)
       if (known.name == name)
         throw InvalidValue(name_, "the link '" + name + "' twice", "names that differ");
-    if (!(bounds.lower <= bounds.upper))
-      throw InvalidValue(name_ + ": link " + name,
-                         fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
-                         "a lower bound not above the upper one");
+    check_row_bounds(name_ + ": link " + name, bounds);
     if (expr::symbols_of({value}).empty())
       throw InvalidValue(name_ + ": link " + name, "a function of no variable",
                          "one of end values, times, static parameters or integrals");

@@ -6,29 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "checks.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/options.hpp"
 
 namespace slalom::ocp {
 namespace {
-
-void check_bounds(const std::string& where, Bounds bounds) {
-  if (std::isnan(bounds.lower) || std::isnan(bounds.upper))
-    throw InvalidValue(where, "NaN in its bounds", "numbers");
-  if (bounds.lower > bounds.upper)
-    throw InvalidValue(where, fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
-                       "a lower bound not above the upper one");
-  if (bounds.lower == kInfinity || bounds.upper == -kInfinity)
-    throw InvalidValue(where, fmt::format("bounds {} to {}", bounds.lower, bounds.upper),
-                       "bounds that some number satisfies");
-}
-
-/// Of a row, which without bounds would be no row.
-void check_row(const std::string& where, Bounds bounds) {
-  check_bounds(where, bounds);
-  if (!bounds.bounded())
-    throw InvalidValue(where, "no bounds", "a lower or upper bound, or a number that it equals");
-}
 
 void check_variable(const std::string& where, const Problem::Variable& variable) {
   check_bounds(where, variable.bounds);
@@ -219,7 +202,7 @@ void Problem::lagrange(const std::string& name, const Expr& integrand) {
 
 ConstraintId Problem::add(const char* what, Constraint row) {
   check_name(row.name);
-  check_row(name_ + ": " + what + " " + row.name, row.bounds);
+  check_row_bounds(name_ + ": " + what + " " + row.name, row.bounds);
   names_.push_back(row.name);
   constraints_.push_back(std::move(row));
   return {constraints_.size() - 1};

@@ -208,7 +208,7 @@ TEST(BadInput, OfLinks) {
   EXPECT_EQ(refusal([&] {
               both.link("l", Expr::symbol("s"), {kNaN, 1});
             }),
-            "both: link l: found bounds nan to 1, expected a lower bound not above the upper one");
+            "both: link l: found NaN in its bounds, expected numbers");
 }
 
 // --- kinks: what docs/ocp.md says of them ----------------------------------------------------

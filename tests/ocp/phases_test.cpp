@@ -318,6 +318,24 @@ TEST(Phases, ErrorsSayWhatAndTheRule) {
             "same name, or links of their own");
 }
 
+/// A row of path() or boundary() without bounds is refused; a link is an equation by its nature.
+TEST(Phases, ALinkWithoutBoundsEqualsZero) {
+  Stretch a("a", {-1, 1});
+  PhasedProblem one("one");
+  one.add(a.problem);
+  one.link("equation", a.problem.final_time() - 1);
+  EXPECT_EQ(one.links().front().bounds.lower, 0);
+  EXPECT_EQ(one.links().front().bounds.upper, 0);
+  EXPECT_EQ(refusal([&] { one.link("free", a.problem.final_time(), {}); }),
+            "one: link free: found no bounds, expected a lower or upper bound, or a number that it "
+            "equals");
+  EXPECT_EQ(refusal([&] {
+              one.link("none", a.problem.final_time(), {1, 0});
+            }),
+            "one: link none: found bounds 1 to 0, expected a lower bound not above the upper one");
+  EXPECT_EQ(one.links().size(), 1u);
+}
+
 /// All links of a connection, or none where one is refused.
 TEST(Phases, ARefusedConnectionLeavesNoLinks) {
   Stretch a("a", {-1, 1}), b("b", {-1, 1});

@@ -27,7 +27,9 @@ class PhasedProblem {
   /// Replaces a phase by the same one with other numbers: bounds, scales, guesses, parameters.
   void replace(std::size_t number, Problem phase);
   /// A constraint between phases: an expression of initial(), final(), initial_time(),
-  /// final_time(), static parameters and integrals of any of them.
+  /// final_time(), static parameters and integrals of any of them. Without bounds it equals 0,
+  /// unlike a row of path() or boundary(), which is refused without: a link is an equation by its
+  /// nature, mostly a difference of two phases' ends.
   void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));
   /// Makes the static parameter of that name the same in all phases that have it. Throws
   /// InvalidValue unless at least two phases have it.
