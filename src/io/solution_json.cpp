@@ -87,6 +87,8 @@ constexpr std::pair<const char*, std::string nlp::Residuals::*> kNames[] = {
     {"worst_constraint", &nlp::Residuals::worst_constraint},
     {"worst_variable", &nlp::Residuals::worst_variable},
     {"worst_pair", &nlp::Residuals::worst_pair}};
+/// Which files of earlier versions do not have.
+constexpr const char* kBeyondRounding = "violation_beyond_rounding";
 
 }  // namespace
 
@@ -94,6 +96,7 @@ Json residuals_json(const nlp::Residuals& residuals) {
   Json json;
   for (const auto& [key, member] : kNumbers) json[key] = json_number(residuals.*member);
   for (const auto& [key, member] : kNames) json[key] = residuals.*member;
+  json[kBeyondRounding] = json_number(residuals.violation_beyond_rounding);
   json["fault"] = fault_json(residuals.fault);
   return json;
 }
@@ -101,6 +104,8 @@ nlp::Residuals read_residuals(const JsonReader& reader) {
   nlp::Residuals residuals;
   for (const auto& [key, member] : kNumbers) residuals.*member = reader.at(key).real();
   for (const auto& [key, member] : kNames) residuals.*member = reader.at(key).text();
+  residuals.violation_beyond_rounding =
+      reader.has(kBeyondRounding) ? reader.at(kBeyondRounding).real() : residuals.violation;
   residuals.fault = read_fault(reader.at("fault"));
   return residuals;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rounding.hpp"
+
 namespace slalom::nlp {
 namespace {
 
@@ -16,6 +18,7 @@ struct Item {
   double value, lower, upper;
   double z_lower, z_upper;  ///< multipliers >= 0 of the two sides, user's units
   bool is_row;              ///< of a row only the difference z_upper - z_lower is known
+  double terms;             ///< sum of the sizes of what adds up to the value
 };
 
 /// |s z / mu - 1| for the slack nearest to s, within tol, that brings it to zero.
@@ -57,9 +60,10 @@ double complementarity(const Item& item, const Options& options) {
   const double sl = item.value - item.lower, su = item.upper - item.value;
   const double mu = options.floor;
   if (mu <= 0) return larger(product(sl, item.z_lower), product(su, item.z_upper));
-  if (item.is_row && lower && upper) return two_sided_centrality(item, mu, options.constraint_tol);
+  const double tol = std::max(options.constraint_tol, kRounding * item.terms);
+  if (item.is_row && lower && upper) return two_sided_centrality(item, mu, tol);
   const auto side = [&](bool exists, double s, double z) {
-    return exists ? centrality(s, z, mu, options.constraint_tol) : std::fabs(z);
+    return exists ? centrality(s, z, mu, tol) : std::fabs(z);
   };
   return larger(side(lower, sl, item.z_lower), side(upper, su, item.z_upper));
 }
@@ -113,14 +117,16 @@ class Judge {
   explicit Judge(const Options& options) : options_(options) {}
 
   void add(const Item& item, std::size_t id) {
-    violation.keep(nlp::violation(item), id);
+    const double outside = nlp::violation(item);
+    violation.keep(outside, id);
+    if (!is_rounding(outside, item.terms)) beyond_rounding.keep(outside, id);
     if (item.lower == item.upper) return;  // an equation has no barrier
     complementarity.keep(nlp::complementarity(item, options_), id);
     if (std::isfinite(item.lower)) logs.add(item.value - item.lower);
     if (std::isfinite(item.upper)) logs.add(item.upper - item.value);
   }
 
-  Worst violation, complementarity, stationarity;
+  Worst violation, beyond_rounding, complementarity, stationarity;
   LogSum logs;
 
  private:
@@ -132,8 +138,8 @@ class Judge {
 bool Residuals::solved(const Options& options) const {
   if (fault) return false;
   if (options.floor > 0)
-    return violation <= options.constraint_tol && stationarity <= options.dual_tol &&
-           complementarity <= options.floor_tol;
+    return violation_beyond_rounding <= options.constraint_tol &&
+           stationarity <= options.dual_tol && complementarity <= options.floor_tol;
   const double tol = kRelativeTolerance * options.dual_tol;
   return relative_violation <= options.constraint_tol && relative_stationarity <= tol &&
          relative_complementarity <= tol;
@@ -157,9 +163,9 @@ void judge_scaled(const Structure& shape, const Limits& limits, const Start& poi
   };
   for (std::size_t r = 0; r < shape.rows; ++r)
     add({at.rows[r], limits.gl[r], limits.gu[r], std::max(-point.y[r], 0.0),
-         std::max(point.y[r], 0.0), true});
+         std::max(point.y[r], 0.0), true, 0});
   for (std::size_t i = 0; i < shape.variables; ++i) {
-    add({point.x[i], limits.xl[i], limits.xu[i], point.zl[i], point.zu[i], false});
+    add({point.x[i], limits.xl[i], limits.xu[i], point.zl[i], point.zu[i], false, 0});
     if (limits.xl[i] == limits.xu[i]) continue;
     most.keep(std::fabs(point.zl[i]), 0);
     most.keep(std::fabs(point.zu[i]), 0);
@@ -181,7 +187,8 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
   Residuals result;
   result.fault = problem.evaluate(point.x, 1, {}, {.values = true, .derivatives = true}, at);
   if (result.fault) {
-    result.violation = result.stationarity = result.complementarity = kNaN;
+    result.violation = result.violation_beyond_rounding = kNaN;
+    result.stationarity = result.complementarity = kNaN;
     result.relative_violation = result.relative_stationarity = kNaN;
     result.relative_complementarity = result.objective = result.phi = kNaN;
     return result;
@@ -191,16 +198,18 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
   std::vector<double> lagrangian = at.gradient;
   for (std::size_t e = 0; e < at.jacobian.size(); ++e)
     lagrangian[shape.jacobian_col[e]] += point.y[shape.jacobian_row[e]] * at.jacobian[e];
+  std::vector<double> terms(shape.rows);
+  sum_terms(shape, at.jacobian, point.x, terms);
   for (std::size_t r = 0; r < shape.rows; ++r) {
     const double scale = shape.row_scale[r], y = point.y[r] * scale;
     judge.add({at.rows[r] / scale, limits.gl[r] / scale, limits.gu[r] / scale, std::max(-y, 0.0),
-               std::max(y, 0.0), true},
+               std::max(y, 0.0), true, terms[r] / scale},
               r);
   }
   for (std::size_t i = 0; i < shape.variables; ++i) {
     const double scale = shape.variable_scale[i];
     judge.add({point.x[i] * scale, limits.xl[i] * scale, limits.xu[i] * scale, point.zl[i] / scale,
-               point.zu[i] / scale, false},
+               point.zu[i] / scale, false, std::fabs(point.x[i] * scale)},
               shape.rows + i);
     if (limits.xl[i] == limits.xu[i]) continue;  // fixed: its multiplier is free
     judge.stationarity.keep(std::fabs(lagrangian[i] - point.zl[i] + point.zu[i]) / scale,
@@ -213,6 +222,7 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
                                     : problem.variable_name(worst.which - shape.rows);
   };
   judge_scaled(shape, limits, point, at, lagrangian, result);
+  result.violation_beyond_rounding = judge.beyond_rounding.value;
   tell(judge.violation, result.violation, result.worst_constraint);
   tell(judge.stationarity, result.stationarity, result.worst_variable);
   tell(judge.complementarity, result.complementarity, result.worst_pair);

@@ -25,8 +25,10 @@ OptionTable<Options> make_table() {
             "Largest |gradient of the Lagrangian|, and without a floor largest |slack * "
             "multiplier|, of a solved problem, in the user's units. The checker judges by it too.")
       .real("constraint_tol", &O::constraint_tol, Range::positive(), "of the row",
-            "Largest violation of a row of a solved problem, in the user's units; also what counts "
-            "as met among the points an unsolved problem is answered with.")
+            "Largest violation of a row of a solved problem, in the user's units, or the rounding "
+            "of the row's own terms where that is more; also what counts as met among the points "
+            "an unsolved problem is answered with. Without a floor, the check and other back ends "
+            "than interior_point take it in the units of the scales.")
       .real("floor_tol", &O::floor_tol, Range::positive(), "1",
             "At a floor: largest |slack * multiplier / mu - 1|. One percent of the distance to the "
             "limits is far below what a plan can feel.")

@@ -69,6 +69,22 @@ TEST(Check, ViolationIsInTheUsersUnitsAndNamed) {
   EXPECT_DOUBLE_EQ(low.violation, 0.75);
 }
 
+/// The last digit of 1.5e11 is 3e-5; 1e-6 cannot be asked for, but 1e-2 can.
+TEST(Check, RowsAndBoundsAreMetToTheRoundingOfTheirTerms) {
+  const Options options = at_floor(0.5);
+  auto problem = one_variable(0, 0, -kInf, kInf, 0, 1, 1.5e11, 1.5e11);
+  const auto at = [&](double x) { return check(problem, {{x}, {0}, {0}, {0}}, options); };
+  const double next = std::nextafter(1.5e11, 2e11);
+  EXPECT_EQ(at(next).violation, next - 1.5e11);
+  EXPECT_EQ(at(next).violation_beyond_rounding, 0);
+  EXPECT_TRUE(at(next).solved(options));
+  EXPECT_EQ(at(1.5e11 + 0.01).violation_beyond_rounding, at(1.5e11 + 0.01).violation);
+  EXPECT_FALSE(at(1.5e11 + 0.01).solved(options));
+  auto fixed = one_variable(0, 0, 1.5e11, 1.5e11, 0);
+  EXPECT_TRUE(check(fixed, {{next}, {}, {0}, {0}}, options).solved(options));
+  EXPECT_FALSE(check(fixed, {{1.5e11 + 0.01}, {}, {0}, {0}}, options).solved(options));
+}
+
 TEST(Check, CatchesEveryTampering) {
   for (const double mu : {0.9, 0.05, 0.0}) {
     Options options = at_floor(mu);

@@ -147,5 +147,56 @@ TEST(Floor, Hs071ObjectiveRisesWithTheFloor) {
   }
 }
 
+/// Distances between planets in metres, in a chain of linear rows: of 1.5e11 m the rounding is 3e-5
+/// m. Scaled, a row is met as well as numbers can meet it by any method that ends with a full step.
+SmallProblem chain_in_metres() {
+  constexpr std::size_t kSize = 9;
+  constexpr double kUnit = 1e11;
+  SmallProblem p;
+  const auto share = [](std::size_t i) { return 0.7 + 0.1234567 * static_cast<double>(i); };
+  p.objective = [](const Vector& x) {
+    double sum = 0;
+    for (std::size_t i = 0; i < kSize; ++i) sum += std::pow(x[i] / kUnit - 1.5, 2);
+    return sum;
+  };
+  p.gradient = [](const Vector& x) {
+    Vector slope;
+    for (const double each : x) slope.push_back(2 * (each / kUnit - 1.5) / kUnit);
+    return slope;
+  };
+  p.hessian = [](const Vector&, double s, const Vector&) {
+    Vector h;
+    for (std::size_t i = 0; i < kSize; ++i)
+      for (std::size_t j = 0; j <= i; ++j) h.push_back(i == j ? 2 * s / (kUnit * kUnit) : 0);
+    return h;
+  };
+  p.rows = [share](const Vector& x) {
+    Vector rows;
+    for (std::size_t i = 0; i + 1 < kSize; ++i) rows.push_back(x[i] - share(i) * x[i + 1]);
+    return rows;
+  };
+  p.jacobian = [share](const Vector&) {
+    Vector j((kSize - 1) * kSize, 0.0);
+    for (std::size_t i = 0; i + 1 < kSize; ++i) {
+      j[i * kSize + i] = 1;
+      j[i * kSize + i + 1] = -share(i);
+    }
+    return j;
+  };
+  p.bounds = {Vector(kSize, 0.3 * kUnit), Vector(kSize, 9 * kUnit), Vector(kSize - 1, 0.0123e11),
+              Vector(kSize - 1, 0.0123e11)};
+  p.start.assign(kSize, 2 * kUnit);
+  p.finish(Vector(kSize, kUnit), Vector(kSize - 1, 1 / kUnit));
+  return p;
+}
+
+/// By every back end: the check allows what the solver may end with.
+TEST(Floor, RowsOfLargeNumbersAreMetToTheirRounding) {
+  auto problem = chain_in_metres();
+  const auto solved = central_point(problem, 1e-3);
+  EXPECT_GT(solved.residuals.violation, Options().constraint_tol) << "else nothing is tested";
+  EXPECT_LE(solved.residuals.violation_beyond_rounding, Options().constraint_tol);
+}
+
 }  // namespace
 }  // namespace slalom::nlp

@@ -13,6 +13,7 @@
 #include "slalom/base/error.hpp"
 #include "slalom/ocp/errors.hpp"
 #include "slalom/ocp/guess.hpp"
+#include "slalom/ocp/refine.hpp"
 #include "slalom/ocp/solve.hpp"
 
 namespace slalom::ocp {
@@ -295,28 +296,52 @@ TEST(Scaling, TimesHaveTheSizeOfTheDuration) {
   }
 }
 
-/// From the Earth's orbit to that of Mars. Of 1.5e11 m the rounding is 3e-5 m: no tolerance of 1e-6
-/// m can be asked for.
+/// From the Earth's orbit to that of Mars, in days; `unit`: how many of the unit of length are a
+/// metre.
+Problem transfer(double unit) {
+  const double au = 1.495978707e11 * unit, mu = 1.32712440018e20 * std::pow(unit, 3);
+  Problem p("transfer");
+  const Expr r = p.state("r", {0.5 * au, 3 * au}), th = p.state("th"), vr = p.state("vr"),
+             vt = p.state("vt"), b = p.control("b");
+  p.dynamics(r, vr);
+  p.dynamics(th, vt / r);
+  p.dynamics(vr, square(vt) / r - mu / square(r) + 1e-3 * unit * sin(b));
+  p.dynamics(vt, -vr * vt / r + 1e-3 * unit * cos(b));
+  p.fix(r, au, 1.524 * au);
+  p.initial_bounds(th, Bounds::equal(0));
+  p.fix(vr, 0, 0);
+  p.fix(vt, std::sqrt(mu / au), std::sqrt(mu / (1.524 * au)));
+  p.final_time({1e6, 1e8}, 2e7);
+  p.mayer("duration", p.final_time() / 86400);
+  return p;
+}
+
+/// Of 1.5e11 m the rounding is 3e-5 m: no tolerance of 1e-6 m can be asked for.
 TEST(Scaling, ToleranceIsNotAskedForBelowRounding) {
-  for (const double unit : {1.0, 1e-3, 1 / 1.495978707e11}) {  // metres, kilometres, their distance
-    SCOPED_TRACE(unit);
-    const double au = 1.495978707e11 * unit, mu = 1.32712440018e20 * std::pow(unit, 3);
-    Problem p("transfer");
-    const Expr r = p.state("r", {0.5 * au, 3 * au}), th = p.state("th"), vr = p.state("vr"),
-               vt = p.state("vt"), b = p.control("b");
-    p.dynamics(r, vr);
-    p.dynamics(th, vt / r);
-    p.dynamics(vr, square(vt) / r - mu / square(r) + 1e-3 * unit * sin(b));
-    p.dynamics(vt, -vr * vt / r + 1e-3 * unit * cos(b));
-    p.fix(r, au, 1.524 * au);
-    p.initial_bounds(th, Bounds::equal(0));
-    p.fix(vr, 0, 0);
-    p.fix(vt, std::sqrt(mu / au), std::sqrt(mu / (1.524 * au)));
-    p.final_time({1e6, 1e8}, 2e7);
-    p.mayer("duration", p.final_time());
-    const Solution solution = solve(p, {.guess = Guess(p).line("b", 1, -1).trajectory()});
+  for (const double unit : {1.0, 1e-3, 1 / 1.495978707e11})  // metres, kilometres, their distance
+    for (const std::string& backend : nlp::backends()) {
+      SCOPED_TRACE(backend + ", a metre is " + std::to_string(unit));
+      const Problem problem = transfer(unit);
+      SolveSettings settings{.backend = backend,
+                             .guess = Guess(problem).line("b", 1, -1).trajectory()};
+      const Solution solution = solve(problem, settings);
+      EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
+      EXPECT_NEAR(solution.objective, 189.2124, 1e-4);
+      const Refined refined = refine(problem, settings);
+      EXPECT_EQ(refined.status, RefineStatus::converged);
+      EXPECT_NEAR(refined.solution.objective, 189.2125, 1e-4);
+    }
+}
+
+/// At a floor too, where answers are judged in the user's units alone.
+TEST(Scaling, ToleranceIsNotAskedForBelowRoundingAtAFloor) {
+  for (const double unit : {1.0, 1e-3}) {
+    const Problem problem = transfer(unit);
+    SolveSettings settings{.guess = Guess(problem).line("b", 1, -1).trajectory()};
+    settings.options.floor = 1e-3;
+    const Solution solution = solve(problem, settings);
     EXPECT_TRUE(solution.solved()) << nlp::to_string(solution.status);
-    EXPECT_NEAR(solution.tf() / 86400, 189.2124, 1e-4);
+    EXPECT_NEAR(solution.objective, 189.2124, 1e-4);
   }
 }
 

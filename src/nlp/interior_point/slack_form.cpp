@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../rounding.hpp"
 #include "row_elimination.hpp"
 
 namespace slalom::nlp::ipm {
@@ -201,15 +202,12 @@ double SlackForm::violation(const Evaluation& e) const {
 }
 
 bool SlackForm::met_to_rounding(const Evaluation& e, std::span<const double> w, double tolerance) {
-  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   const Limits& limits = problem_->limits();
-  std::fill(row_size_.begin(), row_size_.end(), 0.0);
-  for (std::size_t t = 0; t < e.jacobian.size(); ++t)
-    row_size_[shape_->jacobian_row[t]] += std::fabs(e.jacobian[t] * w[shape_->jacobian_col[t]]);
+  sum_terms(*shape_, e.jacobian, w, row_size_);
   for (std::size_t r = 0; r < rows(); ++r) {
     const double outside = std::max(row_scale_[r] * limits.gl[r] - e.rows[r],
                                     e.rows[r] - row_scale_[r] * limits.gu[r]);
-    if (outside * users_unit_[r] > tolerance && outside > kRounding * row_size_[r]) return false;
+    if (outside * users_unit_[r] > tolerance && !is_rounding(outside, row_size_[r])) return false;
   }
   return true;
 }
