@@ -57,6 +57,15 @@ MeshRecord record_of(const typename Solves::Answer& answer) {
   return record;
 }
 
+/// Where nothing costs, the objective is 0 whatever the states are, and multipliers are rounding.
+template <class Solves>
+bool costs_nothing(const typename Solves::Answer& answer) {
+  const auto phases = Solves::phases(answer);
+  return answer.cost_terms.empty() && std::all_of(phases.begin(), phases.end(), [](const auto* p) {
+           return p->cost_terms.empty();
+         });
+}
+
 template <class Solves>
 std::vector<ErrorEstimate> judge(const Solves& solves, const typename Solves::Answer& answer,
                                  MeshRecord& record) {
@@ -65,6 +74,11 @@ std::vector<ErrorEstimate> judge(const Solves& solves, const typename Solves::An
   record.largest_error = -1;
   for (std::size_t p = 0; p < phases.size(); ++p) {
     errors.push_back(estimate_errors(solves.problem(p), *phases[p]));
+    if (costs_nothing<Solves>(answer)) {
+      errors[p].objective = 0;
+      errors[p].objective_share.assign(errors[p].objective_share.size(), 0.0);
+      errors[p].bound_share.assign(errors[p].bound_share.size(), 0.0);
+    }
     if (errors[p].largest <= record.largest_error) continue;
     record.largest_error = errors[p].largest;
     record.worst_phase = solves.phase_name(p);
@@ -130,7 +144,7 @@ class Refining {
                    std::vector<MeshRecord>& meshes) {
     std::optional<Answer> lower;
     for (int mesh = 1, damped = 0;;) {
-      Answer now = lower ? std::move(*lower) : solve(meshes.empty());
+      Answer now = lower ? std::move(*lower) : meshes.empty() ? solve(true) : solve_after(answer);
       lower.reset();
       const bool first = meshes.empty();
       MeshRecord& record = meshes.emplace_back(record_of<Solves>(now));
@@ -197,6 +211,18 @@ class Refining {
     if (!first && !now.solved() && !stopped(now))
       now = in_time([&] { return solves_.solve_anew(); });
     return now;
+  }
+  /// On the mesh that follows that of `before`. Equations that follow from others, such as periodic
+  /// ones of a system that conserves something, may all hold on a mesh only by its symmetry. Where
+  /// they do not, that mesh is halved as a whole.
+  Answer solve_after(const Answer& before) {
+    Answer now = solve(false);
+    if (now.status != nlp::Status::too_few_freedoms) return now;
+    Grids grids = grids_of(before);
+    for (auto& grid : grids) grid = halved(grid, std::vector<char>(grid.mesh.intervals(), 1));
+    if (count(grids) > static_cast<std::size_t>(rules_.max_size)) return now;
+    solves_.next(std::move(grids), before);
+    return solve(false);
   }
   /// A solve in what is left of the whole refinement's time.
   template <class Solve>
@@ -330,37 +356,6 @@ RefineStatus run(Solves solves, const RefineRules& rules, typename Solves::Answe
 }
 
 }  // namespace
-
-const char* to_string(RefineStatus status) {
-  switch (status) {
-    case RefineStatus::converged:
-      return "converged";
-    case RefineStatus::mesh_limit:
-      return "mesh_limit";
-    case RefineStatus::size_limit:
-      return "size_limit";
-    case RefineStatus::not_solved:
-      return "not_solved";
-    case RefineStatus::stopped:
-      return "stopped";
-  }
-  return "unknown";
-}
-
-std::string table(const std::vector<MeshRecord>& meshes, RefineStatus status) {
-  std::string text =
-      "mesh  intervals  points  status  iterations  solve [s]  objective  its error  unresolved  "
-      "damping  error\n";
-  for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const MeshRecord& mesh = meshes[m];
-    text += fmt::format(
-        "{}  {}  {}  {}  {}  {:.3g}  {:.10g}  {:.1e}  {}  {:.2g}  {:.2e} in interval {}{}\n", m + 1,
-        mesh.intervals, mesh.points, nlp::to_string(mesh.status), mesh.iterations, mesh.wall_s,
-        mesh.objective, mesh.objective_error, mesh.unresolved, mesh.damping, mesh.largest_error,
-        mesh.worst_interval, mesh.worst_phase.empty() ? "" : " of " + mesh.worst_phase);
-  }
-  return text + to_string(status) + "\n";
-}
 
 Refined refine(const Problem& problem, const SolveSettings& start, const RefineRules& rules) {
   Refined result;
