@@ -36,10 +36,12 @@ class Dag {
 
   const Vertex& operator[](Id id) const { return vertices_[id]; }
   std::size_t size() const { return vertices_.size(); }
+  const std::vector<Vertex>& vertices() const { return vertices_; }
   /// The step function of a lookup.
   const std::shared_ptr<const Steps>& steps(Id id) const {
     return steps_[static_cast<std::size_t>(vertices_[id].value)];
   }
+  const std::vector<std::shared_ptr<const Steps>>& all_steps() const { return steps_; }
   bool is_constant(Id id) const { return vertices_[id].op == Op::constant; }
   bool is(Id id, double value) const { return is_constant(id) && vertices_[id].value == value; }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "function_impl.hpp"
+#include "kept_functions.hpp"
 #include "op.hpp"
 #include "slalom/base/error.hpp"
 
@@ -182,7 +183,7 @@ Function::Function(std::vector<Expr> variables, std::vector<Expr> data,
   impl->outputs = impl->dag.import(outputs, input_of);
   for (std::size_t k = 0; k < outputs.size(); ++k)
     impl->weights.push_back(impl->dag.input(impl->variables + impl->data + k));
-  impl_ = std::move(impl);
+  impl_ = Impl::Kept::instance().instead_of(std::move(impl));
 }
 
 std::size_t Function::variables() const {

@@ -18,6 +18,8 @@ constexpr unsigned mask_of(Wanted wanted) {
 /// Derivatives and code are made when first wanted, once, whichever thread comes first. Inputs of
 /// tapes: variables, data, weights; behind them what was computed from data alone.
 struct Function::Impl {
+  class Kept;
+
   std::size_t variables = 0, data = 0;
   std::vector<Dag::Id> outputs, weights;
   mutable std::mutex mutex;

@@ -157,14 +157,18 @@ TEST(Function, BitsDoNotDependOnWhatElseIsWantedNorOnTheOrderOfAsking) {
 
 TEST(Function, ThreadsShareOneFromCold) {
   const Sample sample;
+  std::vector<Expr> data = {sample.p};
+  std::vector<double> p = {0.7};
   const auto make = [&] {  // large enough that the threads' first evaluations overlap
     Expr e = sample.x;
     for (int i = 0; i < 60; ++i) e = sin(e * sample.y) + sample.z * sample.p / (i + 2 + e * e);
-    return Function({sample.x, sample.y, sample.z}, {sample.p}, {e, e * e, e - 1, sample.x});
+    return Function({sample.x, sample.y, sample.z}, data, {e, e * e, e - 1, sample.x});
   };
-  const std::vector<double> x = {1.1, -0.4, 0.3}, p = {0.7}, w = {1, 2, 3, 4};
+  const std::vector<double> x = {1.1, -0.4, 0.3}, w = {1, 2, 3, 4};
   const Results want(make(), 1, x, p, w, kAll);
   for (int round = 0; round < 20; ++round) {
+    data.push_back(Expr::symbol("unused"));  // else it is the one that was derived before
+    p.push_back(0);
     const Function f = make();
     std::barrier start(8);
     std::vector<int> good(8, 0);
