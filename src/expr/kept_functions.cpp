@@ -4,24 +4,17 @@
 #include <bit>
 #include <utility>
 
+#include "../base/same_bits.hpp"
+
 namespace slalom::expr {
 namespace {
-
-std::uint64_t bits_of(double value) {
-  return std::bit_cast<std::uint64_t>(value);
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](double x, double y) { return bits_of(x) == bits_of(y); });
-}
 
 bool same_steps(const std::shared_ptr<const Steps>& a, const std::shared_ptr<const Steps>& b) {
   return a == b || (same_bits(a->begins, b->begins) && same_bits(a->values, b->values));
 }
 
 bool same_vertex(const Dag::Vertex& a, const Dag::Vertex& b) {
-  return a.op == b.op && a.arg == b.arg && bits_of(a.value) == bits_of(b.value);
+  return a.op == b.op && a.arg == b.arg && same_bits(a.value, b.value);
 }
 
 void mix(std::uint64_t part, std::uint64_t& hash) {
@@ -45,7 +38,7 @@ Function::Impl::Kept::Key::Key(const Impl& function)
   for (const auto& v : vertices) {
     mix(static_cast<std::uint64_t>(v.op) << 32 | v.arg[0], hash);
     mix(std::uint64_t{v.arg[1]} << 32 | v.arg[2], hash);
-    mix(bits_of(v.value), hash);
+    mix(std::bit_cast<std::uint64_t>(v.value), hash);
   }
 }
 

@@ -129,7 +129,7 @@ class ClosedLoop {
     for (const double t1 : plant_.instants(signal, t_, t_end)) {
       if (interrupted()) return End{Outcome::interrupted, "interrupted while driving"};
       try {
-        const auto stretch = Stretch::driven(plant_, signal, state_, t_, t1);
+        const auto stretch = Stretch::driven(plant_, signal, state_, t_, t1, foreseen(signal, t1));
         const auto event = watch_.pass(stretch);
         state_ = event ? stretch.at(event->t) : stretch.state1;
         t_ = event ? event->t : t1;
@@ -140,6 +140,12 @@ class ClosedLoop {
       }
     }
     return std::nullopt;
+  }
+
+  /// Where the plant gets by t1, if that was predicted.
+  std::optional<vehicle::State> foreseen(const vehicle::ControlSignal& signal, double t1) {
+    if (!is_as_believed(scenario_.plant)) return std::nullopt;
+    return planning_.foreseen(state_, signal, t_, t1);
   }
 
   End end_by(const Event& event) const {

@@ -6,7 +6,7 @@ FirstPlan first_plan(const Scenario& scenario, const PlanFunction& plan,
                      const std::function<bool()>& interrupted) {
   check(scenario);
   Timing timing(scenario.loop, scenario.planner.method);
-  const Planning planning(scenario, timing, plan, interrupted);
+  Planning planning(scenario, timing, plan, interrupted);
   FirstPlan first;
   first.warm_up = planning.warm_up();
   if (planning.interrupted()) return first;

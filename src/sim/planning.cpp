@@ -28,22 +28,23 @@ double Planning::known_actuator_delay() const {
 /// commanded. A planner that knows of delays takes the measurement for what it is, a state some
 /// time ago, and the vehicle for driven by what was commanded before.
 vehicle::State Planning::predicted(const vehicle::State& measured, double t0,
-                                   const Actuator& actuator) const {
+                                   const Actuator& actuator) {
   const double begin = timing_.plan_start(t0);
+  rehearsal_.begin_anew();
   if (!scenario_.loop.compensate_delay)
-    return believed_.predict(measured, actuator.commanded(), t0, begin);
+    return rehearsal_.predict(believed_, measured, actuator.commanded(), t0, begin);
   const double until = begin + known_actuator_delay();
   vehicle::State state = measured;
   for (double t = std::max(t0 - scenario_.sensing.delay, 0.0); t < until;) {
     const double next = std::min(until, actuator.next_change(t));
-    state = believed_.predict(state, actuator.driven(t), t, next);
+    state = rehearsal_.predict(believed_, state, actuator.driven(t), t, next);
     t = next;
   }
   return state;
 }
 
 Cycle Planning::cycle(int index, double t0, const History& history, const Actuator& actuator,
-                      bool last_was_late) const {
+                      bool last_was_late) {
   Cycle cycle;
   cycle.index = index;
   cycle.t0 = t0;
@@ -81,13 +82,13 @@ planner::Request Planning::request(const Cycle& cycle, bool last_was_late) const
   return request;
 }
 
-Cycle Planning::first_cycle(int index) const {
+Cycle Planning::first_cycle(int index) {
   const Actuator still(scenario_.plant.actuator_delay);
   return cycle(
       index, 0, [this](double) { return scenario_.start; }, still, false);
 }
 
-std::optional<Cycle> Planning::warm_up() const {
+std::optional<Cycle> Planning::warm_up() {
   if (!scenario_.loop.warm_up || interrupted()) return std::nullopt;
   return first_cycle(0);
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "rehearsal.hpp"
 #include "slalom/sim/actuator.hpp"
 #include "slalom/sim/closed_loop.hpp"
 #include "slalom/sim/sensing.hpp"
@@ -29,26 +30,33 @@ class Planning {
   /// and its swap are left to Timing::settle.
   /// `last_was_late`: the plan of the cycle before.
   Cycle cycle(int index, double t0, const History& history, const Actuator& actuator,
-              bool last_was_late) const;
+              bool last_was_late);
+  /// Where a plant that is the vehicle believed in gets from `state` at t0 to t1 on `signal`, if
+  /// the last cycle predicted just that.
+  std::optional<vehicle::State> foreseen(const vehicle::State& state,
+                                         const vehicle::ControlSignal& signal, double t0,
+                                         double t1) {
+    return rehearsal_.end_of(state, signal, t0, t1);
+  }
   /// How long after it is commanded a plan acts, as far as the planner knows [s].
   double known_actuator_delay() const;
   /// The same from the scenario's start.
-  Cycle first_cycle(int index) const;
+  Cycle first_cycle(int index);
   /// The first OCP as cycle 0, before the clock starts; none if the scenario wants none.
-  std::optional<Cycle> warm_up() const;
+  std::optional<Cycle> warm_up();
 
   bool interrupted() const { return interrupted_ && interrupted_(); }
 
  private:
   planner::Request request(const Cycle& cycle, bool last_was_late) const;
-  vehicle::State predicted(const vehicle::State& measured, double t0,
-                           const Actuator& actuator) const;
+  vehicle::State predicted(const vehicle::State& measured, double t0, const Actuator& actuator);
 
   const Scenario& scenario_;
   const Timing& timing_;
   const PlanFunction& plan_;
   const std::function<bool()>& interrupted_;
   vehicle::Plant believed_;  ///< what prediction takes the plant for
+  Rehearsal rehearsal_;
   Sensors sensors_;
 };
 

@@ -86,14 +86,17 @@ const OptionTable<PlantSettings>& plant_options() {
   return table;
 }
 
+bool is_as_believed(const PlantSettings& settings) {
+  const PlantSettings neutral;
+  return settings.mass_factor == neutral.mass_factor &&
+         settings.friction_factor == neutral.friction_factor &&
+         settings.cornering_stiffness_factor == neutral.cornering_stiffness_factor &&
+         settings.cg_shift == neutral.cg_shift;
+}
+
 vehicle::Parameters plant_vehicle(const vehicle::Parameters& believed,
                                   const PlantSettings& settings, const std::string& where) {
-  const PlantSettings neutral;
-  if (settings.mass_factor == neutral.mass_factor &&
-      settings.friction_factor == neutral.friction_factor &&
-      settings.cornering_stiffness_factor == neutral.cornering_stiffness_factor &&
-      settings.cg_shift == neutral.cg_shift)
-    return believed;
+  if (is_as_believed(settings)) return believed;
   if (!(settings.cg_shift < believed.la && settings.cg_shift > -believed.lb))
     throw InvalidValue(where + ": plant", fmt::format("cg_shift = {:.9g}", settings.cg_shift),
                        fmt::format("between -lb = {:.9g} and la = {:.9g}, both excluded",

@@ -183,11 +183,11 @@ void for_each_low_load(const vehicle::Dynamics& dynamics, const Stretch& s, doub
 }  // namespace
 
 Stretch Stretch::driven(const vehicle::Plant& plant, const vehicle::ControlSignal& signal,
-                        const State& state, double t0, double t1) {
+                        const State& state, double t0, double t1, const std::optional<State>& end) {
   Stretch stretch{t0, t1, state, {}, [&plant, &signal, state, t0](double t) {
                     return plant.advance(state, signal, t0, t);
                   }};
-  stretch.state1 = stretch.at(t1);
+  stretch.state1 = end ? *end : stretch.at(t1);
   return stretch;
 }
 

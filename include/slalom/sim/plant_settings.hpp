@@ -17,6 +17,9 @@ struct PlantSettings {
 
 const OptionTable<PlantSettings>& plant_options();
 
+/// Whether the plant is the scenario's vehicle itself.
+bool is_as_believed(const PlantSettings& settings);
+
 /// The vehicle that is driven, `believed` being the scenario's. Throws InvalidValue, naming
 /// `where`, for a c.g. beyond an axle and for what vehicle::check refuses.
 vehicle::Parameters plant_vehicle(const vehicle::Parameters& believed,

@@ -23,9 +23,10 @@ struct Stretch {
   std::function<vehicle::State(double)> at;  ///< state at any time in between
 
   /// What `plant` drives on `signal` from `state` at t0 to t1; both outlive it. Throws PlantError,
-  /// and so may `at`.
+  /// and so may `at`. `end`: the state at t1, where it is known.
   static Stretch driven(const vehicle::Plant& plant, const vehicle::ControlSignal& signal,
-                        const vehicle::State& state, double t0, double t1);
+                        const vehicle::State& state, double t0, double t1,
+                        const std::optional<vehicle::State>& end = std::nullopt);
 };
 
 /// What a drive, or a plan that is rolled out, is watched for.
