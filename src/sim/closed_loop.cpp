@@ -204,8 +204,8 @@ class ClosedLoop {
 
   void record() {
     if (!drive_.plant.empty() && t_ <= drive_.plant.back().t) return;
-    drive_.plant.push_back({t_, state_, actuator_.driven(t_).at(t_),
-                            plant_.dynamics().wheel_loads(state_), watch_.clearance(t_, state_)});
+    drive_.plant.push_back({t_, state_, actuator_.driven(t_).at(t_), watch_.wheel_loads(state_),
+                            watch_.clearance(t_, state_)});
   }
 
   void keep(Cycle cycle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -46,6 +47,9 @@ struct Event {
   std::string what;                  ///< name of the obstacle or wheel
 };
 
+struct Instant;
+class Course;
+
 /// Watches a drive stretch by stretch for the events of section 4 of docs/formulation.md, and keeps
 /// its extremes. Obstacles, grown, and the goal's square are convex, and over one stretch (at most
 /// .02 s) the plant's path is straight but for millimetres: the distance of a point to those that
@@ -60,6 +64,7 @@ class Watch {
  public:
   /// `dynamics`, of the vehicle that drives, outlive it.
   Watch(const Criteria& criteria, const vehicle::Dynamics& dynamics);
+  ~Watch();
 
   /// Takes in the start of the drive.
   void begin(double t, const vehicle::State& state);
@@ -70,6 +75,8 @@ class Watch {
   /// Signed distance [m] from the footprint to the edge of the nearest obstacle, grown by the
   /// margin, at time t [s]; infinity without obstacles.
   double clearance(double t, const vehicle::State& state) const;
+  /// Vertical wheel loads [N], rl, rr, fl, fr, in a state, most often the last.
+  vehicle::WheelLoads wheel_loads(const vehicle::State& state) const;
 
   /// When the goal's square was first entered [s].
   std::optional<double> goal_time() const { return goal_time_; }
@@ -85,17 +92,32 @@ class Watch {
 
  private:
   struct Approach;
+  struct Watched {
+    explicit Watched(world::Obstacle grown);
+    double fastest(double t0, double t1) const;  ///< [m/s]
+    /// What the front axle's centre is no nearer to it than [m], soon found and so somewhat less
+    /// than could be said; nothing of one with a trajectory.
+    double least_distance(double t, const vehicle::State& state) const;
 
-  std::optional<Event> first_crash(const Stretch& stretch) const;
-  std::optional<Event> first_wheel_lift(const Stretch& stretch) const;
-  void note_clearance(const Stretch& stretch);
-  void note_wheel_loads(const Stretch& stretch);
-  void note_goal(const Stretch& stretch);
+    world::Obstacle obstacle;  ///< grown by the margin
+    double speed, reach;       ///< constant [m/s], 0 of one with a trajectory; [m]
+  };
+
+  void find_near(const Course& course);
+  std::optional<Event> first_crash(Course& course) const;
+  std::optional<Event> first_wheel_lift(Course& course) const;
+  void note(Course& course);
+  void note_clearance(Course& course);
+  void note_wheel_loads(Course& course);
+  void note_goal(Course& course);
   void note_edge(const vehicle::State& state);
-  void note_progress(const Stretch& stretch);
+  void note_progress(const Course& course);
 
   const vehicle::Dynamics& dynamics_;
-  std::vector<world::Obstacle> obstacles_;  ///< grown by the margin
+  std::vector<Watched> watched_;
+  std::unique_ptr<Instant> last_;  ///< the end of the last stretch
+  std::vector<std::size_t> near_;  ///< of `watched_`, those that matter for the stretch
+  std::size_t nearest_ = 0;        ///< and one that is near its end
   world::Goal goal_;
   double Fz_failure_;
   world::Footprint footprint_;
