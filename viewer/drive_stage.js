@@ -7,7 +7,7 @@
   const canvas = document.getElementById('stage');
   const ctx = canvas.getContext('2d');
   const camera = { mode: 'follow', x: 0, y: 0, scale: 8, span: 90 };
-  const layers = { grown: true, margins: false, path: true, plan: true, ghosts: true, range: false };
+  const layers = { grown: true, margins: false, path: true, plan: true, candidates: true, ghosts: true, range: false };
   /** A course that is wider than it is high has a stage that is, too, above the charts. */
   const WIDE = 1.3;
   /** Of the stage's sides, the share that two vehicles may be apart in. */
@@ -63,6 +63,7 @@
     if (layers.path) slalom.drawPath(view, drive, t);
   };
   const over = (drive, cycle, sample, t) => {
+    if (cycle && layers.candidates) slalom.verification.drawCandidates(view, drive, cycle);
     if (cycle && layers.plan) slalom.drawPlan(view, drive, cycle);
     if (!sample) return;
     slalom.drawVehicle(view, drive, sample);

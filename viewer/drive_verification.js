@@ -38,7 +38,7 @@
     document.getElementById('rungs').replaceChildren(...verifying.map(strip));
     const words = document.getElementById('rung-legend');
     words.innerHTML = verifying.map(legend).join('');
-    words.hidden = !verifying.length;
+    words.hidden = document.getElementById('candidates-key').hidden = !verifying.length;
     if (verifying.length) document.getElementById('plan-words').textContent = 'plan, dashed from the next swap on';
   }
 
@@ -70,5 +70,27 @@
       <tbody>${rows.join('')}</tbody></table></div>`;
   }
 
-  slalom.verification = { show, facts, table };
+  /** What would be driven in place of a new plan: the rest of the last, which is looked at first, if that is verified. */
+  const isFallback = (cycle, candidate, i) => i === 0 && cycle.rung === 'new' && candidate.name === 'rest' && candidate.certificate.verified;
+
+  /** Where the motions lead that a cycle looked at: faint lines, and dashed what would be driven in place of a new plan. */
+  function drawCandidates(view, drive, cycle) {
+    const { ctx, colour } = view;
+    if (!cycle.candidates) return;
+    ctx.save();
+    ctx.lineWidth = 1.5;
+    ctx.lineJoin = 'round';
+    ctx.strokeStyle = colour[drive.ink('purple')];
+    cycle.candidates.forEach((candidate, i) => {
+      const fallback = isFallback(cycle, candidate, i);
+      ctx.globalAlpha = fallback ? 0.9 : 0.35;
+      ctx.setLineDash(fallback ? [7, 5] : []);
+      ctx.beginPath();
+      for (const [x, y] of candidate.path) ctx.lineTo(view.x(x), view.y(y));
+      ctx.stroke();
+    });
+    ctx.restore();
+  }
+
+  slalom.verification = { show, facts, table, drawCandidates };
 })(window.slalom = window.slalom || {});

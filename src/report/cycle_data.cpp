@@ -142,9 +142,13 @@ Json details_data(const planner::Plan& plan) {
   auto& candidates = json["candidates"] = Json::array();
   for (const auto& candidate : plan.candidates) {
     const bool verified = candidate.certificate.verified;
+    auto path = Json::array();
+    for (const auto& place : candidate.path)
+      path.push_back({rounded(place.x, 2), rounded(place.y, 2)});
     candidates.push_back({{"name", candidate.name},
                           {"cost", verified ? rounded(candidate.cost, 4) : Json(nullptr)},
-                          {"certificate", certificate_data(candidate.certificate)}});
+                          {"certificate", certificate_data(candidate.certificate)},
+                          {"path", path}});
   }
   return json;
 }

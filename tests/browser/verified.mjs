@@ -13,8 +13,8 @@ describe('the page of a drive of verified plans', () => {
     const cycle = data.cycles[10];
     const certificate = { ...cycle.certificate, verified: false, refused };
     Object.assign(cycle, { rung: 'least_bad', solved: false, cost: 0, certificate,
-      candidates: [{ name: 'rest', cost: null, certificate: { ...certificate, until: 1 } },
-        { name: 'way 1', cost: null, certificate }] });
+      candidates: [{ name: 'rest', cost: null, certificate: { ...certificate, until: 1 }, path: [] },
+        { name: 'way 1', cost: null, certificate, path: [] }] });
   };
   const stripOf = (page) => page.$$eval('#rungs i', (all) => all.map((i) => ({ rung: i.className,
     from: i.offsetLeft, to: i.offsetLeft + i.offsetWidth, colour: getComputedStyle(i).backgroundColor })));
@@ -37,6 +37,36 @@ describe('the page of a drive of verified plans', () => {
       assert.equal(rows.filter((r) => r.includes('driven')).length, 1);
       assert.match(await textOf(page, '#cycle'), /Verified\s*until/);
       await page.screenshot({ path: join(out, 'verified.png'), fullPage: true });
+      assert.deepEqual(complaints, []);
+    } finally {
+      await browser.close();
+    }
+  });
+
+  /** The first cycle has a plan beside a rest that is verified too. */
+  const beside = (data) => {
+    const cycle = data.cycles.find((c) => c.index === 1);
+    const path = cycle.plan.x.map((x, k) => [x + 3, cycle.plan.y[k]]);
+    const certificate = { ...cycle.certificate, until: 1 };
+    Object.assign(cycle, { rung: 'new', candidates: [{ name: 'rest', cost: 9, certificate, path },
+      { name: 'way 1', cost: 1, certificate: cycle.certificate, path: path.map(([x, y]) => [x - 6, y]) }] });
+  };
+
+  test('draws the other motions, and dashed what would be driven instead', async () => {
+    const browser = await openBrowser();
+    try {
+      const { page, complaints } = await browser.open(changedPage('candidates', beside, verifiedReport), '#t=0.6');
+      const drawn = () => page.evaluate(() => {
+        const at = window.slalom.drives[0].cycleAt(0.6);
+        const canvas = document.getElementById('stage');
+        return { candidates: at.candidates.length, image: canvas.toDataURL() };
+      });
+      await until(async () => (await drawn()).candidates === 2);
+      const shown = await drawn();
+      assert.ok(await page.isVisible('#candidates-key'));
+      await page.screenshot({ path: join(out, 'candidates.png'), fullPage: true });
+      await page.click('#layer-candidates');
+      await until(async () => (await drawn()).image !== shown.image);
       assert.deepEqual(complaints, []);
     } finally {
       await browser.close();
@@ -68,6 +98,7 @@ describe('the page of a drive of verified plans', () => {
       const { page, complaints } = await browser.open(report, '#t=2');
       assert.equal((await page.$$('#rungs i, .candidates')).length, 0);
       assert.ok(!(await page.isVisible('#rung-legend')));
+      assert.ok(!(await page.isVisible('#candidates-key')));
       assert.deepEqual(complaints, []);
     } finally {
       await browser.close();
