@@ -281,13 +281,14 @@ def test_frame_plot_and_files(tmp_path):
     with pytest.raises(slalom.Error, match="out"):
         drive.write(tmp_path / "out")
     drive.write(tmp_path / "out", force=True)
-    with open(tmp_path / "out" / ".results.lock", "w") as other:  # as another process has it
+    (tmp_path / "two").mkdir()
+    with open(tmp_path / "two" / ".results.lock", "w") as other:  # as another process has it
         fcntl.flock(other, fcntl.LOCK_EX)
         for force in (False, True):
             with pytest.raises(slalom.Error, match="another process writes its results there"):
-                drive.write(tmp_path / "out", force=force)
-    drive.write(tmp_path / "out", force=True)
-    assert not (tmp_path / "out" / ".results.lock").exists()
+                drive.write(tmp_path / "two", force=force)
+    drive.write(tmp_path / "two")
+    assert not (tmp_path / "two" / ".results.lock").exists()
     path = drive.plot().axes[0]
     np.testing.assert_array_equal(path.lines[0].get_xdata(), drive.states[:, 0])
     assert len(path.patches) == 1
