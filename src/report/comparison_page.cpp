@@ -13,6 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Deeper than the data of any drive; what writes them again calls itself as often.
+constexpr int kMostDepth = 100;
+
 constexpr const char* kExpected = "the report.html of 'slalom simulate'";
 
 /// A drive as its page carries it, and what it is called.
@@ -46,7 +49,13 @@ void check_format(const NamedPage& page, const Json& data) {
 }
 
 CarriedDrive read_drive(const NamedPage& page) {
-  CarriedDrive drive{Json::parse(data_text(page), nullptr, false), ""};
+  bool deep = false;
+  const auto shallow = [&deep](int depth, Json::parse_event_t, Json&) {
+    deep = deep || depth > kMostDepth;
+    return depth <= kMostDepth;
+  };
+  CarriedDrive drive{Json::parse(data_text(page), shallow, false), ""};
+  if (deep) throw InvalidValue(page.name, "a drive that is damaged", kExpected);
   check_format(page, drive.data);
   bool driven = false;
   try {

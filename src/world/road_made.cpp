@@ -20,6 +20,8 @@ constexpr double kMostFold = 10;
 /// Parts of a road that are nearer to each other along the line than this many widths are no two
 /// branches.
 constexpr double kOneBranch = 7;
+constexpr double kFarthest = 1e9;   ///< of numbers [m]
+constexpr double kLeastWay = 1e-3;  ///< of chords, what a line makes of way at the least [1]
 
 void check_points(const std::vector<RoadPoint>& points, bool closed, const std::string& where) {
   const std::size_t least = closed ? 3 : 2;
@@ -30,7 +32,10 @@ void check_points(const std::vector<RoadPoint>& points, bool closed, const std::
     const RoadPoint& p = points[i];
     const auto here = fmt::format("{}: point {} of the road", where, i + 1);
     for (const double number : {p.x, p.y, p.right, p.left})
-      if (!std::isfinite(number)) throw InvalidValue(here, "NaN or infinity", "finite numbers");
+      if (!(std::fabs(number) <= kFarthest))
+        throw InvalidValue(
+            here, std::isfinite(number) ? fmt::format("{:.6g} m", number) : "NaN or infinity",
+            fmt::format("finite numbers up to {:g}", kFarthest));
     if (p.right < 0 || p.left < 0 || p.right + p.left == 0)
       throw InvalidValue(
           here, fmt::format("{:.6g} m to the right, {:.6g} m to the left", p.right, p.left),
@@ -148,7 +153,20 @@ void Road::bound() {
 
 /// An edge that is nearer to another part of the line than to its own would lie within the corridor
 /// of that part. Where an inner edge folds in a sharp curve, the corridor is as wide as it may be.
+/// A line that turns about on the spot has no direction there, and no place can be looked up.
 void Road::check_apart(const std::string& where) const {
+  for (const Piece& piece : pieces_) {
+    const Segment& one = segments_[piece.segment];
+    const double dv = one.h / static_cast<double>(one.pieces);
+    double least = (piece.end - piece.begin).norm() / dv;
+    for (const double v : {piece.v, piece.v + dv / 2, piece.v + dv})
+      least = std::min(least, (one.b + (one.c * 2 + one.d * (3 * v)) * v).norm());
+    if (!(least > kLeastWay))
+      throw InvalidValue(where,
+                         fmt::format("a road that turns about on the spot at ({:.6g}, {:.6g})",
+                                     piece.begin.x, piece.begin.y),
+                         "points that lead on");
+  }
   for (const Piece& piece : pieces_) {
     const RoadPlace here = at_inside(piece.s);
     const double most = std::max(here.right, here.left);

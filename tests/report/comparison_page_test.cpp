@@ -80,6 +80,12 @@ TEST(ComparisonPage, RefusesWhatIsNoDriveOfThisFormat) {
             "simulate'");
   EXPECT_EQ(refusal(drive_page(synthetic_scenario(), {})),
             "B/report.html: found a drive in which nothing was driven, expected one that moved");
+  // So deep that what writes it again would run out of stack.
+  const std::string deep(200'000, '['), shut(200'000, ']');
+  for (const char* where : {"\"format\":", "\"message\":"})
+    EXPECT_EQ(refusal(changed(where, where + deep + shut + ",\"more\":")),
+              "B/report.html: found a drive that is damaged, expected the report.html of 'slalom "
+              "simulate'");
   const auto good = page_of(synthetic_scenario(), synthetic_drive());
   EXPECT_EQ(refusal(comparison_page(good, good)),
             "B/report.html: found 2 drives, expected the page of one");

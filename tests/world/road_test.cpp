@@ -203,6 +203,18 @@ TEST(Road, RefusesWhatIsNone) {
             std::string::npos);
 }
 
+TEST(Road, RefusesOneThatTurnsAboutOnTheSpotOrIsBeyondAllMeasure) {
+  EXPECT_NE(refusal({{0, 0, 3, 3}, {6, 0, 3, 3}, {0, 0, 3, 3}}, false).find("turns about"),
+            std::string::npos);
+  EXPECT_NE(refusal({{0, 0, 3, 3}, {6, 0, 3, 3}, {0, 0, 3, 3}, {6, 0, 3, 3}}, true).find("turns"),
+            std::string::npos);
+  for (const double far : {1e300, -1e10})
+    EXPECT_NE(refusal({{0, 0, 2, 2}, {far, 0, 2, 2}}, false).find("up to 1e+09"),
+              std::string::npos);
+  EXPECT_NE(refusal({{0, 0, 2, 2}, {9, 0, 2, 1e200}}, false).find("point 2"), std::string::npos);
+  EXPECT_EQ(refusal({{-9e5, 5.4e6, 2, 2}, {9e5, 5.5e6, 2, 2}}, false), "");
+}
+
 TEST(Road, RefusesOneThatComesWithinItsOwnWidthOfItself) {
   EXPECT_EQ(refusal(hairpin(4), false), "");
   EXPECT_EQ(refusal(hairpin(14.5), false), "");

@@ -42,8 +42,8 @@ struct OnRoad {
 class Road {
  public:
   /// Throws InvalidValue, naming `where`, for fewer than two points (three of a closed road),
-  /// numbers that are not finite, neighbours at one place, widths below 0 or of sum 0, and a road
-  /// that comes within its own width of itself. `lanes` are lines that are drawn.
+  /// numbers beyond 1e9, neighbours at one place, widths below 0 or of sum 0, a line that turns
+  /// about on the spot, and one within its own width of itself. `lanes` are lines that are drawn.
   Road(std::vector<RoadPoint> points, bool closed, std::vector<std::vector<Point>> lanes,
        const std::string& where);
 
