@@ -111,9 +111,6 @@ const Tape& Function::Impl::get(Tapes& tapes, Wanted wanted, const Given& given,
   return tapes.tape[mask];
 }
 
-const Tape& Function::Impl::tape(Wanted wanted) const {
-  return get(plain_, wanted, {}, {});
-}
 const Tape& Function::Impl::tape_behind(Wanted wanted) const {
   find_ahead();
   return get(behind_, wanted, given_, all_results_);
@@ -210,34 +207,32 @@ void Function::evaluate(std::size_t lanes, std::span<const double> x, std::span<
                         std::span<const double> weights, Wanted wanted, std::span<double> values,
                         std::span<double> jacobian, std::span<double> hessian) const {
   if (lanes == 0 || mask_of(wanted) == 0) return;
-  const Tape& tape = impl_->tape(wanted);
-  require(x.size() == variables() * lanes, "variables");
-  require(p.size() == data() * lanes, "data");
+  const Impl& f = *impl_;
+  const Tape& tape = f.tape(wanted);
+  if (!wanted.values) values = {};
+  if (!wanted.jacobian) jacobian = {};
+  if (!wanted.hessian) weights = {}, hessian = {};
+  require(x.size() == f.variables * lanes, "variables");
+  require(p.size() == f.data * lanes, "data");
+  require(!wanted.values || values.size() == f.outputs.size() * lanes, "values");
+  require(!wanted.jacobian || jacobian.size() == f.jacobian.pattern.size() * lanes, "the Jacobian");
+  require(!wanted.hessian || weights.size() == f.outputs.size() * lanes, "weights");
+  require(!wanted.hessian || hessian.size() == f.hessian.pattern.size() * lanes, "the Hessian");
+  const std::array<std::span<const double>, 3> given{x, p, weights};
+  const std::array<std::span<double>, 3> filled{values, jacobian, hessian};
+  thread_local RecentSpaces spaces;
+  TapeSpace& space = spaces.of(impl_, tape, lanes);
+  if (lanes == 1) return space.run(tape, PointRun{given, filled});
   thread_local std::vector<InputRow> inputs;
   thread_local std::vector<double*> results;
-  thread_local RecentSpaces spaces;
   inputs.clear();
   results.clear();
-  for (std::size_t i = 0; i < variables(); ++i) inputs.push_back({x.data() + i * lanes, false});
-  for (std::size_t i = 0; i < data(); ++i) inputs.push_back({p.data() + i * lanes, false});
-  if (wanted.values) {
-    require(values.size() == outputs() * lanes, "values");
-    for (std::size_t i = 0; i < outputs(); ++i) results.push_back(values.data() + i * lanes);
-  }
-  if (wanted.jacobian) {
-    const std::size_t n = impl_->jacobian.pattern.size();
-    require(jacobian.size() == n * lanes, "the Jacobian");
-    for (std::size_t i = 0; i < n; ++i) results.push_back(jacobian.data() + i * lanes);
-  }
-  if (wanted.hessian) {
-    require(weights.size() == outputs() * lanes, "weights");
-    for (std::size_t i = 0; i < outputs(); ++i)
-      inputs.push_back({weights.data() + i * lanes, false});
-    const std::size_t n = impl_->hessian.pattern.size();
-    require(hessian.size() == n * lanes, "the Hessian");
-    for (std::size_t i = 0; i < n; ++i) results.push_back(hessian.data() + i * lanes);
-  }
-  spaces.of(impl_, tape, lanes).run(tape, {lanes, inputs, results});
+  for (const auto& piece : given)
+    for (std::size_t i = 0; i < piece.size(); i += lanes)
+      inputs.push_back({piece.data() + i, false});
+  for (const auto& piece : filled)
+    for (std::size_t i = 0; i < piece.size(); i += lanes) results.push_back(piece.data() + i);
+  space.run(tape, TapeRun{lanes, inputs, results});
 }
 
 void Function::operator()(std::span<const double> x, std::span<const double> p,

@@ -29,7 +29,11 @@ struct Function::Impl {
 
   void differentiate_once() const;
   void differentiate_twice() const;
-  const Tape& tape(Wanted wanted) const;
+  const Tape& tape(Wanted wanted) const {
+    const unsigned mask = mask_of(wanted);
+    return plain_.ready[mask].load(std::memory_order_acquire) ? plain_.tape[mask]
+                                                              : get(plain_, wanted, {}, {});
+  }
 
   /// What depends on data alone, computed ahead: its tape, then tapes that read it.
   const Tape& ahead() const;

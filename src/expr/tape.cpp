@@ -213,6 +213,19 @@ void TapeSpace::run(const Tape& tape, const TapeRun& rows) {
   if (lane < rows.lanes) run_rest(tape, rows, lane, rows.lanes - lane > 4 ? 16 : 4);
 }
 
+void TapeSpace::run(const Tape& tape, const PointRun& point) {
+  constexpr std::size_t kWidth = 4;  // of which the idle lanes compute the same
+  for (const auto& load : tape.inputs) {
+    std::size_t i = load.input, piece = 0;
+    while (i >= point.inputs[piece].size()) i -= point.inputs[piece++].size();
+    std::fill_n(own_[load.row], kWidth, point.inputs[piece][i]);
+  }
+  kernel()(tape, own_.data(), kWidth);
+  std::size_t k = 0;
+  for (const auto& piece : point.outputs)
+    for (double& number : piece) number = *own_[tape.outputs[k++].row];
+}
+
 void TapeSpace::fill_same(const Tape& tape, const TapeRun& rows) {
   for (const auto& load : tape.inputs)
     if (rows.inputs[load.input].same) {

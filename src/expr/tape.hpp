@@ -83,6 +83,12 @@ struct TapeRun {
   std::span<double* const> outputs;
 };
 
+/// The same for one lane, whose inputs and results stand number by number in the pieces of a call.
+struct PointRun {
+  std::span<const std::span<const double>> inputs;
+  std::span<const std::span<double>> outputs;
+};
+
 /// Memory for runs of one tape at one number of lanes: a block's rows, of which inputs and results
 /// are read and written where they stand. Constants are filled in once.
 class TapeSpace {
@@ -90,6 +96,8 @@ class TapeSpace {
   TapeSpace() = default;
   TapeSpace(const Tape& tape, std::size_t lanes);
   void run(const Tape& tape, const TapeRun& rows);
+  /// Of a space made for one lane: the same numbers, with less to do around them.
+  void run(const Tape& tape, const PointRun& point);
 
  private:
   void fill_same(const Tape& tape, const TapeRun& rows);

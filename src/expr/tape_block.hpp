@@ -32,8 +32,6 @@ void run_width(const Tape& tape, double* const* rows) {
   for (const Instruction& step : tape.code) {
     double* to = rows[step.to];
     const double* a = rows[step.a];
-    const double* b = rows[step.b];
-    const double* c = rows[step.c];
     switch (step.code) {
       case code_of(Op::constant):
       case code_of(Op::symbol):
@@ -90,40 +88,41 @@ void run_width(const Tape& tape, double* const* rows) {
         for (std::size_t i = 0; i < Width; ++i) to[i] = tape.steps[step.steps]->at(a[i]);
         break;
       case code_of(Op::add):
-        map2<V, Width>(to, a, b, [](T x, T y) { return x + y; });
+        map2<V, Width>(to, a, rows[step.b], [](T x, T y) { return x + y; });
         break;
       case code_of(Op::sub):
-        map2<V, Width>(to, a, b, [](T x, T y) { return x - y; });
+        map2<V, Width>(to, a, rows[step.b], [](T x, T y) { return x - y; });
         break;
       case code_of(Op::mul):
-        map2<V, Width>(to, a, b, [](T x, T y) { return x * y; });
+        map2<V, Width>(to, a, rows[step.b], [](T x, T y) { return x * y; });
         break;
       case code_of(Op::div):
-        map2<V, Width>(to, a, b, [](T x, T y) { return x / y; });
+        map2<V, Width>(to, a, rows[step.b], [](T x, T y) { return x / y; });
         break;
       case code_of(Op::pow):
-        map2<V, Width>(to, a, b, V::pow);
+        map2<V, Width>(to, a, rows[step.b], V::pow);
         break;
       case code_of(Op::atan2):
-        map2<V, Width>(to, a, b, V::atan2);
+        map2<V, Width>(to, a, rows[step.b], V::atan2);
         break;
       case code_of(Op::min):
-        map2<V, Width>(to, a, b, [](T x, T y) { return V::pick(x < y, x, y); });
+        map2<V, Width>(to, a, rows[step.b], [](T x, T y) { return V::pick(x < y, x, y); });
         break;
       case code_of(Op::max):
-        map2<V, Width>(to, a, b, [](T x, T y) { return V::pick(x > y, x, y); });
+        map2<V, Width>(to, a, rows[step.b], [](T x, T y) { return V::pick(x > y, x, y); });
         break;
       case code_of(Op::select):
-        map3<V, Width>(to, a, b, c, [](T x, T y, T z) { return V::pick(x > T{}, y, z); });
+        map3<V, Width>(to, a, rows[step.b], rows[step.c],
+                       [](T x, T y, T z) { return V::pick(x > T{}, y, z); });
         break;
       case kProductPlus:
-        map3<V, Width>(to, a, b, c, V::product_plus);
+        map3<V, Width>(to, a, rows[step.b], rows[step.c], V::product_plus);
         break;
       case kProductMinus:
-        map3<V, Width>(to, a, b, c, V::product_minus);
+        map3<V, Width>(to, a, rows[step.b], rows[step.c], V::product_minus);
         break;
       case kMinusProduct:
-        map3<V, Width>(to, a, b, c, V::minus_product);
+        map3<V, Width>(to, a, rows[step.b], rows[step.c], V::minus_product);
         break;
     }
   }
