@@ -61,7 +61,7 @@ solver-profile: ## where a solve's time goes, by perf, into docs/measured/solver
 	tools/setup.sh bench
 	python3 benchmarks/profile.py
 
-growth: ## an iteration's time against intervals, obstacles, phases and points, into docs/measured/growth.md (takes minutes)
+growth: ## time against intervals, obstacles, phases, points, controls and states, into docs/measured/growth.md (takes minutes)
 	tools/setup.sh bench
 	python3 benchmarks/growth.py
 

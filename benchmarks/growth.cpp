@@ -1,12 +1,16 @@
 // Time of an iteration against the number of intervals, of phases, and of collocation points in an
-// interval, on a problem that has all a structured solver may stumble over; JSON.
+// interval, on a problem that has all a structured solver may stumble over; and time and memory of
+// whole solves against the numbers of controls and of states; JSON.
 //
 //   bench_growth [--N 10,20,40,80] [--phases 1,2,4,8] [--scheme hermite_simpson] [--points 3,5,10]
 //                [--solves 5] [--iterations 25]
+//   bench_growth --controls 400 | --states 200
 //
 // Each phase is a chain of four oscillators driven by two forces, with a free final time, static
 // parameters that all phases share by links, an integral constraint, and, from the last phase to
 // the first, a periodic link of the states.
+
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -16,8 +20,10 @@
 #include <string>
 #include <vector>
 
+#include "slalom/base/timer.hpp"
 #include "slalom/nlp/solver.hpp"
 #include "slalom/ocp/phases.hpp"
+#include "slalom/ocp/solve.hpp"
 
 namespace {
 
@@ -79,6 +85,65 @@ struct Solves {
   int iterations = 25;  ///< of one at the most
 };
 
+/// A mass pushed one way by half of many forces and the other way by the rest.
+ocp::Problem many_controls(std::size_t count) {
+  ocp::Problem p("controls");
+  const Expr x = p.state("x"), v = p.state("v");
+  Expr force = 0, effort = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Expr u = p.control("u" + std::to_string(i), {0, 1});
+    force = i < count / 2 ? force + u : force - u;
+    effort = effort + square(u);
+  }
+  const double half = static_cast<double>(count) / 2;
+  p.dynamics(x, v);
+  p.dynamics(v, force / half * 20);
+  p.lagrange("effort", effort / half);
+  p.fix(x, 0, 1);
+  p.fix(v, 0, 0);
+  return p;
+}
+
+/// A rod in so many pieces, heated at one end until all of it is warm.
+ocp::Problem many_states(std::size_t count) {
+  ocp::Problem p("states");
+  std::vector<Expr> x;
+  for (std::size_t i = 0; i < count; ++i) x.push_back(p.state("x" + std::to_string(i), {-1, 4}));
+  const Expr u = p.control("u", {0, 3});
+  const double pieces = static_cast<double>(count);
+  Expr cold = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Expr &left = i == 0 ? u : x[i - 1], &right = i + 1 == count ? x[i] : x[i + 1];
+    p.dynamics(x[i], pieces * pieces * (left - 2 * x[i] + right));
+    p.initial_bounds(x[i], Bounds::equal(0));
+    cold = cold + square(x[i] - 1);
+  }
+  p.lagrange("cost", 0.1 * square(u) + cold / pieces);
+  return p;
+}
+
+/// Most memory that this process has had [MiB].
+double peak_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// Thread time of one solve, set-up, solver and check, on 40 intervals, and all memory until then.
+nlohmann::json measure_whole(const char* what, std::size_t size, const ocp::Problem& problem) {
+  const Timer timer;
+  const ocp::Solution solution = ocp::solve(problem);
+  const double whole = timer.cpu();
+  return {{what, size},
+          {"status", nlp::to_string(solution.status)},
+          {"objective", solution.objective},
+          {"iterations", solution.iterations},
+          {"backend", solution.backend},
+          {"iteration_s", whole / std::max(1, solution.iterations)},
+          {"whole_s", whole},
+          {"peak_mib", peak_mib()}};
+}
+
 /// Least thread time of an iteration of these solves.
 nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme, const Solves& solves) {
   ocp::PhasedTranscription transcription(
@@ -118,6 +183,7 @@ nlohmann::json measure(std::size_t phases, int N, const ocp::Scheme& scheme, con
 int main(int argc, char** argv) try {
   std::vector<int> N = {10, 20, 40, 80};
   std::vector<std::size_t> phases = {1, 2, 4, 8};
+  std::size_t controls = 0, states = 0;
   std::vector<int> points = {};
   std::string scheme = "hermite_simpson";
   Solves solves;
@@ -129,8 +195,16 @@ int main(int argc, char** argv) try {
       ->delimiter(',');
   app.add_option("--solves", solves.count, "of each problem");
   app.add_option("--iterations", solves.iterations, "of a solve at the most");
+  app.add_option("--controls", controls, "of a whole solve, and nothing else: its peak of memory");
+  app.add_option("--states", states, "likewise");
   CLI11_PARSE(app, argc, argv);
   nlohmann::json all = nlohmann::json::array();
+  if (controls > 0) all.push_back(measure_whole("controls", controls, many_controls(controls)));
+  if (states > 0) all.push_back(measure_whole("states", states, many_states(states)));
+  if (controls + states > 0) {
+    std::cout << all.dump() << "\n";
+    return 0;
+  }
   for (const int n : N) all.push_back(measure(4, n, ocp::scheme(scheme), solves));
   for (const std::size_t p : phases) all.push_back(measure(p, 20, ocp::scheme(scheme), solves));
   for (const int n : points) all.push_back(measure(1, 4, ocp::lgr(n), solves));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""How the time of an iteration grows with intervals, obstacles, phases and collocation points, into
-docs/measured/growth.md and growth.svg.
+"""How the time of an iteration grows with intervals, obstacles, phases, collocation points, controls and states, and
+time and memory of whole solves with the latter two, into docs/measured/growth.md and growth.svg.
 
     benchmarks/growth.py
 """
@@ -20,15 +20,17 @@ SEED, CYCLES, REPEATS = 1, 60, 3
 SOLVES, ITERATIONS = 5, 25  # of the oscillators, and of one solve at the most
 INTERVALS, OBSTACLES = (15, 30, 60, 120, 240, 480), (38, 100, 200, 400, 1000)
 PHASES, POINTS = (1, 2, 4, 8), (3, 5, 8, 12, 20, 30)
+CONTROLS, STATES = (25, 50, 100, 200, 400), (25, 50, 100, 200)
 
 
 class Curve:
     """Microseconds an iteration by size; `base`: what the sizes count, for the axis and the table; `rows`: of the problem
-    of each size; `without`: a word on each size that has no time."""
+    of each size; `without`: a word on each size that has no time; `whole`: by size, what bench_growth says of a whole
+    solve."""
 
-    def __init__(self, base, note, points, rows=None, without=()):
+    def __init__(self, base, note, points, rows=None, without=(), whole=None):
         self.base, self.note, self.points = base, note, sorted(points.items())
-        self.rows, self.without = rows or {}, without
+        self.rows, self.without, self.whole = rows or {}, without, whole or {}
 
     def exponent(self, first=0):
         """Slope of the logarithms, by least squares, of the points from `first` on."""
@@ -75,6 +77,15 @@ def timed(entries, field):
              if e[field] not in ended])  # fmt: skip
 
 
+def of_whole_solves(option, sizes):
+    """As timed(), with set-up and check in the time, and the entries by size: the fastest of a few processes of one solve
+    each, whose peak of memory is that solve's."""
+    runs = [[json.loads(run_command([program("bench_growth"), f"--{option}", str(size)]))[0] for _ in range(REPEATS)]
+            for size in sizes]  # fmt: skip
+    entries = [min(run, key=lambda entry: entry["whole_s"]) for run in runs]
+    return *timed(entries, option), {entry[option]: entry for entry in entries}
+
+
 def curves(work):
     cycles = work / "E_C.cycles"
     record_cycles("E_C", cycles, CYCLES, 0, SEED)
@@ -86,6 +97,8 @@ def curves(work):
               *timed([e for e in entries if e["scheme"] != "lgr" and e["N"] == 20], "phases")),
         Curve("LGR points", "oscillators, one phase of 4 intervals",
               *timed([e for e in entries if e["scheme"] == "lgr"], "points")),
+        Curve("controls", "a mass pushed by many forces, 40 intervals", *of_whole_solves("controls", CONTROLS)),
+        Curve("states", "a rod of so many pieces, heated at one end, 40 intervals", *of_whole_solves("states", STATES)),
     ]  # fmt: skip
 
 
@@ -125,7 +138,8 @@ def panel(curve, x0, y0):
 
 
 def figure(list_of_curves):
-    width, height = LEFT + 2 * WIDTH + GAP + 16, TOP + 2 * HEIGHT + GAP + 30
+    lines = (len(list_of_curves) + 1) // 2
+    width, height = LEFT + 2 * WIDTH + GAP + 16, TOP + lines * HEIGHT + (lines - 1) * (GAP - 14) + 44
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
              f'height="{height}" font-family="Helvetica, Arial, sans-serif">',
              f'<rect width="{width}" height="{height}" fill="#fff"/>']  # fmt: skip
@@ -137,6 +151,19 @@ def figure(list_of_curves):
 # --- the page -------------------------------------------------------------------------------------
 
 
+def whole_solves(list_of_curves):
+    """A table of solves with all that belongs to them, or nothing."""
+    if not list_of_curves:
+        return ""
+    text = "\nWhole solves by Hermite-Simpson: processor time, and the most memory of a process that does nothing else.\n\n"
+    text += head(["of", "how many", "status", "iterations", "time", "memory"])
+    for curve in list_of_curves:
+        for size, entry in sorted(curve.whole.items()):
+            text += row([curve.base, size, entry["status"], entry["iterations"], f"{entry['whole_s']:.2f} s",
+                         f"{entry['peak_mib']:.0f} MiB"])  # fmt: skip
+    return text
+
+
 def page(list_of_curves, stamped):
     text = "\n".join([
         "# Growth", "", stamped,
@@ -144,7 +171,8 @@ def page(list_of_curves, stamped):
         "from the last one's plan, on other meshes or with further obstacles beside the road; update, shift, solve and",
         f"check of the cycles that were solved, over their iterations, the least of {REPEATS} runs. The oscillators",
         "(`benchmarks/growth.cpp`) have free times, 15 static parameters linked through all phases, an integral",
-        f"constraint and a periodic link; the solver alone, the least of {SOLVES} solves of up to {ITERATIONS} iterations.", "",
+        f"constraint and a periodic link; the solver alone, the least of {SOLVES} solves of up to {ITERATIONS} iterations. By",
+        f"controls and states: whole solves with their set-up and check, over their iterations, the least of {REPEATS}.", "",
         "![Time of an iteration against size, both axes logarithmic; dashed: in proportion](growth.svg)", "", ""])  # fmt: skip
     text += head(["of", "what", "exponent over all", "between the two largest", "sizes: µs an iteration"])
     for curve in list_of_curves:
@@ -153,6 +181,7 @@ def page(list_of_curves, stamped):
     without = [word for curve in list_of_curves for word in curve.without]
     if without:
         text += f"\nWithout a time: {'; '.join(without)}.\n"
+    text += whole_solves([curve for curve in list_of_curves if curve.whole])
     by_base = {curve.base: curve for curve in list_of_curves}
     n, o = dict(by_base["intervals"].points), dict(by_base["obstacles"].points)
     if 15 in n and 240 in n:

@@ -55,10 +55,26 @@ class Growth(unittest.TestCase):
                       growth.page(found, "A stamp.\n"))  # fmt: skip
         self.assertNotIn("Without", growth.page(curves(), "A stamp.\n"))
 
+    def test_whole_solves_have_their_time_and_memory(self):
+        def answer(command, *_):
+            size = int(command[command.index("--controls") + 1])
+            return json.dumps([{"controls": size, "status": "solved", "iterations": 10, "iteration_s": size * 1e-6,
+                                "whole_s": size / 100, "peak_mib": 30 + size}])  # fmt: skip
+
+        with mock.patch.multiple(growth, program=lambda name: name, run_command=answer):
+            found = growth.Curve("controls", "e", *growth.of_whole_solves("controls", (25, 400)))
+        self.assertEqual([(size, round(time)) for size, time in found.points], [(25, 25), (400, 400)])
+        page = growth.page([*curves(), found], "A stamp.\n")
+        self.assertIn("| controls | 25 | solved | 10 | 0.25 s | 55 MiB |\n| controls | 400 | solved | 10 | 4.00 s | 430 MiB |", page)
+        self.assertNotIn("Whole solves by", growth.page(curves(), "A stamp.\n"))
+
     def test_the_figure_has_a_panel_for_each(self):
         drawn = xml.fromstring(growth.figure(curves()))
         lines = [e for e in drawn if e.tag.endswith("polyline") and e.get("stroke") == "#3b7dd8"]
         self.assertEqual([len(e.get("points").split()) for e in lines], [3, 2, 3, 2])
+        taller = xml.fromstring(growth.figure([*curves(), curves()[0]]))
+        lowest = max(float(e.get("y")) + float(e.get("height")) for e in taller if e.tag.endswith("rect") and e.get("x"))
+        self.assertLess(lowest, float(taller.get("height")))
 
 
 if __name__ == "__main__":
