@@ -102,7 +102,8 @@ class Sizes {
 
  private:
   /// The least that moves any state by that state's size over the horizon, at the steepest point of
-  /// the guess for each; 0 for a symbol that moves none.
+  /// the guess for each; 0 for a symbol that moves none. What moves none from where the guess is,
+  /// such as a rate times a state of 0, may do so from a state's size away.
   double by_effect(const Expr& symbol) const {
     std::vector<Expr> rates;
     for (const auto& state : problem_.states()) rates.push_back(state.rate);
@@ -110,11 +111,16 @@ class Sizes {
     for (const auto& each : expr::symbols_of(rates))
       if (!each.same(symbol)) data.push_back(each);
     const expr::Function f({symbol}, data, rates);
+    return first_of({by_effect(f, symbol, data, 0), by_effect(f, symbol, data, 1)});
+  }
+  /// `f`: the rates by the symbol; states and controls moved by `shift` of their sizes.
+  double by_effect(const expr::Function& f, const Expr& symbol, const std::vector<Expr>& data,
+                   double shift) const {
     const double duration = std::max(guess_.tf - guess_.t0, 0.0);
     std::vector<double> slopes(f.jacobian_pattern().size()), steepest(nx_, 0.0), none;
     for (std::size_t point = 0; point < guess_.tau.size(); ++point) {
       SetUpWatch::poll();
-      f.evaluate(1, std::vector{number(symbol, point, 0)}, numbers(data, point), none,
+      f.evaluate(1, std::vector{number(symbol, point, 0)}, numbers(data, point, shift), none,
                  {.values = false, .jacobian = true}, none, slopes, none);
       for (std::size_t e = 0; e < slopes.size(); ++e) {
         double& slope = steepest[f.jacobian_pattern()[e].row];

@@ -152,8 +152,9 @@ TEST(AutomaticScales, OfParametersAndIntegralsComeFromTheGuessToo) {
   EXPECT_EQ(scaled.integrals()[2].unit(), 9);
 }
 
-/// The rates of a reaction fitted to its course, in units in which they are 1e3 and 1e6 times as
-/// large, and without a guess (Bellman, Jacquez, Kalaba & Schwimmer, Math. Biosci. 1, 1967).
+/// The rates of a reaction fitted to its course, in units in which they are as small as 1e-18 and
+/// as large as 1e8, and without a guess, where the rate back moves nothing: 0 times a state of 0
+/// (Bellman, Jacquez, Kalaba & Schwimmer, Math. Biosci. 1, 1967).
 TEST(AutomaticScales, OfParametersWithoutAGuessComeFromWhatTheyMove) {
   const auto fit = [](double unit) {
     Problem p("fit");
@@ -173,12 +174,14 @@ TEST(AutomaticScales, OfParametersWithoutAGuessComeFromWhatTheyMove) {
   const Solution one = fit(1);
   ASSERT_TRUE(one.solved()) << nlp::to_string(one.status);
   EXPECT_NEAR(one.objective, 21.867, 1e-3);
-  for (const double unit : {1e-6, 1e-3}) {
+  for (const double unit : {1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e12}) {
     SCOPED_TRACE(unit);
     const Solution other = fit(unit);
     ASSERT_TRUE(other.solved()) << nlp::to_string(other.status);
     EXPECT_NEAR(other.objective, one.objective, 1e-6);
     EXPECT_NEAR(other.static_parameter("forward") * unit, one.static_parameter("forward"), 1e-10);
+    EXPECT_NEAR(other.static_parameter("back") * unit, one.static_parameter("back"), 1e-8);
+    EXPECT_LE(other.iterations, 2 * one.iterations);
   }
 }
 
