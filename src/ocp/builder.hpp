@@ -90,7 +90,8 @@ void fill_limits(const Problem& problem, Transcribed& transcribed);
 /// The NLP's functions as expressions, each lane of a batch a copy of its function.
 nlp::Formulas formulas(const Transcribed& transcribed);
 
-/// Refills the batches' data from the problem's parameters and members.
-void fill_data(const Problem& problem, Transcribed& transcribed);
+/// Refills the batches' data from the problem's parameters and members. `before`: the problem whose
+/// numbers they are; what it has too is left as it is.
+void fill_data(const Problem& problem, Transcribed& transcribed, const Problem* before = nullptr);
 
 }  // namespace slalom::ocp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace slalom::ocp {
@@ -13,30 +14,38 @@ constexpr double kRounding = 1e-12;
 
 }  // namespace
 
-void relax_constant_rows(
-    const nlp::Structure& shape,
+ConstantRows::ConstantRows(const nlp::Structure& shape)
+    : columns_(shape.jacobian_row.size()), begin_(shape.rows + 1, 0) {
+  for (const auto row : shape.jacobian_row) ++begin_[row + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  auto next = begin_;
+  for (std::size_t e = 0; e < columns_.size(); ++e)
+    columns_[next[shape.jacobian_row[e]]++] = static_cast<std::uint32_t>(shape.jacobian_col[e]);
+}
+
+void ConstantRows::relax(
     const std::function<std::vector<double>(const std::vector<double>& x)>& rows,
-    nlp::Limits& limits) {
-  std::vector<char> constant(shape.rows);
-  std::vector<double> size(shape.rows, 1.0);
-  for (std::size_t r = 0; r < shape.rows; ++r) constant[r] = limits.gl[r] == limits.gu[r];
-  for (std::size_t e = 0; e < shape.jacobian_row.size(); ++e) {
-    const std::size_t row = shape.jacobian_row[e], col = shape.jacobian_col[e];
-    if (limits.xl[col] < limits.xu[col])
-      constant[row] = 0;
-    else
-      size[row] = std::max(size[row], std::fabs(limits.xl[col]));
-  }
-  if (std::none_of(constant.begin(), constant.end(), [](char each) { return each != 0; })) return;
-  std::vector<double> x(shape.variables, 0.0);  // of which those rows see the fixed ones alone
+    nlp::Limits& limits) const {
+  const auto is_free = [&](std::size_t column) { return limits.xl[column] < limits.xu[column]; };
+  std::vector<std::size_t> constant;
+  for (std::size_t r = 0; r + 1 < begin_.size(); ++r)
+    if (limits.gl[r] == limits.gu[r] &&
+        std::none_of(columns_.begin() + static_cast<std::ptrdiff_t>(begin_[r]),
+                     columns_.begin() + static_cast<std::ptrdiff_t>(begin_[r + 1]), is_free))
+      constant.push_back(r);
+  if (constant.empty()) return;
+  std::vector<double> x(limits.xl.size(), 0.0);  // of which those rows see the fixed ones alone
   for (std::size_t i = 0; i < x.size(); ++i)
     if (limits.xl[i] == limits.xu[i]) x[i] = limits.xl[i];
   const std::vector<double> values = rows(x);
-  for (std::size_t r = 0; r < shape.rows; ++r)
-    if (constant[r] && std::fabs(values[r] - limits.gl[r]) <= kRounding * size[r]) {
-      limits.gl[r] = -std::numeric_limits<double>::infinity();
-      limits.gu[r] = std::numeric_limits<double>::infinity();
-    }
+  for (const std::size_t r : constant) {
+    double size = 1;
+    for (std::size_t e = begin_[r]; e < begin_[r + 1]; ++e)
+      size = std::max(size, std::fabs(limits.xl[columns_[e]]));
+    if (!(std::fabs(values[r] - limits.gl[r]) <= kRounding * size)) continue;
+    limits.gl[r] = -std::numeric_limits<double>::infinity();
+    limits.gu[r] = std::numeric_limits<double>::infinity();
+  }
 }
 
 }  // namespace slalom::ocp

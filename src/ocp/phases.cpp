@@ -38,8 +38,8 @@ class PhasedTranscription::Impl {
     join();
     links_.emplace(problem, parts_, offsets_);
     add_links();
-    relax_constant_rows(
-        structure, [this](const std::vector<double>& x) { return link_values(x); }, limits);
+    ConstantRows(structure).relax([this](const std::vector<double>& x) { return link_values(x); },
+                                  limits);
     structure.id = nlp::Structure::next_id();
   }
 

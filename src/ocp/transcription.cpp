@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "between_points.hpp"
@@ -94,6 +95,7 @@ class Transcription::Impl {
     SetUpWatch::ask_now();
     check_rows(problem, data);
     terms.resize(data.terms.size());
+    constant_rows.emplace(data.structure);
   }
 
   void sum_values(std::span<const double> x, nlp::Evaluation& out) {
@@ -153,6 +155,7 @@ class Transcription::Impl {
   Symbols symbols;  ///< of `problem`
   Transcribed data;
   std::vector<double> terms;
+  std::optional<ConstantRows> constant_rows;
   nlp::Limits whole;  ///< before rows were relaxed, which other numbers may not leave constant
 };
 
@@ -170,7 +173,7 @@ void Transcription::relax_constant_rows() {
     (void)evaluate(x, 1, {}, {.values = true}, at);  // others may be undefined there
     return at.rows;
   };
-  ocp::relax_constant_rows(impl_->data.structure, rows, impl_->data.limits);
+  impl_->constant_rows->relax(rows, impl_->data.limits);
 }
 
 void Transcription::update(const ocp::Problem& problem) {
@@ -188,8 +191,8 @@ void Transcription::update(const ocp::Problem& problem) {
                          std::to_string(now.size()) + " members",
                          "as many as were transcribed; another number needs a new transcription");
   }
+  fill_data(problem, impl_->data, &impl_->problem);
   impl_->problem = problem;
-  fill_data(problem, impl_->data);
   impl_->data.limits = impl_->whole;
   fill_limits(problem, impl_->data);
   relax_constant_rows();
@@ -241,6 +244,10 @@ Trajectory Transcription::trajectory(std::span<const double> x) const {
 std::vector<std::pair<std::string, double>> Transcription::cost_terms(std::span<const double> x) {
   nlp::Evaluation at;
   evaluate(x, 1, {}, {.values = true}, at);
+  return last_cost_terms();
+}
+
+std::vector<std::pair<std::string, double>> Transcription::last_cost_terms() const {
   std::vector<std::pair<std::string, double>> result;
   for (std::size_t i = 0; i < impl_->terms.size(); ++i)
     result.emplace_back(impl_->data.terms[i], impl_->terms[i]);

@@ -37,7 +37,7 @@ SolveReport report_of(const nlp::Answer& answer, ocp::Transcription& transcripti
   report.cpu_s = answer.cpu_s;
   report.wall_s = answer.wall_s;
   report.cost = residuals.objective;
-  report.cost_terms = transcription.cost_terms(answer.point.x);
+  report.cost_terms = transcription.last_cost_terms();  // where the check evaluated
   report.phi = residuals.phi;
   report.worst_violation = residuals.violation;
   report.worst_constraint = residuals.worst_constraint;

@@ -76,6 +76,8 @@ class Transcription final : public nlp::Problem {
   Trajectory trajectory(std::span<const double> x) const;
   /// Cost terms by name at x; they sum to the objective.
   std::vector<std::pair<std::string, double>> cost_terms(std::span<const double> x);
+  /// The same at the point whose values were evaluated last.
+  std::vector<std::pair<std::string, double>> last_cost_terms() const;
 
   /// Costates at the mesh nodes, [node][state]: dJ*/dx, user's units. The Lagrangian is f + y' g
   /// with defects x_(k+1) - x_k - ..., so within an interval, minus the defects' y estimates the
