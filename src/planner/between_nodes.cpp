@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace slalom::planner {
 namespace {
@@ -79,15 +80,18 @@ Interval interval(const Plan& plan, std::size_t k, double la) {
 /// Looks for where an interval is deepest within an obstacle's margin.
 class Search {
  public:
+  /// `speed` [m/s]: the obstacle's, if it is constant.
   Search(const Interval& interval, const world::Footprint& footprint,
-         const world::Obstacle& obstacle, double held, double margin, Passage& deepest)
+         const world::Obstacle& obstacle, double speed, double held, double margin,
+         Passage& deepest)
       : interval_(interval),
         footprint_(footprint),
         obstacle_(obstacle),
         held_(held),
         margin_(margin),
         deepest_(deepest) {
-    const double moving = held < 0 ? obstacle.fastest(time(0), time(1)) + obstacle.margin_rate : 0;
+    if (obstacle.trajectory) speed = obstacle.fastest(time(0), time(1));
+    const double moving = held < 0 ? speed + obstacle.margin_rate : 0;
     rate_ = (interval.most_speed + moving) * interval.length;
     if (!footprint.is_point())
       rate_ += interval.fastest_turn() * footprint.reach() * interval.length;
@@ -96,10 +100,10 @@ class Search {
   void run() {
     if (!obstacle_.present(time(0), time(1))) return;
     // Far ones, which are most, are told by the distance between centres.
-    const world::Pose o = obstacle_.pose_at(time(0));
+    const Vector centre{obstacle_.x_at(time(0)), obstacle_.y_at(time(0))};
     const double near = obstacle_.reach() + footprint_.reach() + margin_ +
                         obstacle_.margin(time(0)) - deepest_.depth + rate_;
-    const Vector apart = interval_.p0 - Vector{o.x, o.y};
+    const Vector apart = interval_.p0 - centre;
     if (near < 0 || dot(apart, apart) > near * near) return;
     split(0, depth(0), 1, depth(1));
   }
@@ -193,11 +197,13 @@ class EdgeSearch {
 Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
                         double margin, const world::Footprint& footprint, double la) {
   Passage deepest;
+  std::vector<double> speeds;
+  for (const auto& o : obstacles) speeds.push_back(o.trajectory ? 0 : o.fastest(0, 0));
   for (std::size_t k = 0; k + 1 < plan.t.size(); ++k) {
     if (!(plan.t[k + 1] > plan.t[k])) return deepest;
     const Interval i = interval(plan, k, la);
-    for (const auto& o : obstacles)
-      Search(i, footprint, o, plan.obstacle_time_held, margin, deepest).run();
+    for (std::size_t n = 0; n < obstacles.size(); ++n)
+      Search(i, footprint, obstacles[n], speeds[n], plan.obstacle_time_held, margin, deepest).run();
   }
   return deepest;
 }
