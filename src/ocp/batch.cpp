@@ -26,7 +26,8 @@ void Batch::finish() {
                                  {.values = true, .derivatives = true, .hessian = true}})
     evaluator->prepare({parts.values, parts.derivatives, parts.hessian});
   std::vector<Scatter> copies;
-  copied_.resize(function.variables() * lanes);
+  std::vector<std::size_t> copied;
+  period_ = find_period();
   for (std::size_t i = 0; i < function.variables(); ++i) {
     SetUpWatch::ask_now();
     const std::uint32_t* from = &gather[i * lanes];
@@ -39,17 +40,44 @@ void Batch::finish() {
     const bool in_place = gather_scale[i] == 1 && (run || same);
     sources_.push_back({!in_place ? Kind::copied : same ? Kind::same : Kind::run, from[0]});
     if (in_place) continue;
-    evaluator->set_variable(i, &copied_[i * lanes], false);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      copies.push_back({from[lane], static_cast<std::uint32_t>(i * lanes + lane), gather_scale[i]});
+    for (std::size_t lane = 0; lane < period_; ++lane)
+      copies.push_back({from[lane], static_cast<std::uint32_t>(copied.size() * period_ + lane),
+                        gather_scale[i]});
+    copied.push_back(i);
   }
   copies_ = LaneRuns(copies);
+  gathered_.resize(copied.size() * period_);
+  if (period_ < lanes) copied_.resize(copied.size() * lanes);
+  for (std::size_t k = 0; k < copied.size(); ++k)
+    evaluator->set_variable(copied[k], (period_ < lanes ? copied_ : gathered_).data() + k * lanes,
+                            false);
+}
+
+/// The points of one member, where each member's lanes are at the same.
+std::size_t Batch::find_period() const {
+  const auto next = std::find_if(lane_member.begin(), lane_member.end(),
+                                 [&](auto member) { return member != lane_member.front(); });
+  const auto period = static_cast<std::size_t>(next - lane_member.begin());
+  if (period == 0 || lanes % period != 0) return lanes;
+  for (std::size_t i = 0; i < function.variables(); ++i)
+    if (const auto first = gather.begin() + static_cast<std::ptrdiff_t>(i * lanes);
+        !std::equal(first + static_cast<std::ptrdiff_t>(period),
+                    first + static_cast<std::ptrdiff_t>(lanes), first))
+      return lanes;
+  return period;
 }
 
 void Batch::load(std::span<const double> point) {
   if (copies_.runs() > 0) {
-    std::fill(copied_.begin(), copied_.end(), 0.0);
-    copies_.scatter(point, copied_);
+    std::fill(gathered_.begin(), gathered_.end(), 0.0);
+    copies_.scatter(point, gathered_);
+    if (period_ < lanes) {
+      double* to = copied_.data();
+      for (const double* from = gathered_.data(); to != copied_.data() + copied_.size();
+           from += period_)
+        for (std::size_t lane = 0; lane < lanes; lane += period_)
+          to = std::copy_n(from, period_, to);
+    }
   }
   for (std::size_t i = 0; i < sources_.size(); ++i)
     if (sources_[i].kind != Source::Kind::copied)

@@ -51,9 +51,13 @@ struct Batch {
     enum class Kind { run, same, copied } kind;
     std::uint32_t first;
   };
+  std::size_t find_period() const;
+
   std::vector<Source> sources_;
-  LaneRuns copies_;             ///< into copied_
-  std::vector<double> copied_;  ///< variables that do not stand in a row, or are scaled
+  std::size_t period_ = 0;  ///< after so many lanes all variables stand where they did
+  LaneRuns copies_;         ///< into gathered_
+  /// Variables that do not stand in a row, or are scaled: one period of each; all lanes.
+  std::vector<double> gathered_, copied_;
 };
 
 }  // namespace slalom::ocp
