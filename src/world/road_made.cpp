@@ -79,7 +79,7 @@ void Road::fit() {
   }
   const auto mx = spline_curvatures(h, x), my = spline_curvatures(h, y);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t j = (i + 1) % n;
+    const std::size_t j = i + 1 < n ? i + 1 : 0;
     const Point p{x[i], y[i]}, q{x[j], y[j]}, m{mx[i], my[i]}, k{mx[j], my[j]};
     Segment one;
     one.h = h[i];
