@@ -182,7 +182,9 @@
   function leftOutWords(drive) {
     const { samples, cycles, detailed, nodes } = drive.data.left_out;
     const of = ([kept, all], what) => (kept < all ? `${kept} of ${all} ${what}` : `all ${all} ${what}`);
-    return `${drives.length > 1 ? `${drive.letter}: ` : ''}This drive is too long for a page of all of it: here are ${of(samples, 'samples')}
+    const whose = drives.length > 1 ? `${drive.letter}: ` : '';
+    if (samples[0] === samples[1] && detailed === cycles[1]) return `${whose}Each plan is drawn by up to ${nodes} of its nodes; plans.csv has them all.`;
+    return `${whose}This drive is too long for a page of all of it: here are ${of(samples, 'samples')}
       (among them the dips of wheel load and clearance) and ${of(cycles, 'cycles')} (among them those that failed, changed something or were the worst),
       ${detailed < cycles[0] ? `${detailed} of these with cost terms and candidates` : 'with cost terms and candidates'}${nodes === null ? '' : `, and up to ${nodes} nodes of each plan`}.
       The CSV files beside the page have all samples, cycles and nodes.`;
