@@ -2,9 +2,8 @@
 # setup.sh run|test|bench|wheel|wheel-elsewhere|package|fuzz|format: sees to it that what `make run` and all pages of the
 # program alone, `make test` and `make tidy`, `make bench` and pages with other tools, and the other targets of these names
 # need is there. What is missing is installed by apt, after saying which package and why, and asking whoever sits at the
-# terminal. Nobody is asked where YES=1 or CI is set, and YES=0 says no. Where nobody can be asked, this installs nothing
-# and fails. Where the answer is no or apt cannot do it, this says what to install and goes on: the build then tells
-# whether it was there after all.
+# terminal. Nobody is asked where YES=1 or CI is set, or where there is no terminal; YES=0 says no. Where apt cannot do it,
+# this says what to install and goes on: the build then tells whether it was there after all.
 set -euo pipefail
 trap 'echo "setup: took $SECONDS s"' EXIT
 
@@ -107,17 +106,14 @@ missing_for() {
 }
 
 may_install() {
-  local answer=${YES:-${CI:+yes}}
-  if [ -z "$answer" ]; then
-    if [ ! -t 0 ]; then
-      echo "setup: nothing is installed, for there is no terminal to ask at: YES=1 (or CI=1) lets" \
-        "'apt-get install $(echo $names)' run, YES=0 goes on without." >&2
-      exit 1
-    fi
+  local answer=${YES:-}
+  if [ -z "$answer" ] && [ -z "${CI:-}" ] && [ -t 0 ]; then
     read -r -p "setup: install them with apt? [y/N] " answer || answer=no
+    answer=${answer:-no}
   fi
   case $answer in
-    1 | [yY] | [yY][eE][sS]) return 0 ;;
+    0 | [nN] | [nN][oO]) return 1 ;;
+    '' | 1 | [yY] | [yY][eE][sS]) return 0 ;;
     *) return 1 ;;
   esac
 }
