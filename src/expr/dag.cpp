@@ -5,26 +5,37 @@
 #include <cmath>
 #include <utility>
 
+#include "../base/same_bits.hpp"
+#include "node_order.hpp"
 #include "op.hpp"
 #include "slalom/base/error.hpp"
 
 namespace slalom::expr {
 
-std::size_t Dag::KeyHash::operator()(const Key& key) const {
-  std::uint64_t hash = static_cast<std::uint64_t>(key.op) * 0x9E3779B97F4A7C15ull;
-  for (std::uint64_t part : {std::uint64_t{key.arg[0]}, std::uint64_t{key.arg[1]},
-                             std::uint64_t{key.arg[2]}, key.bits}) {
+namespace {
+
+std::uint64_t hash_of(const Dag::Vertex& v) {
+  std::uint64_t hash = static_cast<std::uint64_t>(v.op) * 0x9E3779B97F4A7C15ull;
+  for (std::uint64_t part : {std::uint64_t{v.arg[0]}, std::uint64_t{v.arg[1]},
+                             std::uint64_t{v.arg[2]}, std::bit_cast<std::uint64_t>(v.value)}) {
     hash ^= part + 0x9E3779B97F4A7C15ull + (hash << 6) + (hash >> 2);
     hash *= 0xFF51AFD7ED558CCDull;
   }
-  return static_cast<std::size_t>(hash ^ (hash >> 32));
+  return hash ^ (hash >> 32);
 }
 
+}  // namespace
+
 Dag::Id Dag::insert(Op op, Id a, Id b, Id c, double value) {
-  const Key key{op, {a, b, c}, std::bit_cast<std::uint64_t>(value)};
-  const auto [it, fresh] = index_.try_emplace(key, static_cast<Id>(vertices_.size()));
-  if (fresh) vertices_.push_back({op, {a, b, c}, value});
-  return it->second;
+  const Vertex wanted{op, {a, b, c}, value};
+  const auto found = index_.find(hash_of(wanted), [&](std::size_t id) {
+    const Vertex& v = vertices_[id];
+    return v.op == op && v.arg == wanted.arg && same_bits(v.value, value);
+  });
+  if (found != OpenIndex::kNone) return static_cast<Id>(found);
+  vertices_.push_back(wanted);
+  index_.add([&](std::size_t id) { return hash_of(vertices_[id]); });
+  return static_cast<Id>(vertices_.size() - 1);
 }
 
 Dag::Id Dag::constant(double value) {
@@ -191,8 +202,10 @@ Dag::Id Dag::integer_power(Id a, int n) {
 
 std::vector<Dag::Id> Dag::import(const std::vector<Expr>& outputs,
                                  const std::unordered_map<const Node*, std::size_t>& input_of) {
-  std::unordered_map<const Node*, Id> image;
-  for (const Node* node : topological_order(outputs)) {
+  const NodeOrder order(outputs);
+  std::vector<Id> image;
+  image.reserve(order.nodes().size());
+  for (const Node* node : order.nodes()) {
     Id id = 0;
     if (node->op() == Op::constant) {
       id = constant(node->value());
@@ -205,15 +218,15 @@ std::vector<Dag::Id> Dag::import(const std::vector<Expr>& outputs,
     } else {
       std::array<Id, 3> arg{};
       for (std::size_t i = 0; i < node->args().size(); ++i)
-        arg[i] = image.at(node->args()[i].node());
+        arg[i] = image[order.place(node->args()[i].node())];
       id =
           node->steps() ? lookup(node->steps(), arg[0]) : apply(node->op(), arg[0], arg[1], arg[2]);
     }
-    image.emplace(node, id);
+    image.push_back(id);
   }
   std::vector<Id> ids;
   ids.reserve(outputs.size());
-  for (const auto& output : outputs) ids.push_back(image.at(output.node()));
+  for (const auto& output : outputs) ids.push_back(image[order.place(output.node())]);
   return ids;
 }
 

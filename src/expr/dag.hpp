@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "../base/open_index.hpp"
 #include "slalom/expr/expr.hpp"
 #include "slalom/expr/function.hpp"
 
@@ -60,18 +61,9 @@ class Dag {
   std::optional<Id> inside_mask(Op op, Id a, Id b);
   Id integer_power(Id a, int n);
 
-  struct Key {
-    Op op;
-    std::array<Id, 3> arg;
-    std::uint64_t bits;
-    friend bool operator==(const Key&, const Key&) = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
-  };
   std::vector<Vertex> vertices_;
   std::vector<std::shared_ptr<const Steps>> steps_;
-  std::unordered_map<Key, Id, KeyHash> index_;
+  OpenIndex index_;  ///< of the vertices
   int mask_depth_ = 0;
 };
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
+#include "node_order.hpp"
 #include "op.hpp"
 #include "slalom/base/error.hpp"
 
@@ -258,79 +259,73 @@ std::size_t arity(Op op) {
   return op == Op::select ? 3 : 2;
 }
 
-std::vector<const Node*> topological_order(const std::vector<Expr>& outputs) {
-  std::vector<const Node*> order;
-  std::unordered_set<const Node*> done;
-  std::vector<std::pair<const Node*, std::size_t>> stack;
-  for (const auto& output : outputs) {
-    stack.emplace_back(output.node(), 0);
-    while (!stack.empty()) {
-      auto& [node, next] = stack.back();
-      if (next == 0 && done.contains(node)) {
-        stack.pop_back();
-      } else if (next < node->args().size()) {
-        const Node* child = node->args()[next++].node();
-        if (!done.contains(child)) stack.emplace_back(child, 0);
-      } else {
-        if (done.insert(node).second) order.push_back(node);
-        stack.pop_back();
-      }
-    }
-  }
-  return order;
+namespace {
+
+/// Of each node of an order, an expression that is it: a part of another, or an output.
+std::vector<const Expr*> handles(const NodeOrder& order, const std::vector<Expr>& outputs) {
+  std::vector<const Expr*> handle(order.nodes().size(), nullptr);
+  for (const auto& output : outputs) handle[order.place(output.node())] = &output;
+  for (const Node* node : order.nodes())
+    for (const auto& arg : node->args()) handle[order.place(arg.node())] = &arg;
+  return handle;
 }
+
+/// The node with other arguments.
+Expr applied(const Node& node, const std::vector<Expr>& args) {
+  switch (args.size()) {
+    case 1:
+      return node.steps() ? Expr::apply(node.steps(), args[0]) : Expr::apply(node.op(), args[0]);
+    case 2:
+      return Expr::apply(node.op(), args[0], args[1]);
+    default:
+      return Expr::apply(node.op(), args[0], args[1], args[2]);
+  }
+}
+
+}  // namespace
 
 std::vector<Expr> substitute(const std::vector<Expr>& outputs, const std::vector<Expr>& symbols,
                              const std::vector<Expr>& replacements) {
   if (symbols.size() != replacements.size())
     throw Error("substitute: as many replacements as symbols are needed");
-  std::unordered_map<const Node*, Expr> image;
+  std::unordered_map<const Node*, const Expr*> replacement;
   for (std::size_t i = 0; i < symbols.size(); ++i) {
     if (!symbols[i].is_symbol()) throw Error("substitute: only a symbol can be replaced");
-    if (!image.emplace(symbols[i].node(), replacements[i]).second)
+    if (!replacement.emplace(symbols[i].node(), &replacements[i]).second)
       throw Error("substitute: '" + symbols[i].name() + "' is listed twice");
   }
-  // Symbols and constants that stay need a handle on their own node: take it from a parent.
-  std::unordered_map<const Node*, Expr> handle;
-  for (const auto& output : outputs) handle.emplace(output.node(), output);
-  const auto order = topological_order(outputs);
-  for (const Node* node : order)
-    for (const auto& arg : node->args()) handle.emplace(arg.node(), arg);
-  for (const Node* node : order) {
-    if (image.contains(node)) continue;
-    const auto& args = node->args();
-    switch (args.size()) {
-      case 1:
-        image.emplace(node, node->steps() ? Expr::apply(node->steps(), image.at(args[0].node()))
-                                          : Expr::apply(node->op(), image.at(args[0].node())));
-        break;
-      case 2:
-        image.emplace(node,
-                      Expr::apply(node->op(), image.at(args[0].node()), image.at(args[1].node())));
-        break;
-      case 3:
-        image.emplace(node, Expr::apply(node->op(), image.at(args[0].node()),
-                                        image.at(args[1].node()), image.at(args[2].node())));
-        break;
-      default:
-        image.emplace(node, handle.at(node));
+  const NodeOrder order(outputs);
+  // Of nodes above a symbol that is replaced; the others stay.
+  std::vector<std::optional<Expr>> changed(order.nodes().size());
+  std::vector<Expr> args;
+  for (std::size_t k = 0; k < changed.size(); ++k) {
+    const Node* node = order.nodes()[k];
+    if (node->op() == Op::symbol) {
+      if (const auto found = replacement.find(node); found != replacement.end())
+        changed[k] = *found->second;
+      continue;
     }
+    bool any = false;
+    for (const auto& arg : node->args()) any = any || changed[order.place(arg.node())];
+    if (!any) continue;
+    args.clear();
+    for (const auto& arg : node->args())
+      args.push_back(changed[order.place(arg.node())].value_or(arg));
+    changed[k] = applied(*node, args);
   }
   std::vector<Expr> result;
   result.reserve(outputs.size());
-  for (const auto& output : outputs) result.push_back(image.at(output.node()));
+  for (const auto& output : outputs)
+    result.push_back(changed[order.place(output.node())].value_or(output));
   return result;
 }
 
 std::vector<Expr> symbols_of(const std::vector<Expr>& outputs) {
-  std::unordered_map<const Node*, Expr> handle;
-  for (const auto& output : outputs) handle.emplace(output.node(), output);
+  const NodeOrder order(outputs);
+  const auto handle = handles(order, outputs);
   std::vector<Expr> symbols;
-  const auto order = topological_order(outputs);
-  for (const Node* node : order)
-    for (const auto& arg : node->args()) handle.emplace(arg.node(), arg);
-  for (const Node* node : order)
-    if (node->op() == Op::symbol) symbols.push_back(handle.at(node));
+  for (std::size_t k = 0; k < handle.size(); ++k)
+    if (order.nodes()[k]->op() == Op::symbol) symbols.push_back(*handle[k]);
   return symbols;
 }
 

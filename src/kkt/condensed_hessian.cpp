@@ -1,8 +1,8 @@
 #include "slalom/kkt/condensed_hessian.hpp"
 
 #include <algorithm>
-#include <unordered_map>
 
+#include "../base/open_index.hpp"
 #include "row_kernels.hpp"
 
 namespace slalom::kkt {
@@ -12,22 +12,29 @@ namespace {
 class PlaceIndex {
  public:
   explicit PlaceIndex(std::vector<Pattern::Place>& places) : places_(places) {
-    for (std::size_t t = 0; t < places.size(); ++t)
-      index_.emplace(key(places[t].row, places[t].col), static_cast<std::uint32_t>(t));
+    for (std::size_t t = 0; t < places.size(); ++t) add();
   }
   std::uint32_t of(std::uint32_t a, std::uint32_t b) {
-    const auto [it, fresh] =
-        index_.try_emplace(key(a, b), static_cast<std::uint32_t>(places_.size()));
-    if (fresh) places_.push_back({std::max(a, b), std::min(a, b)});
-    return it->second;
+    const std::uint64_t wanted = key(a, b);
+    const std::size_t found =
+        index_.find(wanted, [&](std::size_t t) { return key_of(t) == wanted; });
+    if (found != OpenIndex::kNone) return static_cast<std::uint32_t>(found);
+    places_.push_back({std::max(a, b), std::min(a, b)});
+    add();
+    return static_cast<std::uint32_t>(places_.size() - 1);
   }
 
  private:
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return (std::uint64_t{std::max(a, b)} << 32) | std::min(a, b);
   }
+  std::uint64_t key_of(std::size_t t) const { return key(places_[t].row, places_[t].col); }
+  void add() {
+    index_.add([&](std::size_t t) { return key_of(t); });
+  }
+
   std::vector<Pattern::Place>& places_;
-  std::unordered_map<std::uint64_t, std::uint32_t> index_;
+  OpenIndex index_;
 };
 
 std::uint32_t column(const RowBlocks::Entry& entry, std::uint32_t i) {

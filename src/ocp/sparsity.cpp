@@ -1,9 +1,9 @@
 #include "sparsity.hpp"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 
+#include "../base/open_index.hpp"
 #include "set_up_watch.hpp"
 
 namespace slalom::ocp {
@@ -21,18 +21,23 @@ class Places {
 
   std::uint32_t number(std::size_t row, std::size_t col) {
     SetUpWatch::poll();
-    const auto [it, fresh] =
-        index_.try_emplace((std::uint64_t{row} << 32) | col, narrow(rows_.size()));
-    if (fresh) {
-      rows_.push_back(narrow(row));
-      cols_.push_back(narrow(col));
-    }
-    return it->second;
+    const std::uint64_t wanted = (std::uint64_t{row} << 32) | col;
+    const std::size_t found =
+        index_.find(wanted, [&](std::size_t number) { return key(number) == wanted; });
+    if (found != OpenIndex::kNone) return narrow(found);
+    rows_.push_back(narrow(row));
+    cols_.push_back(narrow(col));
+    index_.add([&](std::size_t number) { return key(number); });
+    return narrow(rows_.size() - 1);
   }
 
  private:
+  std::uint64_t key(std::size_t number) const {
+    return (std::uint64_t{rows_[number]} << 32) | cols_[number];
+  }
+
   std::vector<std::uint32_t>&rows_, &cols_;
-  std::unordered_map<std::uint64_t, std::uint32_t> index_;
+  OpenIndex index_;
 };
 
 /// Calls f(uses of one output on consecutive lanes): first and last of each such stretch.
