@@ -148,13 +148,12 @@ bool Residuals::solved(const Options& options) const {
 namespace {
 
 /// The residuals in the NLP's own units, whose scales are the user's idea of what is large; those
-/// of duals relative to what adds up in them, and to the objective.
+/// of duals relative to what adds up in them, of which `most` is the largest slope, and to the
+/// objective.
 void judge_scaled(const Structure& shape, const Limits& limits, const Start& point,
-                  const Evaluation& at, const std::vector<double>& lagrangian, Residuals& result) {
-  Worst most{1}, violated, stationarity, complementarity;
-  for (const double slope : at.gradient) most.keep(std::fabs(slope), 0);
-  for (std::size_t e = 0; e < at.jacobian.size(); ++e)
-    most.keep(std::fabs(point.y[shape.jacobian_row[e]] * at.jacobian[e]), 0);
+                  const Evaluation& at, const std::vector<double>& lagrangian, Worst most,
+                  Residuals& result) {
+  Worst violated, stationarity, complementarity;
   const auto add = [&](const Item& item) {
     violated.keep(violation(item), 0);
     if (item.lower == item.upper) return;
@@ -196,8 +195,13 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
   result.objective = at.objective;
   Judge judge(options);
   std::vector<double> lagrangian = at.gradient;
-  for (std::size_t e = 0; e < at.jacobian.size(); ++e)
-    lagrangian[shape.jacobian_col[e]] += point.y[shape.jacobian_row[e]] * at.jacobian[e];
+  Worst most{1};
+  for (const double slope : at.gradient) most.keep(std::fabs(slope), 0);
+  for (std::size_t e = 0; e < at.jacobian.size(); ++e) {
+    const double term = point.y[shape.jacobian_row[e]] * at.jacobian[e];
+    lagrangian[shape.jacobian_col[e]] += term;
+    most.keep(std::fabs(term), 0);
+  }
   std::vector<double> terms(shape.rows);
   sum_terms(shape, at.jacobian, point.x, terms);
   for (std::size_t r = 0; r < shape.rows; ++r) {
@@ -221,7 +225,7 @@ Residuals check(Problem& problem, const Start& point, const Options& options) {
     name = worst.which < shape.rows ? problem.row_name(worst.which)
                                     : problem.variable_name(worst.which - shape.rows);
   };
-  judge_scaled(shape, limits, point, at, lagrangian, result);
+  judge_scaled(shape, limits, point, at, lagrangian, most, result);
   result.violation_beyond_rounding = judge.beyond_rounding.value;
   tell(judge.violation, result.violation, result.worst_constraint);
   tell(judge.stationarity, result.stationarity, result.worst_variable);
