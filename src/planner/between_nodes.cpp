@@ -77,34 +77,41 @@ Interval interval(const Plan& plan, std::size_t k, double la) {
   return i;
 }
 
+/// An obstacle, with what is the same for all intervals.
+struct Body {
+  const world::Obstacle& obstacle;
+  double reach;   ///< sum of its own, the footprint's and the margin [m]
+  double moving;  ///< what its margin is gone into by while it comes closer, if constant [m/s]
+};
+
 /// Looks for where an interval is deepest within an obstacle's margin.
 class Search {
  public:
-  /// `speed` [m/s]: the obstacle's, if it is constant.
-  Search(const Interval& interval, const world::Footprint& footprint,
-         const world::Obstacle& obstacle, double speed, double held, double margin,
+  Search(const Interval& interval, const world::Footprint& footprint, double held, double margin,
          Passage& deepest)
       : interval_(interval),
         footprint_(footprint),
-        obstacle_(obstacle),
         held_(held),
         margin_(margin),
-        deepest_(deepest) {
-    if (obstacle.trajectory) speed = obstacle.fastest(time(0), time(1));
-    const double moving = held < 0 ? speed + obstacle.margin_rate : 0;
-    rate_ = (interval.most_speed + moving) * interval.length;
-    if (!footprint.is_point())
-      rate_ += interval.fastest_turn() * footprint.reach() * interval.length;
-  }
+        begin_(time(0)),
+        end_(time(1)),
+        turning_(footprint.is_point()
+                     ? 0
+                     : interval.fastest_turn() * footprint.reach() * interval.length),
+        deepest_(deepest) {}
 
-  void run() {
-    if (!obstacle_.present(time(0), time(1))) return;
+  void run(const Body& body) {
+    const world::Obstacle& o = body.obstacle;
+    if (!o.present(begin_, end_)) return;
+    const double moving =
+        o.trajectory && held_ < 0 ? o.fastest(begin_, end_) + o.margin_rate : body.moving;
+    const double rate = (interval_.most_speed + moving) * interval_.length + turning_;
     // Far ones, which are most, are told by the distance between centres.
-    const Vector centre{obstacle_.x_at(time(0)), obstacle_.y_at(time(0))};
-    const double near = obstacle_.reach() + footprint_.reach() + margin_ +
-                        obstacle_.margin(time(0)) - deepest_.depth + rate_;
-    const Vector apart = interval_.p0 - centre;
+    const double near = body.reach + o.margin(begin_) - deepest_.depth + rate;
+    const Vector apart = interval_.p0 - Vector{o.x_at(begin_), o.y_at(begin_)};
     if (near < 0 || dot(apart, apart) > near * near) return;
+    obstacle_ = &o;
+    rate_ = rate;
     split(0, depth(0), 1, depth(1));
   }
 
@@ -113,10 +120,10 @@ class Search {
     return held_ >= 0 ? held_ : interval_.t0 + share * interval_.length;
   }
   double depth(double share) {
-    const double d = margin_ + obstacle_.margin(time(share)) -
-                     footprint_.distance(obstacle_, interval_.at(share), time(share));
+    const double d = margin_ + obstacle_->margin(time(share)) -
+                     footprint_.distance(*obstacle_, interval_.at(share), time(share));
     if (d > deepest_.depth + kPassageResolution / 2)
-      deepest_ = {d, obstacle_.name, interval_.t0 + share * interval_.length};
+      deepest_ = {d, obstacle_->name, interval_.t0 + share * interval_.length};
     return d;
   }
   /// Between two moments depth rises above the mean of theirs by half of what it can change by.
@@ -131,9 +138,11 @@ class Search {
 
   const Interval& interval_;
   const world::Footprint& footprint_;
-  const world::Obstacle& obstacle_;
   const double held_, margin_;
+  const double begin_, end_;  ///< [s]
+  const double turning_;      ///< what a body's turn adds to the rate [m]
   Passage& deepest_;
+  const world::Obstacle* obstacle_ = nullptr;
   double rate_ = 0;  ///< the most that depth changes by along the interval [m]
 };
 
@@ -197,13 +206,16 @@ class EdgeSearch {
 Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
                         double margin, const world::Footprint& footprint, double la) {
   Passage deepest;
-  std::vector<double> speeds;
-  for (const auto& o : obstacles) speeds.push_back(o.trajectory ? 0 : o.fastest(0, 0));
+  const bool held = plan.obstacle_time_held >= 0;
+  std::vector<Body> bodies;
+  for (const auto& o : obstacles)
+    bodies.push_back({o, o.reach() + footprint.reach() + margin,
+                      held || o.trajectory ? 0 : o.fastest(0, 0) + o.margin_rate});
   for (std::size_t k = 0; k + 1 < plan.t.size(); ++k) {
     if (!(plan.t[k + 1] > plan.t[k])) return deepest;
     const Interval i = interval(plan, k, la);
-    for (std::size_t n = 0; n < obstacles.size(); ++n)
-      Search(i, footprint, obstacles[n], speeds[n], plan.obstacle_time_held, margin, deepest).run();
+    Search search(i, footprint, plan.obstacle_time_held, margin, deepest);
+    for (const Body& body : bodies) search.run(body);
   }
   return deepest;
 }
