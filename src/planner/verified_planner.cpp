@@ -88,8 +88,7 @@ Plan VerifiedPlanner::plan(const Request& as_told) {
   if (task_.planner.fallback) {
     continue_last(cycle);
     follow_course(cycle);
-    if (cycle.good.empty() && !(cycle.rest && cycle.trusts(*cycle.rest)) && !stop(cycle) &&
-        task_.road) {
+    if (cycle.good.empty() && !(cycle.rest && cycle.trusts(*cycle.rest)) && !stop(cycle)) {
       look_further(cycle, kBeforeMoreStops);
       if (cycle.good.empty()) stop_elsewhere(cycle);
     }

@@ -128,6 +128,9 @@ class VerifiedPlanner final : public PlanningMethod {
   void adopt(Cycle& cycle, const Proposal& proposal);
   bool stop(Cycle& cycle);
   void stop_elsewhere(Cycle& cycle);
+  void stop_found(Cycle& cycle);
+  struct StandKept;
+  bool stop_found_by(Cycle& cycle, const StandKept& kept);
   bool stop_aside(Cycle& cycle);
   bool stop_in_time(Cycle& cycle);
   bool stop_on(Cycle& cycle, const world::RoadWay& found);
@@ -158,7 +161,8 @@ class VerifiedPlanner final : public PlanningMethod {
   Tracker tracker_;
   Verifier verifier_;
   Proposals proposals_;
-  std::optional<world::RoadWays> road_ways_;  ///< for stops
+  std::optional<world::RoadWays> road_ways_;      ///< for stops
+  std::optional<world::WayFinder> stand_finder_;  ///< for stops without a road, once one was needed
   std::optional<Recorder> recorder_;
   /// A plan and what belongs to it.
   struct Last {

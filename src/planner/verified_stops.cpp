@@ -34,8 +34,20 @@ struct StopKept {
 constexpr std::array kStopKept = {StopKept{0.05, 0.75}, StopKept{0.05, 0.95}};
 constexpr double kKeptSpare = 0.02;
 constexpr int kStopPlaces = 4000, kStopWays = 4;
+/// The speed at which a search for a place to stand ends [m/s], how long a way to there may take
+/// [s], how often it is looked for anew, and what an obstacle grows by beside what it lacks [m].
+constexpr double kStandSpeed = 1.5, kLongestToStand = 20;
+constexpr int kStandTries = 4;
+constexpr double kStandSpare = 0.05;
 
 }  // namespace
+
+/// How a way to a place to stand is driven: what it keeps off obstacles beyond what is needed and
+/// off the region's sides [m], its lateral acceleration as a multiple of what other ways use, its
+/// share of the vehicle's braking, and how far the place leads on (world::Standstill).
+struct VerifiedPlanner::StandKept {
+  double clearance, inset, lateral, braking, onwards;
+};
 
 /// Comes to a creep at no acceleration and no steering rate, and creeps on until then at the least.
 Motion VerifiedPlanner::settled(Motion motion, double until) const {
@@ -142,9 +154,67 @@ bool VerifiedPlanner::stop(Cycle& cycle) {
   return false;
 }
 
-/// Stops beside the way or later, where there is a road.
+/// Stops beside the way or later.
 void VerifiedPlanner::stop_elsewhere(Cycle& cycle) {
+  if (!task_.road) return stop_found(cycle);
   if (!stop_aside(cycle) && !stop_in_time(cycle)) escape(cycle);
+}
+
+/// Stops that a search finds where there is no road: with more room and more gently first, and at
+/// places from which the way goes on, for the vehicle cannot turn where it stands.
+void VerifiedPlanner::stop_found(Cycle& cycle) {
+  if (!stand_finder_) stand_finder_.emplace(task_, task_.vehicle, task_.planner.cover_excess);
+  constexpr double onwards = 0.85, anywhere = world::Standstill{}.onwards;
+  constexpr std::array kStandKept = {
+      StandKept{0.4, 0.5, 0.9, 0.9, onwards}, StandKept{0.15, 0.3, 1, 0.95, onwards},
+      StandKept{0.05, 0.1, 1.25, 0.97, onwards}, StandKept{0.15, 0.3, 1, 0.95, anywhere},
+      StandKept{0.05, 0.1, 1.25, 0.97, anywhere}};
+  for (const StandKept& kept : kStandKept)
+    if (cycle.over() || stop_found_by(cycle, kept)) return;
+}
+
+/// Searches for a place to stand and drives there. An obstacle to which that is too near grows by
+/// what it lacks, and the search goes again. Whether one is good.
+bool VerifiedPlanner::stop_found_by(Cycle& cycle, const StandKept& kept) {
+  const auto [creep, spare, settling] = standing_of(task_.vehicle, false);
+  const world::Standstill standstill{kStandSpeed / settling, creep, task_.planner.standing_horizon,
+                                     kept.onwards};
+  world::WaySearch search = world::way_search(task_.vehicle);
+  search.v_min = kStandSpeed;
+  search.clearance = kept.clearance;
+  search.inset = kept.inset;
+  search.lateral_acceleration *= kept.lateral;
+  search.braking_share = kept.braking;
+  search.t_max = kLongestToStand + standstill.horizon;
+  // It may wait, and a move in which it brakes ends in another cell than one in which it does not.
+  search.cell_time = search.dt;
+  search.cell_speed = 0.9 * search.braking * search.dt;
+  search.max_places = task_.planner.search_places;
+  const double need = this->need(cycle).clearance;
+  auto obstacles = cycle.obstacles;
+  for (auto& o : obstacles) o = o.grown(need);
+  for (int tries = 0; tries < kStandTries; ++tries) {
+    const auto way = stand_finder_->to_stand(cycle.request.X0p, cycle.t_start(), obstacles, search,
+                                             standstill, [&] { return cycle.over(); });
+    if (!way) return false;
+    Motion lead = reference_of(*way, task_.vehicle);
+    Motion path = straight_reference(lead.states.back(), lead.end(), 1);
+    const std::size_t refused = cycle.refused.size();
+    if (stop_along(cycle, {"stop in time", std::move(lead), std::move(path)},
+                   kStops[0] * agility(task_.vehicle).braking, {}))
+      return true;
+    if (cycle.refused.size() == refused) return false;  // it cannot be driven
+    const std::vector<double>& nearest = cycle.refused.back().proposal.verdict.nearest;
+    bool grown = false;
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+      const double lacks = need - nearest[k];
+      if (!(lacks > 0)) continue;
+      obstacles[k] = obstacles[k].grown(lacks + kStandSpare);
+      grown = true;
+    }
+    if (!grown) return false;
+  }
+  return false;
 }
 
 /// Moves over on the road and brakes hard: where something cuts in, there may be room beside it and

@@ -14,6 +14,10 @@ constexpr double kRounding = 1e-4;  ///< of curvatures, relative
 constexpr double kWayStep = 0.05;   ///< between a way's points [s]
 /// A start nearer to the road's edge than ways are to be may come nearer by this [m].
 constexpr double kNearerStart = 0.05;
+/// A cell of curvatures is so many times what a move changes at the most: the first step to a side
+/// is in another one.
+constexpr double kStepsPerCell = 1.9;
+constexpr int kDrivesOff = 25;  ///< moves in which what goes slowly has finer cells
 /// Within this share of a goal's ranges a place meets them, and this far beyond a line across the
 /// road it is there [m].
 constexpr double kWithin = 0.7, kBeyondLine = 0.5;
@@ -57,8 +61,10 @@ std::size_t PlaceSearch::moments(const WaySearch& search) {
 
 bool PlaceSearch::run(const Place& start, double t_start, const Region& region,
                       const std::vector<Ellipse>& obstacles, const std::vector<Moment>& moments,
-                      const WaySearch& search, const std::function<bool()>& out_of_budget) {
+                      const WaySearch& search, const std::optional<Standstill>& standing,
+                      const std::function<bool()>& out_of_budget) {
   p_ = search;
+  standing_ = standing;
   region_ = region;
   obstacles_.assign(obstacles.begin(), obstacles.end());
   moments_.assign(moments.begin(), moments.end());
@@ -77,7 +83,7 @@ bool PlaceSearch::run(const Place& start, double t_start, const Region& region,
     const auto at = open_.back().place;
     open_.pop_back();
     const auto& place = places_[static_cast<std::size_t>(at)];
-    if (arrived(place)) {
+    if (is_end(place)) {
       found_ = at;
       return true;
     }
@@ -88,6 +94,10 @@ bool PlaceSearch::run(const Place& start, double t_start, const Region& region,
 
 double PlaceSearch::most_curvature(double v) const {
   return std::min(p_.curvature, p_.lateral_acceleration / (v * v));
+}
+
+double PlaceSearch::braking_at(double v) const {
+  return std::max(p_.braking, -p_.braking_share * vehicle_.ax_min_at(v));
 }
 
 bool PlaceSearch::meets_conditions(const Place& place) const {
@@ -111,6 +121,10 @@ bool PlaceSearch::in_time(double t) const {
   return t >= goal_.t_min + by && t <= goal_.t_max - by;
 }
 
+bool PlaceSearch::is_end(const Place& place) const {
+  return standing_ ? stands(place) : arrived(place);
+}
+
 bool PlaceSearch::arrived(const Place& place) const {
   if (!meets_conditions(place)) return false;
   const auto x = static_cast<double>(place.x), y = static_cast<double>(place.y);
@@ -131,6 +145,14 @@ bool PlaceSearch::arrived(const Place& place) const {
       break;
   }
   return false;
+}
+
+/// The time at which a way by this place would end, at best; what lies ahead counts more.
+double PlaceSearch::rank(const Place& place) const {
+  const auto v = static_cast<double>(place.v);
+  const double ahead =
+      standing_ ? std::max(0., v - p_.v_min) / p_.braking : way_left(place) / p_.v_max;
+  return place.moves * p_.dt + p_.greed * ahead;
 }
 
 /// What the way ahead is ranked by, and how near to the road's edges a start may be.
@@ -182,8 +204,9 @@ void PlaceSearch::add(Place place) {
   const auto v = static_cast<double>(place.v);
   const double u = frame_.u(x, y), w = frame_.w(x, y), t = place.moves * p_.dt;
   const double least = (std::sqrt(u * u + w * w) - goal_.sigma) / std::max(v, p_.v_max);
-  if (road_ == nullptr && t + least > p_.t_max) return;  // straight on it is too late already
-  std::uint64_t key = 1;                                 // no key is zero
+  if (road_ == nullptr && !standing_ && t + least > p_.t_max)
+    return;               // straight on it is too late already
+  std::uint64_t key = 1;  // no key is zero
   const auto mix = [&key](double value, double size, int bits) {
     key = key << bits | cell(value, size, bits);
   };
@@ -191,13 +214,16 @@ void PlaceSearch::add(Place place) {
   mix(w, p_.cell_across, 14);
   mix(static_cast<double>(place.heading) - goal_.psi, p_.cell_heading, 10);
   mix(v, p_.cell_speed, 6);
-  mix(static_cast<double>(place.kappa) / most_curvature(v), p_.cell_curvature, 6);
-  mix(t, p_.cell_time, 10);
+  // What goes slowly and hardly moves would be in the cell of the place before it, and never begin
+  // to turn.
+  const bool slow = place.moves <= kDrivesOff && v * p_.cell_time < p_.cell_along;
+  const double step = p_.curvature_rate * p_.dt * (slow ? 1 : kStepsPerCell);
+  mix(static_cast<double>(place.kappa), std::min(p_.cell_curvature * most_curvature(v), step), 6);
+  mix(t, slow ? std::min(p_.dt, p_.cell_time) : p_.cell_time, 10);
   if (!cells_.insert(key)) return;
   if (road_ != nullptr) place.s = static_cast<float>(along(place));
   places_.push_back(place);
-  open_.push_back(
-      {t + p_.greed * way_left(place) / p_.v_max, static_cast<std::int32_t>(places_.size() - 1)});
+  open_.push_back({rank(place), static_cast<std::int32_t>(places_.size() - 1)});
   std::push_heap(open_.begin(), open_.end());
 }
 
@@ -209,9 +235,10 @@ void PlaceSearch::find_near(const Place& from) {
   const double t = from.moves * p_.dt, c = std::cos(heading), s = std::sin(heading);
   const double push = p_.acceleration_share * vehicle_.ax_max_at(v);
   const double fast = v + std::max(push, 0.0) * p_.dt;
-  const double slow = std::max(v - p_.braking * p_.dt, std::min(p_.v_min, v));
+  const double brake = braking_at(v);
+  const double slow = std::max(v - brake * p_.dt, std::min(p_.v_min, v));
   const double kappa = std::max(std::fabs(static_cast<double>(from.kappa)), most_curvature(slow));
-  const double a = std::max(std::fabs(push), p_.braking);
+  const double a = std::max(std::fabs(push), brake);
   const double aside = 0.5 * p_.dt * p_.dt * std::hypot(a, fast * fast * kappa);
   near_.clear();
   for (const auto& obstacle : obstacles_) {
@@ -292,7 +319,7 @@ void PlaceSearch::go_on(std::int32_t index) {
   const Motion here = {x, y, std::cos(heading), std::sin(heading), heading, v, kappa};
   const double v_least = std::min(p_.v_min, v), v_most = std::max(p_.v_max, v);
   const std::array<double, 3> pushes = {p_.acceleration_share * vehicle_.ax_max_at(v), 0,
-                                        -p_.braking};
+                                        -braking_at(v)};
   const bool too_sharp = std::fabs(kappa) > (1 + 2 * kRounding) * most_curvature(v);
   for (const double share : {0.0, -1.0, 1.0, -0.4, 0.4})
     for (const double a : pushes) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "cell_set.hpp"
@@ -31,11 +32,13 @@ class PlaceSearch {
 
   /// How many moments an obstacle has that moves by a trajectory: one for each move, and the end.
   static std::size_t moments(const WaySearch& search);
-  /// Whether a way was found; region and obstacles as the search is to keep out of them. Between
-  /// the moments of an obstacle it goes straight.
+  /// Whether a way was found to the goal, or where `standing` is given to where the vehicle stands
+  /// for good; region and obstacles as the search is to keep out of them. Between the moments of an
+  /// obstacle it goes straight.
   bool run(const Place& start, double t_start, const Region& region,
            const std::vector<Ellipse>& obstacles, const std::vector<Moment>& moments,
-           const WaySearch& search, const std::function<bool()>& out_of_budget);
+           const WaySearch& search, const std::optional<Standstill>& standing,
+           const std::function<bool()>& out_of_budget);
 
   int looked_at() const { return looked_at_; }
   /// Of the last search: the way found, its times and places absolute.
@@ -63,6 +66,7 @@ class PlaceSearch {
   };
 
   double most_curvature(double v) const;
+  double braking_at(double v) const;
   void add(Place place);
   void go_on(std::int32_t from);
   void find_near(const Place& from);
@@ -71,7 +75,11 @@ class PlaceSearch {
                double v_most) const;
   bool is_free(const Motion& at, double after) const;
   bool is_clear(double x, double y, double after) const;
+  bool is_end(const Place& place) const;
   bool arrived(const Place& place) const;
+  bool stands(const Place& place) const;
+  bool stands_clear(const Place& place, const Motion& at, const Ellipse& obstacle) const;
+  double rank(const Place& place) const;
   bool meets_conditions(const Place& place) const;
   bool in_time(double t) const;
   bool on_road(double x, double y) const;
@@ -91,6 +99,7 @@ class PlaceSearch {
   double edge_ = 0;         ///< kept by the discs' centres from the road's edges [m]
   double t_start_ = 0;      ///< [s]
   WaySearch p_;
+  std::optional<Standstill> standing_;  ///< looked for, not the goal
   Region region_;
   std::vector<Ellipse> obstacles_;
   std::vector<Moment> moments_;

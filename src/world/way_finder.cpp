@@ -25,17 +25,23 @@ double side_for(double side, double start, double inset, double inwards) {
   return inwards * (start - side) >= 0 ? side : start - inwards * 0.5;
 }
 
+/// Below this speed the front wheels roll where they point, whatever little the state says of their
+/// motion [m/s].
+constexpr double kSlow = 1;
+
 PlaceSearch::Place first_place(const State& start, const Goal& goal,
                                const vehicle::Parameters& vehicle) {
   const double v = std::max(start[vehicle::UX], 0.0);
-  const double slip =
-      std::atan2(start[vehicle::V] + vehicle.la * start[vehicle::R], std::max(v, 0.3));
+  const bool slow = v < kSlow;
+  const double sa = start[vehicle::SA];
+  const double slip = slow ? sa : std::atan2(start[vehicle::V] + vehicle.la * start[vehicle::R], v);
   PlaceSearch::Place place;
   place.x = static_cast<float>(start[vehicle::X] - goal.x);
   place.y = static_cast<float>(start[vehicle::Y] - goal.y);
   place.heading = static_cast<float>(start[vehicle::PSI] + slip);
   place.v = static_cast<float>(v);
-  place.kappa = static_cast<float>(v > 1 ? start[vehicle::R] / v : 0);
+  place.kappa =
+      static_cast<float>(slow ? std::sin(sa) / (vehicle.la + vehicle.lb) : start[vehicle::R] / v);
   return place;
 }
 
@@ -98,10 +104,11 @@ class WayFinder::Impl {
 
   std::optional<Way> find(const State& start, double t_start,
                           const std::vector<Obstacle>& obstacles, const WaySearch& search,
+                          const std::optional<Standstill>& standing,
                           const std::function<bool()>& out_of_budget) {
     looked_at_ = 0;
     wall_.clear();
-    return search_once({start, t_start, obstacles, out_of_budget}, search);
+    return search_once({start, t_start, obstacles, out_of_budget}, search, standing);
   }
 
   void find_ways(const State& start, double t_start, const std::vector<Obstacle>& obstacles,
@@ -156,14 +163,15 @@ class WayFinder::Impl {
     }
   };
 
-  std::optional<Way> search_once(const Question& q, const WaySearch& search) {
+  std::optional<Way> search_once(const Question& q, const WaySearch& search,
+                                 const std::optional<Standstill>& standing = {}) {
     ellipses_.clear();
     moments_.clear();
     for (const auto& o : q.obstacles) add(o, q, search);
     for (const auto& o : wall_) add(o, q, search);
     const auto place = first_place(q.start, goal_, vehicle_);
     const bool found = search_.run(place, q.t_start, region_for(place, search), ellipses_, moments_,
-                                   search, q.out_of_budget);
+                                   search, standing, q.out_of_budget);
     looked_at_ += search_.looked_at();
     if (!found) return std::nullopt;
     Way way;
@@ -320,7 +328,14 @@ WayFinder& WayFinder::operator=(WayFinder&&) noexcept = default;
 std::optional<Way> WayFinder::find(const State& start, double t_start,
                                    const std::vector<Obstacle>& obstacles, const WaySearch& search,
                                    const std::function<bool()>& out_of_budget) {
-  return impl_->find(start, t_start, obstacles, search, out_of_budget);
+  return impl_->find(start, t_start, obstacles, search, {}, out_of_budget);
+}
+
+std::optional<Way> WayFinder::to_stand(const State& start, double t_start,
+                                       const std::vector<Obstacle>& obstacles,
+                                       const WaySearch& search, const Standstill& standing,
+                                       const std::function<bool()>& out_of_budget) {
+  return impl_->find(start, t_start, obstacles, search, standing, out_of_budget);
 }
 
 void WayFinder::find_ways(const State& start, double t_start,

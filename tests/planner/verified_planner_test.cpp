@@ -175,6 +175,20 @@ TEST(VerifiedPlanner, WithoutAWayToTheGoalItStopsClear) {
   EXPECT_EQ(plan.controls.back(), (Control{0, 0}));
 }
 
+TEST(VerifiedPlanner, AStopIsSearchedForWhereNeitherStraightOnNorASwerveEndsWell) {
+  // Something comes along the lane that is wider than a swerve, and a wall ends the road behind it.
+  Task t = before_a_wall(100);
+  t.region.x_min = -6;
+  t.region.x_max = 9;
+  t.obstacles.push_back({"oncoming", -1, 89, 3.3, 6, 0, -4});
+  Planner planner(t);
+  const Plan plan = planner.plan(northwards());
+  EXPECT_TRUE(plan.certificate.verified) << plan.certificate.refused;
+  EXPECT_FALSE(plan.goal_in_range);
+  EXPECT_TRUE(std::any_of(plan.candidates.begin(), plan.candidates.end(),
+                          [](const auto& c) { return c.name == "stop in time"; }));
+}
+
 TEST(VerifiedPlanner, ByRangeItKnowsWhatIsNear) {
   Task t = verified_task();
   t.planner.known = Known::range;

@@ -13,41 +13,10 @@
 #include "slalom/world/way_signature.hpp"
 #include "support/allocation_count.hpp"
 #include "world/ring.hpp"
+#include "world/way_scenes.hpp"
 
 namespace slalom::world {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-/// Drives into a goal some way ahead, at 17 m/s. Where the region ends is not said.
-struct World {
-  Environment environment;
-  vehicle::State start{};
-  vehicle::Parameters vehicle;
-  double t_start = 0;
-
-  WayFinder finder() const { return {environment, vehicle}; }
-  std::optional<Way> find(const WaySearch& search = {}) const {
-    auto f = finder();
-    return f.find(start, t_start, environment.obstacles, search);
-  }
-};
-
-vehicle::State state(double x, double y, double psi, double ux) {
-  vehicle::State result{};
-  result[vehicle::X] = x;
-  result[vehicle::Y] = y;
-  result[vehicle::PSI] = psi;
-  result[vehicle::UX] = ux;
-  return result;
-}
-
-World northwards(double length = 150) {
-  World w;
-  w.start = state(0, 0, kPi / 2, 17);
-  w.environment.goal = {0, length, kPi / 2, 15};
-  return w;
-}
 
 /// E_C as the drive sees it: a row of cones with something standing on the left of it, and
 /// something oncoming on the right.
@@ -79,19 +48,6 @@ World turned(const World& from) {
     std::swap(o.a, o.b);
   }
   return w;
-}
-
-double clearance(const Way& way, const std::vector<Obstacle>& obstacles) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 1; k < way.size(); ++k)
-    for (int part = 0; part < 5; ++part) {
-      const auto &p = way[k - 1], &q = way[k];
-      const double s = part / 5.0;
-      for (const auto& o : obstacles)
-        least = std::min(least, distance(o, p.x + s * (q.x - p.x), p.y + s * (q.y - p.y),
-                                         p.t + s * (q.t - p.t)));
-    }
-  return least;
 }
 
 /// The way is one that the search's vehicle drives, from the start into the goal, and keeps clear.

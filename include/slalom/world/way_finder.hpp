@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -32,6 +33,7 @@ struct WaySearch {
   double curvature = 0.15;            ///< most [1/m]
   double curvature_rate = 0.024;      ///< most [1/(m s)]
   double braking = 3.3;               ///< [m/s^2]
+  double braking_share = 0;           ///< of the vehicle's ax_min, where that is harder
   double acceleration_share = 0.9;    ///< of the vehicle's ax_max
   double t_max = 60;                  ///< longest way [s]
   double greed = 2;                   ///< how much more the way ahead counts than the way so far
@@ -40,6 +42,15 @@ struct WaySearch {
   double cell_along = 2, cell_across = 1, cell_heading = 0.16, cell_speed = 3, cell_curvature = 0.4,
          cell_time = 0.8;
   int max_places = 150'000;  ///< looked at before the search gives up
+};
+
+/// How a vehicle stands: from the search's least speed on it comes `stopping` [m] further, then it
+/// creeps at `creep` [m/s], all straight on, and for `horizon` [s] nothing is to come to where it
+/// is. Each metre straight on from there brings it nearer to the goal by `onwards` [m] at the
+/// least.
+struct Standstill {
+  double stopping = 0.6, creep = 0.12, horizon = 60;
+  double onwards = -std::numeric_limits<double>::infinity();
 };
 
 /// The search with the limits of another vehicle, by its agility and top speed.
@@ -83,6 +94,13 @@ class WayFinder {
   std::optional<Way> find(const vehicle::State& start, double t_start,
                           const std::vector<Obstacle>& obstacles, const WaySearch& search = {},
                           const std::function<bool()>& out_of_budget = {});
+
+  /// A way, as find() finds one, that ends at the search's least speed where the vehicle can stand.
+  /// t_max covers the standing as well, for obstacles that move by a trajectory.
+  std::optional<Way> to_stand(const vehicle::State& start, double t_start,
+                              const std::vector<Obstacle>& obstacles, const WaySearch& search,
+                              const Standstill& standing,
+                              const std::function<bool()>& out_of_budget = {});
 
   /// Hands up to `most` ways to `take`, each as it is found, which says whether the way is good: by
   /// `search`; then slower, closer or sharper; while none is good, closest and with three times the
