@@ -55,6 +55,11 @@ void LocalFrame::to_global(Plan& plan) const {
     state[Y] += y_;
     state[PSI] += turned_;
   }
+  for (auto& candidate : plan.candidates)
+    for (auto& point : candidate.path) {
+      point.x += x_;
+      point.y += y_;
+    }
 }
 
 }  // namespace slalom::planner

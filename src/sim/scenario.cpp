@@ -207,7 +207,21 @@ void check_road(const Scenario& s, const std::string& where) {
   check_ahead(s, where);
 }
 
-/// A plan ends at the goal, within the region and off every obstacle that stands.
+/// Whether an obstacle covers the goal's place: all corners of it.
+bool covers(const world::Obstacle& obstacle, const world::Goal& goal) {
+  const bool square = goal.kind() == world::GoalKind::square;
+  const double along = square ? goal.sigma : goal.length / 2;
+  const double across = square ? goal.sigma : goal.width / 2;
+  const double c = square ? 1 : std::cos(goal.psi), s = square ? 0 : std::sin(goal.psi);
+  for (const double u : {-along, along})
+    for (const double w : {-across, across})
+      if (world::distance(obstacle, goal.x + c * u - s * w, goal.y + s * u + c * w, 0) >= 0)
+        return false;
+  return true;
+}
+
+/// A plan ends at the goal, within the region and off every obstacle that stands; what is verified
+/// ends anywhere in the goal's place.
 void check_goal(const Scenario& s, const std::string& where) {
   if (!s.goal.is_place()) return;
   if (!s.region.contains(s.goal.x, s.goal.y))
@@ -217,13 +231,18 @@ void check_goal(const Scenario& s, const std::string& where) {
   const double margin = verifies ? s.planner.verified_clearance : s.planner.sm_end;
   for (const auto& obstacle : s.obstacles) {
     if (obstacle.moves()) continue;
-    const double clearance = world::distance(obstacle.grown(margin), s.goal.x, s.goal.y, 0);
-    if (!(clearance >= 0))
+    const double grown = margin + obstacle.margin_start;
+    const world::Obstacle kept_off = obstacle.grown(grown);
+    const double clearance = world::distance(kept_off, s.goal.x, s.goal.y, 0);
+    if (!(clearance >= 0) && (!verifies || covers(kept_off, s.goal)))
       throw InvalidValue(
           where + ": goal",
-          fmt::format("({:.6g}, {:.6g}), {:.6g} m inside obstacle {} grown by {} = {:.6g} m",
+          fmt::format("({:.6g}, {:.6g}), {:.6g} m inside obstacle {} grown by {} = {:.6g} m{}",
                       s.goal.x, s.goal.y, -clearance, obstacle.name,
-                      verifies ? "verified_clearance" : "sm_end", margin),
+                      verifies ? "verified_clearance" : "sm_end", margin,
+                      obstacle.margin_start > 0
+                          ? fmt::format(" and margin_start = {:.6g} m", obstacle.margin_start)
+                          : ""),
           "a goal outside every grown obstacle that stands",
           {"goal", "obstacles." + obstacle.name,
            verifies ? "planner.verified_clearance" : "planner.sm_end"});

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "planner/expect_plan.hpp"
 #include "planner/scenes.hpp"
+#include "planner/verified_scenes.hpp"
 
 namespace slalom::planner {
 namespace {
@@ -22,6 +24,26 @@ TEST(LocalFrame, MapCoordinatesGiveThePlanOfTheOrigin) {
                        }),
               1e-5);
   }
+}
+
+TEST(LocalFrame, WhatWasLookedAtLiesWhereThePlanDoes) {
+  Task task = verified_task();
+  const double dx = 5e5, dy = 5.4e6;
+  task.goal.x += dx;
+  task.goal.y += dy;
+  for (auto& o : task.obstacles) {
+    o.x += dx;
+    o.y += dy;
+  }
+  Request request = northwards();
+  request.X0p[vehicle::X] += dx;
+  request.X0p[vehicle::Y] += dy;
+  const Plan plan = Planner(task).plan(request);
+  const auto drawn = std::find_if(plan.candidates.begin(), plan.candidates.end(),
+                                  [](const auto& c) { return !c.path.empty(); });
+  ASSERT_NE(drawn, plan.candidates.end());
+  EXPECT_NEAR(drawn->path[0].x, dx, 1);
+  EXPECT_NEAR(drawn->path[0].y, dy, 1);
 }
 
 TEST(LocalFrame, AnObstacleFarAwayChangesNothing) {

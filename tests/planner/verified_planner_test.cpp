@@ -178,6 +178,7 @@ TEST(VerifiedPlanner, WithoutAWayToTheGoalItStopsClear) {
 TEST(VerifiedPlanner, AStopIsSearchedForWhereNeitherStraightOnNorASwerveEndsWell) {
   // Something comes along the lane that is wider than a swerve, and a wall ends the road behind it.
   Task t = before_a_wall(100);
+  t.planner.search_places = 50'000;
   t.region.x_min = -6;
   t.region.x_max = 9;
   t.obstacles.push_back({"oncoming", -1, 89, 3.3, 6, 0, -4});

@@ -170,10 +170,28 @@ TEST(Scenario, WhatAPolygonOrATableSaysIsNotSetBesideIt) {
       "found vx = 3, expected none, for the table or path says it");
 }
 
+TEST(Scenario, WhatIsVerifiedMayEndBesideWhatStandsInTheMiddleOfTheGoal) {
+  const auto with = [](double r) {
+    return [r](Scenario& s) {
+      s.planner.method = planner::Method::verified;
+      s.planner.verified_clearance = s.planner.kept_clearance = 2.15;
+      s.obstacles[0] = testing::circle("cone", s.goal.x, s.goal.y, r);
+    };
+  };
+  EXPECT_EQ(message(with(0.4)), "accepted");
+  expect_refused(with(30), "inside obstacle cone grown by verified_clearance = 2.15 m");
+}
+
 TEST(Scenario, AGoalThatNoPlanMayEndAtIsRefused) {
   expect_refused(
       [](Scenario& s) { s.obstacles[0] = testing::circle("blob", s.goal.x, s.goal.y + 5, 2); },
       "goal: found (0, 1000), 1 m inside obstacle blob grown by sm_end = 4 m");
+  expect_refused(
+      [](Scenario& s) {
+        s.obstacles[0] = testing::circle("blob", s.goal.x, s.goal.y + 10, 2);
+        s.obstacles[0].margin_start = 5;
+      },
+      "1 m inside obstacle blob grown by sm_end = 4 m and margin_start = 5 m");
   expect_refused([](Scenario& s) { s.region.y_max = 900; }, "a goal within the region");
   EXPECT_EQ(message([](Scenario& s) {
               s.obstacles[0] = testing::circle("passes", s.goal.x, s.goal.y, 2, 1);
