@@ -156,8 +156,7 @@ void TrajectoryProblem::add_cost(const Model& model) {
     problem_.lagrange("acceleration", s.w_ax * square(X_[AX]));
   if (s.w_psi != 0 && road_) problem_.lagrange("heading", s.w_psi * road_->turned(X_[PSI]));
   if (s.w_psi != 0 && !road_) {
-    goal_psi_ = problem_.parameter("goal_psi", goal_.psi);
-    problem_.lagrange("heading", s.w_psi * square(X_[PSI] - *goal_psi_));
+    problem_.lagrange("heading", s.w_psi * square(X_[PSI] - goal_heading()));
   }
 
   Expr initial_slacks;
@@ -268,6 +267,12 @@ void TrajectoryProblem::add_goal() {
   problem_.boundary("LiDAR edge, outer", outer * outer - distance, Bounds::at_least(0));
 }
 
+/// The goal's heading, in the turn that the start's is in.
+ocp::Expr TrajectoryProblem::goal_heading() {
+  if (!goal_psi_) goal_psi_ = problem_.parameter("goal_psi", goal_.psi);
+  return *goal_psi_;
+}
+
 /// What else is asked of the vehicle at the goal, softly: close to the goal there may be no time
 /// left to meet it.
 void TrajectoryProblem::add_arrival() {
@@ -276,10 +281,13 @@ void TrajectoryProblem::add_arrival() {
     if (!bounds.bounded()) return;
     problem_.soften(problem_.boundary(name, value, bounds), {ocp::Norm::l1, price, 0});
   };
-  if (goal_.psi_tolerance < world::Goal::kAbsent) {  // in whatever turn
-    const double most = std::sin(std::min(goal_.psi_tolerance, M_PI / 2));
-    add("goal heading", sin(problem_.final(X_[PSI]) - goal_.psi), inside_range(-most, most),
-        kHeadingPrice * settings_.w_xf);
+  const double tolerance = goal_.psi_tolerance, price = kHeadingPrice * settings_.w_xf;
+  const Expr heading = problem_.final(X_[PSI]);
+  if (tolerance < world::Goal::kAbsent && road_) {  // in whatever turn the road leads there
+    const double most = std::sin(std::min(tolerance, M_PI / 2));
+    add("goal heading", sin(heading - goal_.psi), inside_range(-most, most), price);
+  } else if (tolerance < world::Goal::kAbsent) {
+    add("goal heading", heading - goal_heading(), inside_range(-tolerance, tolerance), price);
   }
   if (role[UX] == Role::state)
     add("goal speed", problem_.final(X_[UX]), inside_range(goal_.ux_min, goal_.ux_max),
@@ -293,7 +301,7 @@ void TrajectoryProblem::update(const Request& request) {
     if (map_.model().role[i] != Role::derived) problem_.set_parameter(X0p_[i], request.X0p[i]);
   problem_.set_parameter(t_start_, request.t_start);
   problem_.set_parameter(t_planning_, request.t0);
-  if (goal_psi_)  // in the turn that the start's heading is in
+  if (goal_psi_)
     problem_.set_parameter(*goal_psi_, goal_.psi + whole_turns(request.X0p[PSI] - goal_.psi));
 }
 

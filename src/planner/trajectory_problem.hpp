@@ -63,6 +63,7 @@ class TrajectoryProblem {
   void add_lidar_region();
   void add_goal();
   void add_arrival();
+  Expr goal_heading();
 
   const Settings settings_;
   const vehicle::Parameters vehicle_;
@@ -82,7 +83,7 @@ class TrajectoryProblem {
   std::array<Expr, vehicle::kStates> x0s_;  ///< slacks on the initial state
   std::array<Expr, 2> xfs_;                 ///< slacks on the final position
   Expr t_planning_, t_start_;               ///< absolute times of planning and of node 0
-  std::optional<Expr> goal_psi_;            ///< the goal's heading, where the cost asks for it
+  std::optional<Expr> goal_psi_;            ///< the goal's heading, where it is asked for
 };
 
 }  // namespace slalom::planner

@@ -127,6 +127,19 @@ TEST(Planner, StaysSolvedAndWarmAcrossTheSwitchIntoRange) {
     }
 }
 
+TEST(Planner, AGoalIsNotMetHalfATurnOff) {
+  Scene scene = E_B();
+  scene.obstacles.clear();
+  scene.goal = {scene.first.X0p[X], scene.first.X0p[Y] + 35, scene.first.X0p[PSI] + 0.9 * M_PI, 5};
+  const auto price = [&](double turned) {
+    Scene turned_goal = scene;
+    turned_goal.goal.psi += turned;
+    turned_goal.goal.psi_tolerance = 0.2;
+    return Planner(turned_goal).plan(turned_goal.first).report.cost;
+  };
+  EXPECT_GT(price(0), price(-0.9 * M_PI) + 1000);
+}
+
 TEST(Planner, HeldObstaclesStandWhereTheyAreAtPlanning) {
   Scene held = E_B();
   held.planner.moving_avoidance = false;
