@@ -270,14 +270,14 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
     if (found == std::string::npos) continue;
     char* end = nullptr;
     const auto node = std::strtoul(row.c_str() + found + part.size(), &end, 10);
-    if (*end != '\0' || node >= plan.t.size() || !(plan.tf > 0)) return plain;
-    const State& x = plan.states[node];
+    const auto k = node * (plan.t.size() - 1) / static_cast<std::size_t>(settings_.N);  // points
+    if (*end != '\0' || k >= plan.t.size() || !(plan.tf > 0)) return plain;
     const double t =
-        plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[node];
+        plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[k];
     const double margin = settings_.sm_start +
-                          (settings_.sm_end - settings_.sm_start) * plan.t[node] / plan.tf +
+                          (settings_.sm_end - settings_.sm_start) * plan.t[k] / plan.tf +
                           o.margin(t);
-    const double distance = footprint_.distance(o, x, t);
+    const double distance = footprint_.distance(o, plan.states[k], t);
     return fmt::format(
                "{} in the way: node {} of the plan comes {} its edge, where a margin of {:.2f} m "
                "is kept",

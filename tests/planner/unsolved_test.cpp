@@ -56,22 +56,27 @@ TEST(Unsolved, TheMarginThatWouldDoDoes) {
   for (int k = 0; k < 4; ++k)
     scene.obstacles.push_back({"wall" + std::to_string(k + 1), 100, -6 + 4. * k, 2, 2, 0, 0});
   scene.first = {{50, 0, 0, 0, 0, 0, 12, 0}, 3.5, 4};
-  const Plan refused = Planner(scene).plan(scene.first);
-  ASSERT_EQ(refused.report.status, PlanStatus::infeasible);
-  const std::string& blocks = refused.report.blocks;
-  double wanted = 0, would_do = 0;
-  ASSERT_EQ(
-      std::sscanf(blocks.c_str(),
-                  "wall%*d in the way: node 10 of the plan comes to %*f m from its edge, where "
-                  "a margin of %lf m is kept and %lf m would do",
-                  &wanted, &would_do),
-      2)
-      << blocks;
-  EXPECT_EQ(wanted, scene.planner.sm_end);
-  scene.planner.sm_end = would_do;
-  scene.planner.sm_start = std::min(scene.planner.sm_start, would_do);
-  const Plan plan = Planner(scene).plan(scene.first);
-  EXPECT_TRUE(plan.report.solved) << plan.report.status_text() << ", " << plan.report.blocks;
+  const auto as_stated = scene.planner;
+  for (const auto scheme : {SchemeChoice::trapezoidal, SchemeChoice::hermite_simpson}) {
+    scene.planner = as_stated;
+    scene.planner.scheme = scheme;
+    const Plan refused = Planner(scene).plan(scene.first);
+    ASSERT_EQ(refused.report.status, PlanStatus::infeasible);
+    const std::string& blocks = refused.report.blocks;
+    double wanted = 0, would_do = 0;
+    ASSERT_EQ(
+        std::sscanf(blocks.c_str(),
+                    "wall%*d in the way: node %*d of the plan comes to %*f m from its edge, where "
+                    "a margin of %lf m is kept and %lf m would do",
+                    &wanted, &would_do),
+        2)
+        << blocks;
+    EXPECT_EQ(wanted, scene.planner.sm_end);
+    scene.planner.sm_end = would_do;
+    scene.planner.sm_start = std::min(scene.planner.sm_start, would_do);
+    const Plan plan = Planner(scene).plan(scene.first);
+    EXPECT_TRUE(plan.report.solved) << plan.report.status_text() << ", " << plan.report.blocks;
+  }
 }
 
 TEST(Unsolved, AFailedPlanIsNoStartForTheNext) {
