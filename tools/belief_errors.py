@@ -40,10 +40,10 @@ Noise has a seed of its own in each scenario.
 
 VERIFIED = """
 *Verified*: the plan that was driven at the crash had a certificate, which holds for a vehicle and obstacles that are as
-believed ([verified-planner.md](../verified-planner.md)). It keeps a distance (*kept*) beyond the edge of a crash. The
+believed ([verified-planner.md](../verified-planner.md)). It proves a distance (*kept*) beyond the edge of a crash. The
 program measures at each such crash how far the vehicle was from where its plan has it (*off plan*) and the obstacle from
 where it was believed (*off belief*), by the points that are farthest off. By the triangle's inequality a crash needs off
-plan + off belief >= kept. Where the sum is less (*within the errors*), the certificate was wrong.
+plan + off belief >= kept. Where the sum is less, the certificate was wrong.
 
 """
 
@@ -124,8 +124,8 @@ class Crash(NamedTuple):
     off_plan: float = math.nan  # how far the vehicle was from where that plan has it
     off_belief: float = math.nan  # and the obstacle from where it was believed; inf if it was not known
 
-    def within_errors(self):
-        """Whether the certificate was wrong: all was so near to what was believed that nothing is hit."""
+    def by_wrong_certificate(self):
+        """All was so near to what was believed that nothing is hit."""
         return self.verified and self.off_plan + self.off_belief < self.kept - ROUNDING
 
     def by_vehicle(self):
@@ -155,7 +155,7 @@ def ranges_table():
 
 
 def levels_table(trials, verified):
-    text = head(["level", "drives", "arrive", "95 %", "crash", "of these verified", "of these within the errors",
+    text = head(["level", "drives", "arrive", "95 %", "crash", "of these verified", "of these by a wrong certificate",
                  "the vehicle alone off by more", "other ends",
                  "least distance beyond the 2 m of those that arrive [m]"])
     for level, of_scenario in trials.items():
@@ -164,7 +164,7 @@ def levels_table(trials, verified):
         least = min((float(t["least_clearance_m"] or "inf") for t in there), default=None)
         text += row([level, len(every), len(there), "{:.4f}–{:.4f}".format(*interval(len(there), len(every))),
                      len(verified[level]), sum(c.verified for c in verified[level].values()),
-                     sum(c.within_errors() for c in verified[level].values()),
+                     sum(c.by_wrong_certificate() for c in verified[level].values()),
                      sum(c.by_vehicle() for c in verified[level].values()),
                      len(every) - len(there) - len(verified[level]), "–" if least is None else number(least, 3)])
     return text

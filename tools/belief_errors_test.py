@@ -57,11 +57,11 @@ class Crashes(unittest.TestCase):
         self.assertEqual(crash_of({"verified_crash": found | {"off_belief_m": None}}).off_belief, math.inf)
 
     def test_a_certificate_is_wrong_where_the_errors_are_less_than_it_keeps(self):
-        for off_plan, off_belief, within, by_vehicle in ((0.1, 0.25, False, False), (0.1, 0.15, True, False),
+        for off_plan, off_belief, wrong, by_vehicle in ((0.1, 0.25, False, False), (0.1, 0.15, True, False),
                                                          (0.35, 0, False, True), (0, math.inf, False, False)):
             crash = Crash(True, 0.3, off_plan, off_belief)
-            self.assertEqual((crash.within_errors(), crash.by_vehicle()), (within, by_vehicle), crash)
-        self.assertFalse(NOT_VERIFIED.within_errors() or NOT_VERIFIED.by_vehicle())
+            self.assertEqual((crash.by_wrong_certificate(), crash.by_vehicle()), (wrong, by_vehicle), crash)
+        self.assertFalse(NOT_VERIFIED.by_wrong_certificate() or NOT_VERIFIED.by_vehicle())
 
 
 class Page(unittest.TestCase):

@@ -2,7 +2,7 @@
 """Stands in for the program in tests of tools that write pages: it makes empty scenarios, and every drive arrives but
 those that are said to crash. It reads studies as the tools write them, and no others. Where the environment has
 STAND_IN_LOG, each command goes there as a line; a trial whose values, joined by spaces, match STAND_IN_CRASHES (a
-regular expression) crashes into O2; `reproduce` evaluates to what is in STAND_IN_EVALUATION."""
+regular expression) crashes into O2, and one that matches STAND_IN_FAILURES fails and leaves no files; `reproduce` evaluates to what is in STAND_IN_EVALUATION."""
 
 import csv
 import itertools
@@ -17,8 +17,10 @@ MEASURES = {"outcome": "goal", "hit": "", "message": "reached the goal", "time_s
             "least_clearance_obstacle": "O2", "least_wheel_load_N": 1500, "median_cpu_time_s": 0.001,
             "p99_cpu_time_s": 0.002, "max_cpu_time_s": 0.003, "max_solve_time_s": 0.004}  # fmt: skip
 BUILT_IN = "scenario: E_C\nplanners: [P_C, P_D]\n"  # a study that is named and no file
-CYCLES = "cycle,status,planning_cpu_s,solve_time_s\n0,solved,9,9\n1,solved,0.001,0.002\n2,solved,0.003,0.004\n"
+CYCLES = "cycle,status,planning_cpu_s,solve_time_s\n1,solved,0.001,0.002\n2,solved,0.003,0.004\n"
 CRASH = {"outcome": "crash", "hit": "O2", "message": "hit O2 at 3 s at (6, 200), 20 m/s", "goal_time_s": ""}
+FAILURE = dict.fromkeys(MEASURES, "") | {"outcome": "failed", "message": "out of memory", "cycles": 0, "failed_cycles": 0,
+                                         "new_plans": 0, "rests": 0, "least_bads": 0}
 
 
 def list_of(text):
@@ -47,8 +49,12 @@ def scenarios(study):
 
 def ended(cells):
     """How a trial with these values ends."""
-    crashes = os.environ.get("STAND_IN_CRASHES")
-    return MEASURES | (CRASH if crashes and re.search(crashes, " ".join(cells)) else {})
+    found = MEASURES
+    for name, other in (("STAND_IN_CRASHES", CRASH), ("STAND_IN_FAILURES", FAILURE)):
+        pattern = os.environ.get(name)
+        if pattern and re.search(pattern, " ".join(cells)):
+            found = found | other
+    return found
 
 
 def sweep(study, out):
@@ -61,8 +67,9 @@ def sweep(study, out):
         writer.writeheader()
         for number, cells in enumerate(itertools.product(scenarios(text), planners, *values), 1):
             names = ("scenario", "planner", *keys)
-            writer.writerow({"trial": number, **dict(zip(names, cells)), **ended(cells)})
-            if "keep: drives" in text:
+            result = ended(cells)
+            writer.writerow({"trial": number, **dict(zip(names, cells)), **result})
+            if "keep: drives" in text and result["outcome"] != "failed":
                 simulate(cells, out / "drives" / f"{number:06}")
 
 

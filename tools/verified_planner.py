@@ -121,7 +121,8 @@ def timed_sweep(options, name, fastest):
                                   keep="drives"))
     trials = swept_thinly(options.program, study, out, options.points**2, lambda trial: ("cycles.csv",),
                           "--jobs", str(options.jobs))
-    cycles = {key: rows_of(drive_folder(out, trial) / "cycles.csv") for key, trial in by_axes(trials).items()}
+    cycles = {key: rows_of(drive_folder(out, trial) / "cycles.csv") if trial["outcome"] != "failed" else []
+              for key, trial in by_axes(trials).items()}
     return by_axes(trials), cycles
 
 
@@ -151,7 +152,7 @@ def ladder(every):
 
 
 def totals(trials):
-    """A row a planner; `trials`: by key, for each planner."""
+    """A row for each planner; `trials`: by key, for each planner."""
     text = head(["", "drives", "arrive", "95 %", "crash", "other ends", "cycles", "unverified or unsolved",
                  "of the ladder: new, rest, least bad", "least distance beyond the margin [m]", "least wheel load [N]"])
     for planner, of_key in trials.items():
@@ -182,13 +183,12 @@ def compared(trials):
 
 
 def real_time(trials, cycles):
-    """Processor time and time by the clock of P_E's cycles beside the horizon, by horizon: of all cycles of its drives but
-    the warm-up."""
+    """Processor time and time by the clock of P_E's cycles beside the horizon, by horizon: of all cycles of its drives."""
     text = head(["tex [s]", "drives", "arrive", "cycles", "median of a cycle [ms]", "99 % [ms]", "longest [ms]",
-                 "longest over tex", "mean over tex", "by the clock: longest over tex", "mean over tex"])
+                 "longest over tex", "mean over tex", "by the clock: longest over tex", "by the clock: mean over tex"])
     for tex, group in itertools.groupby(trials, key=lambda key: key[0]):
         keys = list(group)
-        own = [row for key in keys for row in cycles[key] if row["cycle"] != "0"]
+        own = [row for key in keys for row in cycles[key]]
         cpu, clock = ([float(row[column]) for row in own] for column in ("planning_cpu_s", "solve_time_s"))
         horizon = float(tex)
         text += row([f"{horizon:.4g}", len(keys), sum(arrives(trials[key]) for key in keys), len(own),

@@ -18,10 +18,11 @@ class Page(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = pathlib.Path(scratch.name)
 
-    def verified_planner(self, crashes):
+    def verified_planner(self, crashes, failures="none"):
         """The page, and the commands that made it."""
         text = stand_in.page_of(verified_planner.main, self.folder, "--most", "1", "--points", "2", "--jobs", "3",
-                                STAND_IN_LOG=str(self.folder / "log"), STAND_IN_CRASHES=crashes)  # fmt: skip
+                                STAND_IN_LOG=str(self.folder / "log"), STAND_IN_CRASHES=crashes,
+                                STAND_IN_FAILURES=failures)  # fmt: skip
         return text, (self.folder / "log").read_text().splitlines()
 
     def test_as_many_drives_at_a_time_as_it_says(self):
@@ -34,7 +35,7 @@ class Page(unittest.TestCase):
         self.assertIn("Of the offline drives 0 do not arrive", text)
         self.assertIn("| P_D arrives too | 2 | 1.000 | 1.000 | 1.000 |", text)
 
-    def test_times_are_those_of_all_cycles_of_a_horizon_but_the_warm_up(self):
+    def test_times_are_those_of_all_cycles_of_a_horizon(self):
         text, _ = self.verified_planner("none")
         self.assertIn("| 1 | 2 | 2 | 4 | 2.00 | 3.0 | 3.0 | 0.00 | 0.0020 | 0.00 | 0.0030 |", text)
         kept = {file.name for file in (self.folder / "work/sweep-40-P_E/drives/000001").iterdir()}
@@ -44,6 +45,10 @@ class Page(unittest.TestCase):
         text, _ = self.verified_planner("^E_C P_E -40(.0)?$")  # the study without an axis of horizons
         self.assertIn("Of the offline drives 1 do not arrive", text)
         self.assertNotIn("| P_D arrives too |", text)
+
+    def test_a_trial_that_fails_is_counted_and_takes_nothing_with_it(self):
+        text, _ = self.verified_planner("none", "P_E 1 -40(.0)?$")
+        self.assertIn("| 1 | 2 | 1 | 2 |", text)
 
     def test_scenarios_of_a_larger_count_before_are_not_driven(self):
         scenarios = self.folder / "work/scenarios"

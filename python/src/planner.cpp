@@ -143,6 +143,8 @@ void bind_verification(nb::module_& module) {
       .def_ro("verified", &Certificate::verified)
       .def_ro("least_clearance", &Certificate::least_clearance,
               doc::planner_Certificate_least_clearance)
+      .def_ro("proved_clearance", &Certificate::proved_clearance,
+              doc::planner_Certificate_proved_clearance)
       .def_ro("nearest", &Certificate::nearest, doc::planner_Certificate_nearest)
       .def_ro("least_wheel_load", &Certificate::least_wheel_load,
               doc::planner_Certificate_least_wheel_load)

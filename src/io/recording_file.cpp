@@ -64,10 +64,16 @@ RecordedMotion motion(const JsonReader& reader, const std::string& file) {
   p.states = rows<vehicle::State>(reader.at("states"), p.t.size());
   p.controls = rows<vehicle::Control>(reader.at("controls"), p.t.size());
   const JsonReader c = reader.at("certificate");
-  p.certificate = {c.at("verified").flag(),  c.at("least_clearance").real(),
-                   c.at("nearest").text(),   c.at("least_wheel_load").real(),
-                   c.at("until").real(),     c.at("refused").text(),
-                   c.at("refused_at").real()};
+  // What was proved is what was asked for, where an older recording does not say.
+  const double proved = c.has("proved_clearance") ? c.at("proved_clearance").real() : p.clearance;
+  p.certificate = {.verified = c.at("verified").flag(),
+                   .least_clearance = c.at("least_clearance").real(),
+                   .proved_clearance = proved,
+                   .nearest = c.at("nearest").text(),
+                   .least_wheel_load = c.at("least_wheel_load").real(),
+                   .until = c.at("until").real(),
+                   .refused = c.at("refused").text(),
+                   .refused_at = c.at("refused_at").real()};
   planner::check(p, file);
   return result;
 }
@@ -117,6 +123,7 @@ std::string to_json(const RecordedMotion& motion) {
   json["controls"] = json_table(p.controls);
   json["certificate"] = {{"verified", c.verified},
                          {"least_clearance", json_number(c.least_clearance)},
+                         {"proved_clearance", json_number(c.proved_clearance)},
                          {"nearest", c.nearest},
                          {"least_wheel_load", json_number(c.least_wheel_load)},
                          {"until", json_number(c.until)},

@@ -156,7 +156,8 @@ Certificate verify_again(const RecordedPlan& recording, const Task& task) {
 
 bool same(const Certificate& one, const Certificate& other) {
   const auto numbers = [](const Certificate& c) {
-    return std::vector<double>{c.least_clearance, c.least_wheel_load, c.until, c.refused_at};
+    return std::vector<double>{c.least_clearance, c.proved_clearance, c.least_wheel_load, c.until,
+                               c.refused_at};
   };
   return one.verified == other.verified && one.nearest == other.nearest &&
          one.refused == other.refused && same_bits(numbers(one), numbers(other));

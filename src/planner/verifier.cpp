@@ -193,6 +193,8 @@ void Verifier::keep_off(const Interval& i, std::size_t obstacle) {
   const double reach = rate * i.duration();
   const double d0 = distance_within(footprint_, o, i.x0, i.t0, need + margin0 + reach);
   const double d1 = distance_within(footprint_, o, i.x1, i.t1, need + margin1 + reach);
+  auto& proved = verdict_.certificate.proved_clearance;
+  proved = std::min(proved, need);
   note_distance(obstacle, std::min(d0, d1), std::min(d0 - margin0, d1 - margin1));
   if (!(std::min(d0 - margin0, d1 - margin1) >= need))
     return refuse(i.t0, "clearance to " + o.name);
@@ -296,6 +298,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   verdict_.nearest.assign(obstacles.size(), inf);
   auto& certificate = verdict_.certificate;
   certificate.least_clearance = certificate.least_wheel_load = inf;
+  certificate.proved_clearance = obstacles.empty() ? inf : need.clearance;
   if (motion.size() < 2) {
     refuse(0, "no motion");
     return verdict_;

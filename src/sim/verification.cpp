@@ -77,7 +77,7 @@ std::optional<VerifiedCrash> verified_crash(const Scenario& scenario, const Driv
   const PlantSample& end = drive.plant.back();
   VerifiedCrash crash;
   crash.cycle = driven->index;
-  crash.kept = driven->plan.certificate.least_clearance - scenario.loop.sm_crash;
+  crash.kept = driven->plan.certificate.proved_clearance - scenario.loop.sm_crash;
   const State& at = end.state;
   const State plan = planned(driven->plan, end.t);
   crash.off_plan = farthest(at[X] - plan[X], at[Y] - plan[Y], at[PSI] - plan[PSI],

@@ -72,11 +72,11 @@ sim::Drive verified_drive() {
   auto drive = made_up_drive();
   auto& first = drive.cycles[1].plan;
   first.rung = planner::Rung::new_plan;
-  first.certificate = {true, 0.25, "O1", 2100, 7.5, "", 0};
+  first.certificate = {true, 0.25, 0.15, "O1", 2100, 7.5, "", 0};
   first.candidates = {{"way 1", 12, first.certificate}};
   auto& second = drive.cycles[2].plan;
   second.rung = planner::Rung::least_bad;
-  second.certificate = {false, -0.5, "O1", 1900, 3, "clearance to O1, at 2 s", 2};
+  second.certificate = {false, -0.5, 0.15, "O1", 1900, 3, "clearance to O1, at 2 s", 2};
   second.candidates = {{"rest", 11, second.certificate}, {"way 1", 0, second.certificate}};
   drive.cycles[2].t_swap = 1.5;
   second.report.status = planner::PlanStatus::unverified;

@@ -66,12 +66,15 @@ TEST_F(Scene, ACentimetreTooNearIsRefusedAndACentimetreFartherIsNot) {
 
 // At 80 m/s of closing speed the two are 4 m apart from knot to knot.
 TEST_F(Scene, SeesWhatPassesBetweenTwoKnots) {
-  for (const double spare : {-0.01, 0.01}) {
+  for (const double spare : {-0.01, 0.01, 2.0}) {
     const double r = 0.2, x = r + 2.15 + spare;
     const double meet = 3.525;  // half-way between two knots
     const double y = 20 * (meet - 1) + 60 * meet;
     const Verdict verdict = judge({{"O2", x, y, r, r, 0, -60}});
     EXPECT_EQ(verdict.certificate.verified, spare > 0) << spare;
+    if (spare < 1) continue;
+    EXPECT_GT(verdict.certificate.least_clearance, 2.15 + spare + 0.1) << "at the knots";
+    EXPECT_EQ(verdict.certificate.proved_clearance, 2.15) << "and between them";
   }
 }
 

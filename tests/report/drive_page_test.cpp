@@ -114,9 +114,9 @@ TEST(DrivePage, CarriesWhatWasVerified) {
   auto drive = synthetic_drive();
   auto& plan = drive.cycles[2].plan;
   plan.rung = planner::Rung::rest;
-  plan.certificate = {true, inf, "", 2100, 7.5, "", 0};
+  plan.certificate = {true, inf, inf, "", 2100, 7.5, "", 0};
   plan.candidates = {{"rest", 12, plan.certificate},
-                     {"way <1>", 0, {false, -1, "O1", 900, 5, "clearance to O1", 3}}};
+                     {"way <1>", 0, {false, -1, 0.15, "O1", 900, 5, "clearance to O1", 3}}};
   const auto data = page_data(drive_page(synthetic_scenario(), drive));
   const auto& cycle = data["cycles"][2];
   EXPECT_EQ(cycle["rung"], "rest");
@@ -171,7 +171,7 @@ TEST(DrivePage, SaysWhichObstacleIsInTheWay) {
   blocked(4, "wheel load falls short by 3", "wheel load at node 1");
   auto& refused = drive.cycles[5].plan;
   refused.rung = planner::Rung::least_bad;
-  refused.certificate = {false, 0.1, "O2", 2000, 5, "clearance to O2 at 3.25 s", 3.25};
+  refused.certificate = {false, 0.1, 0.15, "O2", 2000, 5, "clearance to O2 at 3.25 s", 3.25};
   const auto cycles = page_data(drive_page(scenario, drive))["cycles"];
   EXPECT_EQ(cycles[2]["blocker"]["name"], "O1");
   EXPECT_NEAR(cycles[2]["blocker"]["t"], drive.cycles[2].plan.t_start + drive.cycles[2].plan.t[3],

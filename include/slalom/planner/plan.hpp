@@ -84,10 +84,14 @@ struct SolveReport {
 };
 
 /// What a verifying planner knows about a plan: the believed plant, driven by the plan from the
-/// predicted state, keeps these distances from all predicted obstacles, and these wheel loads.
+/// predicted state, keeps `proved_clearance` from all predicted obstacles, and these wheel loads.
 struct Certificate {
   bool verified = false;
-  double least_clearance = 0;   ///< to the nearest obstacle's own edge [m]; inf: no obstacle
+  /// To the nearest obstacle's own edge at the instants that were looked at [m]; inf: no obstacle.
+  double least_clearance = 0;
+  /// What was proved for all instants between as well [m]: no point of the footprint comes nearer
+  /// to any obstacle's own edge. Of a motion that is not verified, what was asked for.
+  double proved_clearance = 0;
   std::string nearest;          ///< that obstacle's name
   double least_wheel_load = 0;  ///< [N]
   double until = 0;             ///< absolute time at which the motion ends [s]

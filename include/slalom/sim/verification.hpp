@@ -29,7 +29,7 @@ std::optional<Verification> verification(const Drive& drive);
 /// off_plan + off_belief >= kept.
 struct VerifiedCrash {
   int cycle = 0;    ///< whose plan was driven
-  double kept = 0;  ///< what its certificate keeps beyond sm_crash from all obstacles [m]
+  double kept = 0;  ///< what its certificate proves beyond sm_crash from all obstacles [m]
   /// No point of the footprint was farther from where that plan has it [m].
   double off_plan = 0;
   /// No point of the obstacle was farther from where it was believed [m]; nothing where the planner
