@@ -32,22 +32,22 @@ constexpr double kBraking = 3.4;  ///< of the stop that follows [m/s^2], of the 
 /// One look of an escape: the state and what may be held next.
 struct VerifiedPlanner::Escape {
   Cycle& cycle;
-  double turn = 1;   ///< the side that is tried first
-  double edge = 0;   ///< kept from the road's edges [m]
-  int left = kMost;  ///< that may be driven on
+  double turn = 1;     ///< the side that is tried first
+  double edge = 0;     ///< kept from the road's edges [m]
+  double outside = 0;  ///< the farthest that the footprint may be outside the region [m]
+  int left = kMost;    ///< that may be driven on
   Motion motion{};
 };
 
 /// The state a step on, at full steering to a side and full braking or pushing, as far as limits
-/// let it; appended to the motion. Whether the body does no harm there.
+/// let it; appended to the motion. Whether it does no harm there.
 bool VerifiedPlanner::step_on(Escape& escape, double steer, double push) const {
   const Parameters& p = task_.vehicle;
   const State& x = escape.motion.states.back();
-  const double spare = standing_of(p, true).spare;
+  const auto [creep, spare, settling] = standing_of(p, task_.road != nullptr);
   const double sa = std::clamp(x[SA] + steer * p.sr_max() * kStep, -p.sa_max(), p.sa_max());
   double least = p.ax_min_at(x[UX]);
-  if (x[UX] < kSlow)
-    least = std::max(least, (p.ux_min + spare - x[UX]) * standing_of(p, true).settling);
+  if (x[UX] < kSlow) least = std::max(least, (p.ux_min + spare - x[UX]) * settling);
   const double ax = std::clamp(x[AX] + push * p.jx_max * kStep, least, p.ax_max_at(x[UX]));
   const Control u{(sa - x[SA]) / kStep, std::clamp((ax - x[AX]) / kStep, -p.jx_max, p.jx_max)};
   const double t = escape.motion.end() + kStep;
@@ -55,10 +55,12 @@ bool VerifiedPlanner::step_on(Escape& escape, double steer, double push) const {
   escape.motion.add(t, plant_.advance(x, u, u, t - kStep, t), u);
   const State& next = escape.motion.states.back();
   const world::Footprint footprint(p);
-  if (footprint.edge_distance(*task_.road, next) < escape.edge) return false;
+  if (footprint.outside(task_.region, next) > escape.outside) return false;
+  if (task_.road && footprint.edge_distance(*task_.road, next) < escape.edge) return false;
   return std::none_of(
-      escape.cycle.obstacles.begin(), escape.cycle.obstacles.end(),
-      [&](const auto& o) { return o.present(t, t) && footprint.distance(o, next, t) <= 0; });
+      escape.cycle.obstacles.begin(), escape.cycle.obstacles.end(), [&](const auto& o) {
+        return o.present(t, t) && footprint.distance(o, next, t) <= harmful_clearance();
+      });
 }
 
 /// Holds each manoeuvre after those before, and where all is well drives on to a stop. Whether that
@@ -69,10 +71,9 @@ bool VerifiedPlanner::try_escapes(Escape& escape, std::size_t held) {
     --escape.left;
     const State& x = escape.motion.states.back();
     const double t = escape.motion.end(), can = agility(task_.vehicle).braking;
-    return stop_along(escape.cycle,
-                      {"escape", escape.motion,
-                       road_reference(*task_.road, x, t, x[UX] / can + 1, 0, task_.vehicle)},
-                      kBraking * can, {});
+    Motion path = task_.road ? road_reference(*task_.road, x, t, x[UX] / can + 1, 0, task_.vehicle)
+                             : straight_reference(x, t, 1);
+    return stop_along(escape.cycle, {"escape", escape.motion, std::move(path)}, kBraking * can, {});
   }
   for (const double push : {-1., 0., 1.})
     for (const double side : {1., 0., -1.}) {
@@ -98,12 +99,15 @@ void VerifiedPlanner::escape(Cycle& cycle) {
     option.harm = harm_of(cycle, option.motion());
     if (*option.harm > t0 + kSoon) return;
   }
-  const world::OnRoad on = task_.road->project({X0p[X], X0p[Y]});
-  const double ahead = task_.road->at(on.s + std::max(X0p[UX], 1.)).psi;
   const world::Footprint footprint(task_.vehicle);
   Escape escape{cycle};
-  escape.turn = std::sin(ahead - X0p[PSI]) < 0 ? -1 : 1;
-  escape.edge = std::min(0., footprint.edge_distance(*task_.road, X0p));
+  escape.outside = std::max(0., footprint.outside(task_.region, X0p));
+  if (task_.road) {
+    const world::OnRoad on = task_.road->project({X0p[X], X0p[Y]});
+    const double ahead = task_.road->at(on.s + std::max(X0p[UX], 1.)).psi;
+    escape.turn = std::sin(ahead - X0p[PSI]) < 0 ? -1 : 1;
+    escape.edge = std::min(0., footprint.edge_distance(*task_.road, X0p));
+  }
   escape.motion.add(t0, X0p, {});
   try_escapes(escape, 0);
 }

@@ -128,7 +128,7 @@ class VerifiedPlanner final : public PlanningMethod {
   void adopt(Cycle& cycle, const Proposal& proposal);
   bool stop(Cycle& cycle);
   void stop_elsewhere(Cycle& cycle);
-  void stop_found(Cycle& cycle);
+  bool stop_found(Cycle& cycle);
   struct StandKept;
   bool stop_found_by(Cycle& cycle, const StandKept& kept);
   bool stop_aside(Cycle& cycle);
@@ -141,6 +141,7 @@ class VerifiedPlanner final : public PlanningMethod {
   Motion settled(Motion motion, double until) const;
   bool consider(Cycle& cycle, Proposal proposal, const Course& course = {});
   Proposal judged(const Cycle& cycle, const std::string& name, Motion motion, bool solved = false);
+  double harmful_clearance() const;
   double harm_of(const Cycle& cycle, const Motion& motion);
   Need lesser_need(const Cycle& cycle) const;
   const Option* kept_at_least(Cycle& cycle);

@@ -39,6 +39,8 @@ constexpr int kStopPlaces = 4000, kStopWays = 4;
 constexpr double kStandSpeed = 1.5, kLongestToStand = 20;
 constexpr int kStandTries = 4;
 constexpr double kStandSpare = 0.05;
+/// A wheel load of this share of what the rest of a plan keeps is a wheel that all but lifts.
+constexpr double kHarmfulLoad = 0.5;
 
 }  // namespace
 
@@ -156,21 +158,25 @@ bool VerifiedPlanner::stop(Cycle& cycle) {
 
 /// Stops beside the way or later.
 void VerifiedPlanner::stop_elsewhere(Cycle& cycle) {
-  if (!task_.road) return stop_found(cycle);
-  if (!stop_aside(cycle) && !stop_in_time(cycle)) escape(cycle);
+  if (task_.road ? stop_aside(cycle) || stop_in_time(cycle) : stop_found(cycle)) return;
+  escape(cycle);
 }
 
 /// Stops that a search finds where there is no road: with more room and more gently first, and at
-/// places from which the way goes on, for the vehicle cannot turn where it stands.
-void VerifiedPlanner::stop_found(Cycle& cycle) {
+/// places from which the way goes on, for the vehicle cannot turn where it stands. Whether one is
+/// good.
+bool VerifiedPlanner::stop_found(Cycle& cycle) {
   if (!stand_finder_) stand_finder_.emplace(task_, task_.vehicle, task_.planner.cover_excess);
   constexpr double onwards = 0.85, anywhere = world::Standstill{}.onwards;
   constexpr std::array kStandKept = {
       StandKept{0.4, 0.5, 0.9, 0.9, onwards}, StandKept{0.15, 0.3, 1, 0.95, onwards},
       StandKept{0.05, 0.1, 1.25, 0.97, onwards}, StandKept{0.15, 0.3, 1, 0.95, anywhere},
       StandKept{0.05, 0.1, 1.25, 0.97, anywhere}};
-  for (const StandKept& kept : kStandKept)
-    if (cycle.over() || stop_found_by(cycle, kept)) return;
+  for (const StandKept& kept : kStandKept) {
+    if (cycle.over()) return false;
+    if (stop_found_by(cycle, kept)) return true;
+  }
+  return false;
 }
 
 /// Searches for a place to stand and drives there. An obstacle to which that is too near grows by
@@ -273,12 +279,16 @@ bool VerifiedPlanner::stop_on(Cycle& cycle, const world::RoadWay& found) {
   }
 }
 
-/// When a motion that is refused does harm: its body touches an obstacle or leaves the road. Never,
-/// where the footprint is a point: what it keeps stands for the body then.
+/// What is nearer to an obstacle does harm [m]: a body that touches it, and a point that is nearer
+/// than what stands for the body.
+double VerifiedPlanner::harmful_clearance() const {
+  return task_.vehicle.footprint == FootprintKind::point ? task_.planner.kept_clearance : 0;
+}
+
+/// When a motion that is refused does harm: it is too near to an obstacle or off the road, or a
+/// wheel is near to lifting.
 double VerifiedPlanner::harm_of(const Cycle& cycle, const Motion& motion) {
-  if (task_.vehicle.footprint == FootprintKind::point)
-    return std::numeric_limits<double>::infinity();
-  const Need bare{0, std::numeric_limits<double>::lowest()};
+  const Need bare{harmful_clearance(), kHarmfulLoad * task_.planner.kept_wheel_load};
   const auto certificate =
       verifier_.judge(motion, cycle.obstacles, bare, cycle.looks()).certificate;
   return certificate.verified ? std::numeric_limits<double>::infinity() : certificate.refused_at;

@@ -25,6 +25,9 @@ constexpr double kAccelerationSlack = 0.15, kUxSlack = 0.05, kSteeringSlack = 1e
 constexpr double kStanding = 0.5, kStandingAcceleration = 0.02;
 /// A motion that begins beyond a limit is within it after this [s].
 constexpr double kToComeBack = 1;
+/// One that begins outside the region is within it after this [s], and goes so much further out
+/// meanwhile at the most [m]: a vehicle cannot turn on the spot.
+constexpr double kToReturn = 4, kFurtherOut = 0.5;
 /// Within the goal's square by this much counts as there [m].
 constexpr double kInside = 0.1;
 /// Another goal is reached by so much [its unit].
@@ -113,7 +116,9 @@ WheelLoads Verifier::note_limits(double t, const State& x) {
     if (!(excess.load[w] <= allowed.load[w]))
       refuse(t, fmt::format("wheel load {} of {:.0f} N", kWheelNames[w], loads[w]));
   }
-  if (!(footprint_.outside(task_.region, x) <= 0)) refuse(t, "outside the region");
+  const bool returns = first_outside_ > 0 && t - begin_ < kToReturn;
+  if (!(footprint_.outside(task_.region, x) <= (returns ? first_outside_ + kFurtherOut : 0)))
+    refuse(t, "outside the region");
   if (within_seen(x) < 0 && certificate.refused.empty()) {
     refuse(t, "beyond what is seen");
     verdict_.unseen = true;
@@ -306,6 +311,7 @@ Verdict Verifier::judge(const Motion& motion, const std::vector<world::Obstacle>
   certificate.until = motion.end();
   begin_ = motion.begin();
   first_ = excess_of(motion.states[0], plant_.dynamics().wheel_loads(motion.states[0]));
+  first_outside_ = footprint_.outside(task_.region, motion.states[0]);
   note_first_clearances(motion.states[0]);
   if (task_.road) first_edge_ = footprint_.edge_distance(*task_.road, motion.states[0]);
   WheelLoads loads = note_limits(motion.t[0], motion.states[0]);

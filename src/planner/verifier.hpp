@@ -128,6 +128,7 @@ class Verifier {
   Excess first_;                         ///< at the motion's beginning
   std::vector<double> first_clearance_;  ///< from each obstacle there, beside its margin [m]
   double first_edge_ = 0;                ///< distance from the road's edge there [m]
+  double first_outside_ = 0;             ///< how far it is outside the region there [m]
   Verdict verdict_;
 };
 

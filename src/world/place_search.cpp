@@ -215,12 +215,11 @@ void PlaceSearch::add(Place place) {
   mix(static_cast<double>(place.heading) - goal_.psi, p_.cell_heading, 10);
   mix(v, p_.cell_speed, 6);
   // What goes slowly and hardly moves would be in the cell of the place before it, and never begin
-  // to turn. A body's discs take longer for each place, and it has fewer.
-  const bool fine = body_reach_ == 0;
-  const bool slow = fine && place.moves <= kDrivesOff && v * p_.cell_time < p_.cell_along;
+  // to turn.
+  const bool slow = place.moves <= kDrivesOff && v * p_.cell_time < p_.cell_along;
   const double coarse = p_.cell_curvature * most_curvature(v);
   const double step = p_.curvature_rate * p_.dt * (slow ? 1 : kStepsPerCell);
-  mix(static_cast<double>(place.kappa), fine ? std::min(coarse, step) : coarse, 6);
+  mix(static_cast<double>(place.kappa), std::min(coarse, step), 6);
   mix(t, slow ? std::min(p_.dt, p_.cell_time) : p_.cell_time, 10);
   if (!cells_.insert(key)) return;
   if (road_ != nullptr) place.s = static_cast<float>(along(place));

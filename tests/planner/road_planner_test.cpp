@@ -180,13 +180,13 @@ Task on_straight() {
   return task;
 }
 
-/// Where every motion is refused, for wheel loads that no vehicle has, the one that touches nothing
-/// is driven: beside what stands in the lane, which no stop along it avoids.
+/// Where every motion is refused, for a clearance that there is nowhere, the one that touches
+/// nothing is driven: beside what stands in the lane, which no stop along it avoids.
 TEST(RoadPlanner, OfWhatIsRefusedItDrivesWhatDoesNoHarm) {
   Task task = on_straight();
   const Request request = first();
   const double t = request.t_start;
-  task.planner.verified_wheel_load = task.planner.kept_wheel_load = 1e6;
+  task.planner.verified_clearance = task.planner.kept_clearance = 30;
   task.obstacles = {{"stands", 18, 1.2, 1, 1, 0, 0}};
   const Plan plan = Planner(task).plan(request);
   EXPECT_EQ(plan.rung, Rung::least_bad);

@@ -185,6 +185,24 @@ TEST_F(Scene, ABodyIsWithinTheRegionByItsCorners) {
   EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
 }
 
+// Northwards out of x <= -.3, and back.
+TEST_F(Scene, WhatBeginsOutsideTheRegionReturns) {
+  task.region.x_max = -0.3;
+  EXPECT_NE(judge().certificate.refused.find("outside the region at 5 s"), std::string::npos)
+      << "it stays outside: " << judge().certificate.refused;
+  const Motion straight = motion;
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    motion.states[k][X] = -0.2 * (motion.t[k] - motion.begin());
+  EXPECT_TRUE(judge().certificate.verified) << judge().certificate.refused;
+  motion = straight;
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    motion.states[k][X] = 0.5 * (motion.t[k] - motion.begin());
+  EXPECT_NEAR(judge().certificate.refused_at, 2, 0.1) << "half a metre further out";
+  motion = straight;
+  for (std::size_t k = 0; k < motion.size(); ++k) motion.states[k][X] = 0.2 * motion.t[k] - 0.6;
+  EXPECT_NEAR(judge().certificate.refused_at, 1.5, 0.1) << "it begins inside";
+}
+
 TEST_F(Scene, StandsOnlyWhereItCreepsOnTheRoad) {
   task.goal.y = 500;
   drive(0.1);  // 6 m in the horizon of 60 s

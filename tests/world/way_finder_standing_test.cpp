@@ -15,9 +15,12 @@ TEST(WayFinder, TurnsAsideAsItDrivesOff) {
   w.start = state(0, 0, kPi / 2, 0.12);
   w.environment.region = {-6, 12, -10, 170};
   w.environment.obstacles = {{"wall", -6, 18, 7.2, 1.2, 0, 0}};
-  const auto way = w.find();
-  ASSERT_TRUE(way);
-  EXPECT_GT(clearance(*way, w.environment.obstacles), 0.6);
+  for (const auto footprint : {vehicle::FootprintKind::point, vehicle::FootprintKind::rectangle}) {
+    w.vehicle.footprint = footprint;
+    const auto way = w.find();
+    ASSERT_TRUE(way) << static_cast<int>(footprint);
+    EXPECT_GT(clearance(*way, w.environment.obstacles), 0.6);
+  }
 }
 
 TEST(WayFinder, FrontWheelsThatPointAsideLeadThere) {
