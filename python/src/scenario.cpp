@@ -235,7 +235,7 @@ std::vector<std::string> names_of(const List& files) {
 Scenario scenario_of(const ScenarioChoice& choice, const Changes& changes) {
   if (const auto* loaded = std::get_if<Scenario>(&choice)) {
     if (changes.none()) return *loaded;
-    return io::parse_scenario(io::to_yaml(*loaded),
+    return io::parse_scenario(io::to_yaml_as_stated(*loaded),
                               request_of("scenario " + loaded->name, changes));
   }
   if (const auto* dictionary = std::get_if<ByName<nb::any>>(&choice))

@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import pickle
 import re
 import signal
 import threading
@@ -63,6 +64,15 @@ def test_values_of_a_scenario():
     assert changed["loop.timeout"] == 1 and scenario.goal.x == 200
     with pytest.raises(KeyError, match="perhaps 'planner.w_t'"):
         scenario["planner.wt"]
+
+
+def test_a_margin_that_is_not_stated_follows_the_footprint():
+    rectangle = {"vehicle.footprint": "rectangle"}
+    plain, stated = slalom.load_scenario("E_C"), slalom.load_scenario("E_C", set={"loop.sm_crash": 2})
+    assert plain["loop.sm_crash"] == 2 and plain.replace(set=rectangle)["loop.sm_crash"] == 0
+    assert pickle.loads(pickle.dumps(plain)).replace(set=rectangle)["loop.sm_crash"] == 0
+    assert plain.replace(set=rectangle).replace(set={"vehicle.footprint": "point"})["loop.sm_crash"] == 2
+    assert stated.replace(set=rectangle)["loop.sm_crash"] == 2
 
 
 def test_a_scenario_as_a_dict_or_a_file(tmp_path):
