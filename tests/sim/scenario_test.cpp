@@ -78,6 +78,22 @@ TEST(Scenario, StartOutsideItsBoundsIsRefused) {
   expect_refused([](Scenario& s) { s.loop.Fz_failure = 6500; }, "Fz_r");
 }
 
+TEST(Scenario, AModelThatHoldsTheSpeedIsRefusedFromRest) {
+  const auto held = [](double ux, double ax) {
+    return [ux, ax](Scenario& s) {
+      s.planner.model = vehicle::ModelKind::constant_speed;
+      s.vehicle.ux_min = 0.01;
+      s.start[vehicle::UX] = ux;
+      s.start[vehicle::AX] = ax;
+    };
+  };
+  EXPECT_EQ(message(held(10, 0)), "accepted");
+  expect_refused(held(0, 0),
+                 "start: found ux = 0, expected more than 0, for planner model constant_speed");
+  expect_refused(held(10, 0.5),
+                 "start: found ax = 0.5, expected 0, for planner model constant_speed");
+}
+
 TEST(Scenario, APlannerThatVerifiesLessThanADriveFailsByIsRefused) {
   const auto verified = [](auto change) {
     return [change](Scenario& s) {
