@@ -94,6 +94,15 @@ TEST(Scenario, AModelThatHoldsTheSpeedIsRefusedFromRest) {
                  "start: found ax = 0.5, expected 0, for planner model constant_speed");
 }
 
+TEST(Scenario, NoiseHasBounds) {
+  using S = SensingSettings;
+  for (const auto noise : {&S::position_noise, &S::heading_noise, &S::speed_noise,
+                           &S::yaw_rate_noise, &S::obstacle_position_noise})
+    expect_refused([&](Scenario& s) { s.sensing.*noise = 1e7; }, "noise = 10000000, expected");
+  expect_refused([](Scenario& s) { s.sensing.obstacle_velocity_factor = -1e4; },
+                 "obstacle_velocity_factor = -10000, expected");
+}
+
 TEST(Scenario, APlannerThatVerifiesLessThanADriveFailsByIsRefused) {
   const auto verified = [](auto change) {
     return [change](Scenario& s) {
