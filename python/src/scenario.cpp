@@ -6,6 +6,7 @@
 
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
+#include "slalom/sim/advice.hpp"
 #include "solved.hpp"
 
 namespace slalom::python {
@@ -215,6 +216,14 @@ void bind_class(nb::module_& module) {
           "vehicle"_a = nb::none(),
           "The scenario with another planner, execution horizon [s], vehicle or other values by "
           "key, checked anew.")
+      .def(
+          "advice",
+          [](const Scenario& s) {
+            const nb::gil_scoped_release unlock;
+            return sim::advice(s);
+          },
+          "What is likely to go wrong in a drive of it, in a sentence each, as `slalom check` "
+          "notes it. Takes\nup to a second.")
       .def(
           "to_yaml", [](const Scenario& s) { return io::to_yaml(s); }, doc::io_to_yaml)
       .def("__repr__", [](const Scenario& s) {

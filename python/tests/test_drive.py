@@ -33,6 +33,17 @@ def test_a_drive_arrives():
     assert drive.scenario["planner.w_t"] == 100
 
 
+def test_what_the_outcome_does_not_show():
+    behind = slalom.load_scenario({**MINE, "goal": {"x": -60, "y": 0, "sigma": 8}, "obstacles": []},
+                                  set={"loop.timeout": 15})
+    assert any("behind" in sentence for sentence in behind.advice())
+    assert slalom.load_scenario("E_B").advice() == []
+    lorry = {"name": "lorry", "x": 10, "y": 4, "r": 1.5}
+    drive = slalom.simulate({**MINE, "obstacles": [lorry]}, set={"loop.sm_crash": 0, "vehicle.width": 9})
+    assert [text.split(": ")[0] for text in drive.marks].count("body_overlap") == 1, drive.marks
+    assert all(len(text.split(": ", 1)[1]) > 20 for text in drive.marks)
+
+
 def test_another_vehicle_is_chosen_by_name():
     assert {"hmmwv", "bmw_320i"} <= set(slalom.vehicle_names())
     car = slalom.load_scenario("E_B", vehicle="bmw_320i")
