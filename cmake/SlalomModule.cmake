@@ -155,9 +155,13 @@ function(slalom_test_module name)
   slalom_test_program(test_${name}_slow "${libraries}" slow ${slow_sources})
 endfunction()
 
-# GCC 12's leak sanitizer takes rubbish for a library's thread-local blocks ("Tracer caught signal 11",
-# as memory happens to lie) unless it is told not to follow them.
-set(SLALOM_SANITIZER_OPTIONS ASAN_OPTIONS=intercept_tls_get_addr=0)
+# slalom_sanitizer_defaults(TARGET): what the address sanitizer does in a program unless a user's
+# ASAN_OPTIONS say otherwise; after slalom_batches().
+function(slalom_sanitizer_defaults target)
+  if(SLALOM_SANITIZE AND NOT SLALOM_SANITIZE MATCHES "^(thread|fuzzer)$")
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/sanitizer_defaults.cpp)
+  endif()
+endfunction()
 
 function(slalom_test_program target libraries label)
   if(NOT ARGN)
@@ -165,6 +169,7 @@ function(slalom_test_program target libraries label)
   endif()
   add_executable(${target} EXCLUDE_FROM_ALL ${ARGN})
   slalom_batches(${target})
+  slalom_sanitizer_defaults(${target})
   target_link_libraries(${target} PRIVATE ${libraries} GTest::gtest GTest::gtest_main)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${target} PRIVATE SLALOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
@@ -177,7 +182,7 @@ function(slalom_test_program target libraries label)
     foreach(half 0 1)
       add_test(NAME ${target}_${half} COMMAND ${target} --gtest_brief=1)
       set_tests_properties(${target}_${half} PROPERTIES LABELS ${label} TIMEOUT 1800
-        ENVIRONMENT "${SLALOM_SANITIZER_OPTIONS};GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${half}")
+        ENVIRONMENT "GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${half}")
     endforeach()
     return()
   endif()

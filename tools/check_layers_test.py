@@ -106,6 +106,9 @@ class CheckLayers(unittest.TestCase):
         self.assert_wrong("src/sim/x.cpp", "\n" * 401, "401 lines, more than 400")
         self.assert_wrong("tests/sim/x_test.cpp", "\n" * 401, "401 lines, more than 400")
         self.assert_wrong("python/tests/test_x.py", "\n" * 401, "401 lines, more than 400")
+        for file in ("tests/browser/x.mjs", "viewer/x.css", "viewer/x.html", "cmake/X.cmake", "src/CMakeLists.txt",
+                     "CMakeLists.txt"):
+            self.assert_wrong(file, "\n" * 401, f"{file}: 401 lines, more than 400")
 
     def test_empty_tree_is_no_success(self):
         self.assertEqual(self.run_on({"README.md": ""}).returncode, 1)

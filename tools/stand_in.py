@@ -13,7 +13,7 @@ import re
 import sys
 
 MEASURES = {"outcome": "goal", "hit": "", "message": "reached the goal", "time_s": 12, "goal_time_s": 12, "cycles": 20,
-            "failed_cycles": 0, "new_plans": 20, "rests": 0, "least_bads": 0, "least_clearance_m": 0.5,
+            "failed_cycles": 0, "new_plans": 20, "rests": 0, "least_bads": 0, "marks": "", "least_clearance_m": 0.5,
             "least_clearance_obstacle": "O2", "least_wheel_load_N": 1500, "median_cpu_time_s": 0.001,
             "p99_cpu_time_s": 0.002, "max_cpu_time_s": 0.003, "max_solve_time_s": 0.004}  # fmt: skip
 BUILT_IN = "scenario: E_C\nplanners: [P_C, P_D]\n"  # a study that is named and no file

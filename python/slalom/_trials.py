@@ -12,7 +12,7 @@ from typing import Any
 
 from ._core import trials_csv
 
-TEXT = {"scenario", "planner", "outcome", "hit", "least_clearance_obstacle", "identity", "message"}
+TEXT = {"scenario", "planner", "outcome", "hit", "least_clearance_obstacle", "marks", "identity", "message"}
 COUNTS = {"trial", "repeat", "cycles", "failed_cycles", "iterations", "new_plans", "rests", "least_bads"}
 
 

@@ -12,6 +12,7 @@
 #include "slalom/io/drive_files.hpp"
 #include "slalom/io/results_folder.hpp"
 #include "slalom/sim/closed_loop.hpp"
+#include "slalom/sim/marks.hpp"
 
 namespace slalom::python {
 namespace {
@@ -89,6 +90,16 @@ void bind_outcome(nb::class_<Driven>& type) {
           "hit", [](const Driven& d) { return d.drive.hit; }, doc::sim_Drive_hit)
       .def_prop_ro(
           "message", [](const Driven& d) { return d.drive.message; }, doc::sim_Drive_message)
+      .def_prop_ro(
+          "marks",
+          [](const Driven& d) {
+            std::vector<std::string> texts;
+            for (const auto& mark : sim::marks(d.scenario, d.drive))
+              texts.push_back(mark.kind + ": " + mark.text);
+            return texts;
+          },
+          "What the outcome does not show, as `slalom simulate` warns of it: the kind, as in "
+          "summary.json, ': '\nand a sentence each.")
       .def_prop_ro(
           "least_clearance", [](const Driven& d) { return d.drive.least_clearance; },
           doc::sim_Drive_least_clearance)

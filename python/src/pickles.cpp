@@ -19,7 +19,7 @@ void refuse(nb::module_& module, const char* name, const std::string& instead) {
 
 void bind_pickles(nb::module_& module) {
   nb::borrow<nb::class_<sim::Scenario>>(module.attr("Scenario"))
-      .def("__getstate__", [](const sim::Scenario& s) { return io::to_yaml(s); })
+      .def("__getstate__", [](const sim::Scenario& s) { return io::to_yaml_as_stated(s); })
       .def("__setstate__", [](sim::Scenario& s, const std::string& yaml) {
         new (&s) sim::Scenario(io::parse_scenario(yaml, "a pickled scenario"));
       });

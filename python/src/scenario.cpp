@@ -6,6 +6,7 @@
 
 #include "slalom/base/error.hpp"
 #include "slalom/io/scenario_file.hpp"
+#include "slalom/sim/advice.hpp"
 #include "solved.hpp"
 
 namespace slalom::python {
@@ -216,6 +217,14 @@ void bind_class(nb::module_& module) {
           "The scenario with another planner, execution horizon [s], vehicle or other values by "
           "key, checked anew.")
       .def(
+          "advice",
+          [](const Scenario& s) {
+            const nb::gil_scoped_release unlock;
+            return sim::advice(s);
+          },
+          "What is likely to go wrong in a drive of it, in a sentence each, as `slalom check` "
+          "notes it. Takes\nup to a second.")
+      .def(
           "to_yaml", [](const Scenario& s) { return io::to_yaml(s); }, doc::io_to_yaml)
       .def("__repr__", [](const Scenario& s) {
         return "<Scenario " + s.name + ": " + std::to_string(s.obstacles.size()) +
@@ -235,7 +244,7 @@ std::vector<std::string> names_of(const List& files) {
 Scenario scenario_of(const ScenarioChoice& choice, const Changes& changes) {
   if (const auto* loaded = std::get_if<Scenario>(&choice)) {
     if (changes.none()) return *loaded;
-    return io::parse_scenario(io::to_yaml(*loaded),
+    return io::parse_scenario(io::to_yaml_as_stated(*loaded),
                               request_of("scenario " + loaded->name, changes));
   }
   if (const auto* dictionary = std::get_if<ByName<nb::any>>(&choice))

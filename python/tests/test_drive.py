@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import pickle
 import re
 import signal
 import threading
@@ -30,6 +31,17 @@ def test_a_drive_arrives():
     assert all(np.isfinite(p.states).all() for p in drive.plans)
     assert [c.index for c in drive.cycles] == list(range(len(drive.cycles)))
     assert drive.scenario["planner.w_t"] == 100
+
+
+def test_what_the_outcome_does_not_show():
+    behind = slalom.load_scenario({**MINE, "goal": {"x": -60, "y": 0, "sigma": 8}, "obstacles": []},
+                                  set={"loop.timeout": 15})
+    assert any("behind" in sentence for sentence in behind.advice())
+    assert slalom.load_scenario("E_B").advice() == []
+    lorry = {"name": "lorry", "x": 10, "y": 4, "r": 1.5}
+    drive = slalom.simulate({**MINE, "obstacles": [lorry]}, set={"loop.sm_crash": 0, "vehicle.width": 9})
+    assert [text.split(": ")[0] for text in drive.marks].count("body_overlap") == 1, drive.marks
+    assert all(len(text.split(": ", 1)[1]) > 20 for text in drive.marks)
 
 
 def test_another_vehicle_is_chosen_by_name():
@@ -63,6 +75,15 @@ def test_values_of_a_scenario():
     assert changed["loop.timeout"] == 1 and scenario.goal.x == 200
     with pytest.raises(KeyError, match="perhaps 'planner.w_t'"):
         scenario["planner.wt"]
+
+
+def test_a_margin_that_is_not_stated_follows_the_footprint():
+    rectangle = {"vehicle.footprint": "rectangle"}
+    plain, stated = slalom.load_scenario("E_C"), slalom.load_scenario("E_C", set={"loop.sm_crash": 2})
+    assert plain["loop.sm_crash"] == 2 and plain.replace(set=rectangle)["loop.sm_crash"] == 0
+    assert pickle.loads(pickle.dumps(plain)).replace(set=rectangle)["loop.sm_crash"] == 0
+    assert plain.replace(set=rectangle).replace(set={"vehicle.footprint": "point"})["loop.sm_crash"] == 2
+    assert stated.replace(set=rectangle)["loop.sm_crash"] == 2
 
 
 def test_a_scenario_as_a_dict_or_a_file(tmp_path):

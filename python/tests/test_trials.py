@@ -31,7 +31,7 @@ def test_a_table_has_the_columns_and_rows_of_the_file(folder):
     assert [table["trial"].type, table["cycles"].type, table["loop.tex"].type, table["time_s"].type] == [
         pa.int64(), pa.int64(), pa.float64(), pa.float64()]
     # Words stay words, whatever they look like.
-    for name in ("planner.scheme", "planner.X0_tol", "title", "scenario", "identity", "message"):
+    for name in ("planner.scheme", "planner.X0_tol", "title", "scenario", "marks", "identity", "message"):
         assert table[name].type == pa.string(), name
     for name, column in zip(table.column_names, table.columns):
         for value, row in zip(column.to_pylist(), rows):

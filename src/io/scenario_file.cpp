@@ -60,10 +60,8 @@ class Loader {
     read_names();
     for (const auto& section : scenario_sections()) read_section(section);
     apply_command_line();
-    // The default margin makes up for the body that a point has not.
-    if (scenario_.vehicle.footprint != vehicle::FootprintKind::point &&
-        places_.count("loop.sm_crash") == 0)
-      scenario_.loop.sm_crash = 0;
+    scenario_.sm_crash_follows = true;
+    follow_footprint(scenario_, places_);
     check_goal_keys(scenario_, places_);
     scenario_.goal = world::placed(scenario_.goal, scenario_.road.get());
     if (const auto numbers = numbers_in_tables(scenario_); numbers > kMaxNumbers)

@@ -30,17 +30,18 @@ std::string yaml_value(const OptionInfo& info, const OptionValue& value) {
   return to_string(value);
 }
 
-/// "  key: value" for every key.
-std::string block(const Section& section) {
+/// "  key: value" for every key that is not to be left out.
+std::string block(const Section& section, const std::set<std::string>& without) {
   std::string text;
   for (const auto& field : section.fields())
-    text += fmt::format("  {}: {}\n", field.info.name, yaml_value(field.info, field.load()));
+    if (without.count(field.info.name) == 0)
+      text += fmt::format("  {}: {}\n", field.info.name, yaml_value(field.info, field.load()));
   return text;
 }
 
 /// "{key: value, ...}" for every key that is not infinite (an absent side), not another way to
 /// write one of the others, and not to be left out.
-std::string flow(const Section& section, const std::set<std::string>& without = {}) {
+std::string flow(const Section& section, const std::set<std::string>& without) {
   std::string text;
   for (const auto& field : section.fields()) {
     const auto value = field.load();
@@ -63,8 +64,10 @@ std::set<std::string> left_out(const world::Obstacle& o) {
   return names;
 }
 
-/// Where a goal of the road lies follows from the road.
-std::set<std::string> left_out(const ScenarioSection& section, const sim::Scenario& scenario) {
+/// Where a goal of the road lies follows from the road; `as_stated` leaves out what else follows.
+std::set<std::string> left_out(const ScenarioSection& section, const sim::Scenario& scenario,
+                               bool as_stated) {
+  if (section.name == "loop" && as_stated && scenario.sm_crash_follows) return {"sm_crash"};
   if (section.name != "goal") return {};
   if (!scenario.goal.is_place()) return {"x", "y", "psi", "sigma"};
   return scenario.goal.kind() == world::GoalKind::rectangle ? std::set<std::string>{"sigma"}
@@ -82,18 +85,30 @@ std::string list(std::vector<world::Obstacle>& obstacles) {
 }
 
 /// What stands behind "section:".
-std::string content(const ScenarioSection& section, sim::Scenario& scenario) {
+std::string content(const ScenarioSection& section, sim::Scenario& scenario, bool as_stated) {
+  const auto without = left_out(section, scenario, as_stated);
   switch (section.form) {
     case ScenarioSection::Form::flow:
-      return " " + flow(section.bind(scenario), left_out(section, scenario)) + "\n";
+      return " " + flow(section.bind(scenario), without) + "\n";
     case ScenarioSection::Form::block:
-      return "\n" + block(section.bind(scenario));
+      return "\n" + block(section.bind(scenario), without);
     case ScenarioSection::Form::list:
       return list(scenario.obstacles);
     case ScenarioSection::Form::road:
       return road_text(*scenario.road);
   }
   return "\n";
+}
+
+std::string whole_text(const sim::Scenario& scenario, bool as_stated) {
+  std::string text = "# Everything resolved: this file alone gives the drive. SI units, radians.\n";
+  text += fmt::format("name: {}\ntitle: {}\n", yaml_text(scenario.name), yaml_text(scenario.title));
+  auto copy = scenario;  // sections are bound to what they could also set
+  for (const auto& section : scenario_sections()) {
+    if (section.form == ScenarioSection::Form::road && !scenario.road) continue;
+    text += fmt::format("{}:{}", section.name, content(section, copy, as_stated));
+  }
+  return text;
 }
 
 }  // namespace
@@ -118,14 +133,11 @@ std::string yaml_rows(const std::vector<std::vector<double>>& rows, const std::s
 }
 
 std::string to_yaml(const sim::Scenario& scenario) {
-  std::string text = "# Everything resolved: this file alone gives the drive. SI units, radians.\n";
-  text += fmt::format("name: {}\ntitle: {}\n", yaml_text(scenario.name), yaml_text(scenario.title));
-  auto copy = scenario;  // sections are bound to what they could also set
-  for (const auto& section : scenario_sections()) {
-    if (section.form == ScenarioSection::Form::road && !scenario.road) continue;
-    text += fmt::format("{}:{}", section.name, content(section, copy));
-  }
-  return text;
+  return whole_text(scenario, false);
+}
+
+std::string to_yaml_as_stated(const sim::Scenario& scenario) {
+  return whole_text(scenario, true);
 }
 
 }  // namespace slalom::io

@@ -55,6 +55,14 @@ void check_scenario(const sim::Scenario& scenario, const Place& whole, const Pla
   }
 }
 
+void follow_footprint(sim::Scenario& scenario, const Places& stated) {
+  if (stated.count("loop.sm_crash") > 0) scenario.sm_crash_follows = false;
+  if (!scenario.sm_crash_follows) return;
+  // The default margin makes up for the body that a point has not.
+  const bool point = scenario.vehicle.footprint == vehicle::FootprintKind::point;
+  scenario.loop.sm_crash = point ? sim::LoopSettings{}.sm_crash : 0;
+}
+
 void check_goal_keys(const sim::Scenario& scenario, const Places& stated) {
   const auto kind = scenario.goal.kind();
   if (kind == world::GoalKind::square) return;

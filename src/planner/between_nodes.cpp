@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace slalom::planner {
@@ -87,8 +88,8 @@ struct Body {
 /// Looks for where an interval is deepest within an obstacle's margin.
 class Search {
  public:
-  Search(const Interval& interval, const world::Footprint& footprint, double held, double margin,
-         Passage& deepest)
+  Search(const Interval& interval, const world::Footprint& footprint, std::optional<double> held,
+         double margin, Passage& deepest)
       : interval_(interval),
         footprint_(footprint),
         held_(held),
@@ -104,7 +105,7 @@ class Search {
     const world::Obstacle& o = body.obstacle;
     if (!o.present(begin_, end_)) return;
     const double moving =
-        o.trajectory && held_ < 0 ? o.fastest(begin_, end_) + o.margin_rate : body.moving;
+        o.trajectory && !held_ ? o.fastest(begin_, end_) + o.margin_rate : body.moving;
     const double rate = (interval_.most_speed + moving) * interval_.length + turning_;
     // Far ones, which are most, are told by the distance between centres.
     const double near = body.reach + o.margin(begin_) - deepest_.depth + rate;
@@ -117,7 +118,7 @@ class Search {
 
  private:
   double time(double share) const {
-    return held_ >= 0 ? held_ : interval_.t0 + share * interval_.length;
+    return held_.value_or(interval_.t0 + share * interval_.length);
   }
   double depth(double share) {
     const double d = margin_ + obstacle_->margin(time(share)) -
@@ -138,7 +139,8 @@ class Search {
 
   const Interval& interval_;
   const world::Footprint& footprint_;
-  const double held_, margin_;
+  const std::optional<double> held_;
+  const double margin_;
   const double begin_, end_;  ///< [s]
   const double turning_;      ///< what a body's turn adds to the rate [m]
   Passage& deepest_;
@@ -206,11 +208,11 @@ class EdgeSearch {
 Passage deepest_passage(const Plan& plan, const std::vector<world::Obstacle>& obstacles,
                         double margin, const world::Footprint& footprint, double la) {
   Passage deepest;
-  const bool held = plan.obstacle_time_held >= 0;
   std::vector<Body> bodies;
   for (const auto& o : obstacles)
-    bodies.push_back({o, o.reach() + footprint.reach() + margin,
-                      held || o.trajectory ? 0 : o.fastest(0, 0) + o.margin_rate});
+    bodies.push_back(
+        {o, o.reach() + footprint.reach() + margin,
+         plan.obstacle_time_held || o.trajectory ? 0 : o.fastest(0, 0) + o.margin_rate});
   for (std::size_t k = 0; k + 1 < plan.t.size(); ++k) {
     if (!(plan.t[k + 1] > plan.t[k])) return deepest;
     const Interval i = interval(plan, k, la);
@@ -224,8 +226,7 @@ double deepest_at_nodes(const Plan& plan, const std::vector<world::Obstacle>& ob
                         double margin, const world::Footprint& footprint) {
   double deepest = 0;
   for (std::size_t k = 0; k < plan.t.size(); ++k) {
-    const double t =
-        plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[k];
+    const double t = plan.obstacle_time(k);
     for (const auto& o : obstacles)
       if (o.present(t, t))
         deepest =

@@ -242,7 +242,7 @@ RecedingHorizon::Attempt RecedingHorizon::read(const Cycle& cycle, int intervals
   plan.goal_in_range = cycle.way.in_range;
   plan.t_start = cycle.request.t_start;
   plan.tf = trajectory.tf;
-  plan.obstacle_time_held = settings_.moving_avoidance ? -1 : cycle.request.t0;
+  if (!settings_.moving_avoidance) plan.obstacle_time_held = cycle.request.t0;
   const std::size_t points = trajectory.tau.size();
   plan.t.reserve(points);
   plan.states.resize(points);
@@ -272,8 +272,7 @@ std::string RecedingHorizon::what_blocks(const Plan& plan) const {
     const auto node = std::strtoul(row.c_str() + found + part.size(), &end, 10);
     const auto k = node * (plan.t.size() - 1) / static_cast<std::size_t>(settings_.N);  // points
     if (*end != '\0' || k >= plan.t.size() || !(plan.tf > 0)) return plain;
-    const double t =
-        plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[k];
+    const double t = plan.obstacle_time(k);
     const double margin = settings_.sm_start +
                           (settings_.sm_end - settings_.sm_start) * plan.t[k] / plan.tf +
                           o.margin(t);

@@ -38,7 +38,7 @@ Json plan_data(const planner::Plan& plan, std::size_t nodes) {
   json["t_start"] = rounded(plan.t_start, kTimeDigits);
   json["tf"] = rounded(plan.tf, kTimeDigits);
   json["held"] =
-      plan.obstacle_time_held >= 0 ? rounded(plan.obstacle_time_held, kTimeDigits) : Json(nullptr);
+      plan.obstacle_time_held ? rounded(*plan.obstacle_time_held, kTimeDigits) : Json(nullptr);
   json["t"] = Json::array();
   for (const auto k : indices) json["t"].push_back(rounded(plan.t[k], kTimeDigits));
   for (std::size_t i = 0; i < vehicle::kStates; ++i) {
@@ -86,7 +86,7 @@ std::optional<Blocker> blocker_of(const sim::Scenario& scenario, const planner::
     if (found && o.name.size() <= found->name.size()) continue;
     if (plan.report.blocks.starts_with(o.name + " in the way: "))
       found = {o.name,
-               plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : time_of_row(plan, o.name)};
+               plan.obstacle_time_held ? *plan.obstacle_time_held : time_of_row(plan, o.name)};
     else if (refused &&
              (certificate.refused.starts_with("clearance to " + o.name + " at ") ||
               certificate.refused.starts_with("standing in the way of " + o.name + " at ")))

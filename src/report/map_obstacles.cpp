@@ -85,8 +85,8 @@ void draw_obstacles(Svg& svg, const Map& map, const View& view) {
 }
 
 void draw_held_obstacles(Svg& svg, const Map& map, const MapVehicle& v, const View& view) {
-  const double t = v.plan->obstacle_time_held;
-  if (t < 0) return;
+  if (!v.plan->obstacle_time_held) return;
+  const double t = *v.plan->obstacle_time_held;
   for (const auto& o : map.scenario->obstacles)
     if (o.moves() && o.present(t, t))
       draw_shape(svg, o.grown(map.scenario->loop.sm_crash), t, view, {},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slalom/base/error.hpp"
 #include "slalom/base/timer.hpp"
 
 namespace slalom::sim {
@@ -59,6 +60,14 @@ Cycle Planning::cycle(int index, double t0, const History& history, const Actuat
     return cycle;
   }
   const planner::Request request = this->request(cycle, last_was_late);
+  try {
+    planner::check(request, "request");
+  } catch (const InvalidValue& error) {
+    // What is measured and predicted may be of no vehicle.
+    cycle.plan.report.status = planner::PlanStatus::no_prediction;
+    cycle.plan.report.detail = error.what();
+    return cycle;
+  }
   const Timer timer;
   cycle.plan = plan_(request);
   cycle.solve_time = std::max(timer.wall(), cycle.plan.report.wall_s);

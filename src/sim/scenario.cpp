@@ -120,6 +120,20 @@ void check_start_bounds(const Scenario& s, const vehicle::Parameters& driven,
                          {"start", "loop.Fz_failure", "plant.cg_shift", "plant.mass_factor"});
 }
 
+/// A model that holds the speed begins with one.
+void check_held_speed(const Scenario& s, const std::string& where) {
+  if (s.planner.model != vehicle::ModelKind::constant_speed) return;
+  const auto refuse = [&](vehicle::StateIndex index, const char* expected) {
+    const std::string name = vehicle::kStateNames[index];
+    throw InvalidValue(
+        where + ": start", fmt::format("{} = {:.9g}", name, s.start[index]),
+        fmt::format("{}, for planner model constant_speed holds the speed", expected),
+        {"start." + name, "planner.model"});
+  };
+  if (s.start[vehicle::AX] != 0) refuse(vehicle::AX, "0");
+  if (s.start[vehicle::UX] == 0) refuse(vehicle::UX, "more than 0");
+}
+
 void check_start_clear(const Scenario& s, const std::string& where) {
   const world::Footprint footprint(s.vehicle);
   for (const auto& obstacle : s.obstacles) {
@@ -277,11 +291,7 @@ void check(const Scenario& scenario, const std::string& where) {
                        fmt::format("at most tf_max = {}", scenario.planner.tf_max),
                        {"loop.tex", "planner.tf_max"});
   check_start_bounds(scenario, plant_vehicle(scenario.vehicle, scenario.plant, where), where);
-  if (scenario.planner.model == vehicle::ModelKind::constant_speed &&
-      scenario.start[vehicle::AX] != 0)
-    throw InvalidValue(where + ": start", fmt::format("ax = {:.9g}", scenario.start[vehicle::AX]),
-                       "0, for planner model constant_speed holds the speed",
-                       {"start.ax", "planner.model"});
+  check_held_speed(scenario, where);
   check_start_clear(scenario, where);
   check_goal(scenario, where);
   check_road(scenario, where);

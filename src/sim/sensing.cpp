@@ -27,27 +27,30 @@ void disturb(double& value, double sigma, NormalDraws& draws) {
 const OptionTable<SensingSettings>& sensing_options() {
   using S = SensingSettings;
   static const auto table = [] {
-    const auto noise = Range::non_negative();
+    // Far beyond what anyone measures by; what a planner cannot take of it ends a drive.
+    const auto place = Range::closed(0, 1e6), angle = Range::closed(0, 100);
+    const auto speed = Range::closed(0, 1e3);
     OptionTable<SensingSettings> options;
     options
-        .real("position_noise", &S::position_noise, noise, "m",
+        .real("position_noise", &S::position_noise, place, "m",
               "Standard deviation of the vehicle's measured x, and of y.")
-        .real("heading_noise", &S::heading_noise, noise, "rad",
+        .real("heading_noise", &S::heading_noise, angle, "rad",
               "Standard deviation of the measured psi.")
-        .real("speed_noise", &S::speed_noise, noise, "m/s",
+        .real("speed_noise", &S::speed_noise, speed, "m/s",
               "Standard deviation of the measured ux, and of v.")
-        .real("yaw_rate_noise", &S::yaw_rate_noise, noise, "rad/s",
+        .real("yaw_rate_noise", &S::yaw_rate_noise, angle, "rad/s",
               "Standard deviation of the measured r.")
         .integer("noise_seed", &S::noise_seed, Range::closed(0, 2147483647), "1",
                  "Of all noise, which is drawn once a cycle: the same seed gives the same drive.")
         .real("delay", &S::delay, Range::closed(0, 10), "s",
               "Age of the vehicle's measured state, which the planner takes for the present one; "
               "until then it is told the state at the start.")
-        .real("obstacle_velocity_factor", &S::obstacle_velocity_factor, Range::any(), "1",
+        .real("obstacle_velocity_factor", &S::obstacle_velocity_factor, Range::closed(-1e3, 1e3),
+              "1",
               "Believed over true velocity of obstacles; those that move by a table or a path are "
               "believed to go through it so much faster. Where they are when planning begins is "
               "measured right, so the error grows with time from there.")
-        .real("obstacle_position_noise", &S::obstacle_position_noise, noise, "m",
+        .real("obstacle_position_noise", &S::obstacle_position_noise, place, "m",
               "Standard deviation of the measured x, and of y, of each obstacle.");
     return options;
   }();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "slalom/base/error.hpp"
 #include "slalom/base/kernels.hpp"
@@ -129,6 +130,7 @@ TrialRecord read_trial(const Statement& statement, const SweepTable& study, cons
   r.new_plans = row.count();
   r.rests = row.count();
   r.least_bads = row.count();
+  r.marks = row.text();
   return r;
 }
 
@@ -169,11 +171,19 @@ SweepTable read_study(const Database& database, const fs::path& file) {
   return study;
 }
 
-std::string select_trials(const char* rest) {
-  return fmt::format("SELECT {} FROM trials {}", kTrialColumns, rest);
+std::string select_trials(const Database& database, const char* rest) {
+  std::string columns = kTrialColumns;
+  constexpr std::string_view marks = "marks";
+  if (!has_marks(database)) columns.replace(columns.size() - marks.size(), marks.size(), "''");
+  return fmt::format("SELECT {} FROM trials {}", columns, rest);
 }
 
 }  // namespace
+
+bool has_marks(const Database& database) {
+  return Statement(database, "SELECT 1 FROM pragma_table_info('trials') WHERE name = 'marks'")
+      .step();
+}
 
 /// One store, read trial by trial.
 class TrialStream::Cursor {
@@ -181,7 +191,8 @@ class TrialStream::Cursor {
   explicit Cursor(const fs::path& file) : file_(file), database_(file, Database::Mode::read) {
     study_ = read_study(database_, file);
     if (study_.identity.empty()) return;
-    rows_ = std::make_unique<Statement>(database_, select_trials("ORDER BY trial").c_str());
+    rows_ =
+        std::make_unique<Statement>(database_, select_trials(database_, "ORDER BY trial").c_str());
     advance();
   }
 
@@ -266,7 +277,7 @@ std::optional<TrialRecord> stored_trial(const fs::path& file, std::int64_t numbe
   const Database database(file, Database::Mode::read);
   const auto study = read_study(database, file);
   if (study.identity.empty()) return std::nullopt;
-  Statement row(database, select_trials("WHERE trial = ?").c_str());
+  Statement row(database, select_trials(database, "WHERE trial = ?").c_str());
   row.bind(1, number);
   if (!row.step()) return std::nullopt;
   return read_trial(row, study, file);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "slalom/report/sweep_table.hpp"
+#include "sqlite.hpp"
 
 namespace slalom::sweep {
 
@@ -30,6 +31,10 @@ class TrialStream {
   class Cursor;
   std::vector<std::unique_ptr<Cursor>> cursors_;
 };
+
+/// Whether trials of a store have the column `marks`: those of earlier versions have none, are read
+/// without and get it when they are gone on with.
+bool has_marks(const Database& database);
 
 /// The study whose trials a store holds, without these; its identity is empty when the store states
 /// none yet.

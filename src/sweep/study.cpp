@@ -291,6 +291,7 @@ sim::Scenario resolve_trial(sim::Scenario base, const TrialKeys& keys, const Tri
   }
   vehicle::derive(base.vehicle, io::stated_of_vehicle(keys.axes),
                   {keys.stated.begin(), keys.stated.end()});
+  io::follow_footprint(base, places);
   io::check_goal_keys(base, places);
   base.goal = world::placed(base.goal, base.road.get());
   io::check_scenario(base, {where, 0, 0}, places);
@@ -299,7 +300,11 @@ sim::Scenario resolve_trial(sim::Scenario base, const TrialKeys& keys, const Tri
 
 std::vector<std::string> Study::resolved_bases() const {
   std::vector<std::string> resolved;
-  for (const auto& base : bases) resolved.push_back(io::to_yaml(base));
+  const auto keys = columns();
+  // What follows from an axis must not be stated; all else is, for studies to stay what they are.
+  const bool varied = std::find(keys.begin(), keys.end(), "vehicle.footprint") != keys.end();
+  for (const auto& base : bases)
+    resolved.push_back(varied ? io::to_yaml_as_stated(base) : io::to_yaml(base));
   return resolved;
 }
 

@@ -158,6 +158,7 @@ class BaseReader {
       for (const auto& assignment : overrides_) io::apply_override(assignment, scenario, places_);
       io::check_goal_keys(scenario, places_);
     });
+    io::follow_footprint(scenario, places_);
     scenario.goal = world::placed(scenario.goal, scenario.road.get());
     // Once, so that what one of the two states is not derived from the other.
     vehicle::derive(scenario.vehicle, {bases_.stated.begin(), bases_.stated.end()});

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "slalom/base/error.hpp"
+#include "slalom/sim/marks.hpp"
 #include "slalom/sim/solve_times.hpp"
 #include "slalom/sim/verification.hpp"
 
@@ -32,6 +33,7 @@ void for_each_figure(TrialRecord& r, const F& f) {
   f("new_plans", r.new_plans);
   f("rests", r.rests);
   f("least_bads", r.least_bads);
+  f("marks", r.marks);
   f("max_solve_time", r.max_solve_time);
   f("median_solve_time", r.median_solve_time);
   f("max_cpu_time", r.max_cpu_time);
@@ -114,7 +116,7 @@ TrialAnswer parse_answer(const std::string& line) {
   });
 }
 
-TrialRecord record_of(const sim::Drive& drive) {
+TrialRecord record_of(const sim::Scenario& scenario, const sim::Drive& drive) {
   TrialRecord r;
   r.outcome = sim::to_string(drive.outcome);
   r.hit = drive.hit;
@@ -135,6 +137,8 @@ TrialRecord record_of(const sim::Drive& drive) {
     r.rests = verification->of(planner::Rung::rest);
     r.least_bads = verification->of(planner::Rung::least_bad);
   }
+  for (const auto& mark : sim::marks(scenario, drive))
+    r.marks += (r.marks.empty() ? "" : " ") + mark.kind;
   const auto wall = sim::solve_times(drive), cpu = sim::solve_times(drive, true);
   r.max_solve_time = sim::greatest(wall);
   r.median_solve_time = sim::median(wall);

@@ -5,6 +5,7 @@
 
 #include "slalom/report/sweep_table.hpp"
 #include "slalom/sim/drive.hpp"
+#include "slalom/sim/scenario.hpp"
 
 namespace slalom::sweep {
 
@@ -29,7 +30,7 @@ TrialAnswer parse_answer(const std::string& line);
 /// no files.
 TrialAnswer run_trial(const TrialOrder& order, const std::function<bool()>& interrupted = {});
 
-/// The figures of a drive.
-report::TrialRecord record_of(const sim::Drive& drive);
+/// The figures of a drive of `scenario`.
+report::TrialRecord record_of(const sim::Scenario& scenario, const sim::Drive& drive);
 
 }  // namespace slalom::sweep

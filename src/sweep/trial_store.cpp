@@ -26,7 +26,7 @@ constexpr const char* kSchema =
     "INTEGER,"
     " failed_cycles INTEGER, iterations INTEGER, max_solve_time_s REAL, median_solve_time_s REAL,"
     " max_cpu_time_s REAL, median_cpu_time_s REAL, p99_cpu_time_s REAL, new_plans INTEGER,"
-    " rests INTEGER, least_bads INTEGER)";
+    " rests INTEGER, least_bads INTEGER, marks TEXT DEFAULT '')";
 
 std::string as_json(const std::vector<std::string>& list) {
   // A worker's last words may hold any bytes.
@@ -86,11 +86,13 @@ TrialStore::TrialStore(const fs::path& file, const SweepTable& study,
   // One transaction, so that a store which states its study has all that its trials need.
   database_.execute("BEGIN IMMEDIATE");
   if (!Statement(database_, "SELECT 1 FROM sqlite_master").step()) state(database_, study, bases);
+  if (!has_marks(database_))
+    database_.execute("ALTER TABLE trials ADD COLUMN marks TEXT DEFAULT ''");
   database_.execute("COMMIT");
   insert_ = std::make_unique<Statement>(
       database_,
       fmt::format("INSERT OR REPLACE INTO trials ({}) SELECT ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?,"
-                  " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ? WHERE NOT EXISTS (SELECT 1 FROM trials"
+                  " ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ? WHERE NOT EXISTS (SELECT 1 FROM trials"
                   " WHERE trial = ?1 AND (outcome <> 'failed' OR ?7 = 'failed'))",
                   kTrialColumns)
           .c_str());
@@ -122,6 +124,7 @@ void TrialStore::add(const TrialRecord& r) {
       .bind(23, std::int64_t{r.new_plans})
       .bind(24, std::int64_t{r.rests})
       .bind(25, std::int64_t{r.least_bads})
+      .bind(26, r.marks)
       .run();
 }
 

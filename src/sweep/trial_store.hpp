@@ -21,7 +21,7 @@ inline constexpr const char* kTrialColumns =
     "trial, identity, scenario, planner, axes, repeat, outcome, hit, message, nearest, time_s,"
     " goal_time_s, least_clearance_m, least_wheel_load_N, cycles, failed_cycles, iterations,"
     " max_solve_time_s, median_solve_time_s, max_cpu_time_s, median_cpu_time_s, p99_cpu_time_s,"
-    " new_plans, rests, least_bads";
+    " new_plans, rests, least_bads, marks";
 
 /// The file a shard of a sweep is kept in: trials.sqlite, or trials-2-of-4.sqlite.
 std::filesystem::path store_file(const std::filesystem::path& folder, int shard, int shards);

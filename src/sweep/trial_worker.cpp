@@ -35,7 +35,7 @@ TrialAnswer run_trial(const TrialOrder& order, const std::function<bool()>& inte
   hooks.interrupted = interrupted;
   const auto drive = sim::drive(scenario, hooks);
   TrialAnswer answer;
-  answer.record = record_of(drive);
+  answer.record = record_of(scenario, drive);
   if (order.folder.empty() || drive.outcome == sim::Outcome::interrupted) return answer;
   try {
     io::prepare_folder(order.folder, true);

@@ -25,7 +25,7 @@ std::string trials_csv_row(const report::SweepTable& study, const report::TrialR
                       number_cell(r.least_clearance));
   text += fmt::format(",{},{},{},{},{}", io::csv_cell(r.least_clearance_obstacle),
                       number_cell(r.least_wheel_load), r.cycles, r.failed_cycles, r.iterations);
-  text += fmt::format(",{},{},{}", r.new_plans, r.rests, r.least_bads);
+  text += fmt::format(",{},{},{},{}", r.new_plans, r.rests, r.least_bads, io::csv_cell(r.marks));
   text += fmt::format(",{},{},{},{},{},{}\n", number_cell(r.median_solve_time),
                       number_cell(r.max_cpu_time), number_cell(r.p99_cpu_time),
                       number_cell(r.median_cpu_time), r.identity, io::csv_cell(r.message));
@@ -38,7 +38,7 @@ std::string trials_csv_head(const report::SweepTable& study) {
   if (study.repeats > 1) text += ",repeat";
   text +=
       ",outcome,time_s,max_solve_time_s,hit,goal_time_s,least_clearance_m,least_clearance_obstacle,"
-      "least_wheel_load_N,cycles,failed_cycles,iterations,new_plans,rests,least_bads,"
+      "least_wheel_load_N,cycles,failed_cycles,iterations,new_plans,rests,least_bads,marks,"
       "median_solve_time_s,max_cpu_time_s,p99_cpu_time_s,median_cpu_time_s,identity,message\n";
   return text;
 }

@@ -26,6 +26,7 @@ DAMAGES = (
     ("UPDATE trials SET cycles = 'many' WHERE trial = 3", ["trial 3", "cycles"]),
     ("UPDATE trials SET rests = 1e300 WHERE trial = 3", ["trial 3", "rests"]),
     ("UPDATE trials SET time_s = 'soon' WHERE trial = 3", ["trial 3", "time_s"]),
+    ("UPDATE trials SET marks = x'00' WHERE trial = 3", ["trial 3", "marks"]),
     ("UPDATE trials SET repeat = 9 WHERE trial = 3", ["trial 3", "repeat"]),
     ("UPDATE study SET columns = '[]'", ["trial 1", "3 values, expected 0"]),
     ("UPDATE study SET columns = '[[[['", ["columns"]),

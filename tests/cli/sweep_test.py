@@ -36,6 +36,7 @@ class Sweep(SweepTest):
                                "--set", "obstacles.O1.vy=0", "--json").out)
         self.assertEqual((row["outcome"], float(row["time_s"]), float(row["least_clearance_m"])),
                          (drive["outcome"], drive["time_s"], drive["least_clearance_m"]))
+        self.assertEqual(row["marks"].split(), [mark["kind"] for mark in drive["marks"]])
 
     def test_jobs_and_shards_and_pieces_give_the_same_bytes(self):
         one = self.sweep("one", "--jobs", "1")

@@ -26,7 +26,8 @@ constexpr const char* kColumns[] = {"study.format",    "study.name",
                                     "trials.message",  "trials.nearest",
                                     "trials.time_s",   "trials.least_clearance_m",
                                     "trials.cycles",   "trials.max_solve_time_s",
-                                    "trials.rests",    "trials.least_bads"};
+                                    "trials.rests",    "trials.least_bads",
+                                    "trials.marks"};
 
 /// The bytes of a store with two trials.
 const std::string& good() {

@@ -136,6 +136,20 @@ TEST(ObstacleReader, ContactOfABodyIsACrashWhereNoMarginIsStated) {
   EXPECT_EQ(parse_scenario(kHead, "my.yaml").loop.sm_crash, 2);
 }
 
+TEST(ObstacleReader, AMarginThatIsNotStatedFollowsTheFootprintThroughTheText) {
+  const std::string head = "start: {x: 0, y: 0}\ngoal: {x: 0, y: 100}\n";
+  const auto changed = [&](const std::string& loop, const std::string& footprint) {
+    const auto scenario = parse_scenario(head + loop, "my.yaml");
+    return parse_scenario(to_yaml_as_stated(scenario),
+                          {"again.yaml", {}, {}, {"vehicle.footprint=" + footprint}});
+  };
+  EXPECT_EQ(changed("", "rectangle").loop.sm_crash, 0);
+  EXPECT_EQ(changed("", "point").loop.sm_crash, 2);
+  EXPECT_EQ(changed("loop: {sm_crash: 2}\n", "rectangle").loop.sm_crash, 2);
+  const auto once = changed("", "rectangle");
+  EXPECT_EQ(to_yaml(parse_scenario(to_yaml_as_stated(once), "twice.yaml")), to_yaml(once));
+}
+
 /// The message with which a scenario of this obstacle, in line 5 from column 5 on, is refused.
 std::string refusal(const std::string& obstacle) {
   try {

@@ -137,6 +137,21 @@ TEST(BetweenNodes, TheDepthAtNodesIsTheDeepestThere) {
   EXPECT_NEAR(deepest_at_nodes(plan, {beside, comes}, 2.5, point), 0.75, 1e-12);
 }
 
+/// Planned 1 s before the time that obstacles are placed by.
+TEST(BetweenNodes, HeldObstaclesStandWhereTheyWereBeforeTimeBegan) {
+  const Task task;
+  Plan plan;
+  plan.t_start = -0.5;
+  plan.obstacle_time_held = -1;
+  plan.t = {0, 1, 2};
+  plan.controls.resize(3);
+  for (const double x : {0., 10., 20.}) plan.states.push_back({x, 0, 0, 0, 0, 0, 10, 0});
+  const world::Obstacle goes{"goes", 25, 0, 1, 1, 20, 0};  // at 5 when planned, ahead from then on
+  const world::Footprint point(task.vehicle);
+  EXPECT_NEAR(deepest_passage(plan, {goes}, 2, point, task.vehicle.la).depth, 3, 0.1);
+  EXPECT_EQ(deepest_at_nodes(plan, {goes}, 4.5, point), 0.5);
+}
+
 std::shared_ptr<const world::Road> road_of(const std::vector<world::RoadPoint>& points) {
   return std::make_shared<world::Road>(points, false, std::vector<std::vector<world::Point>>{},
                                        "road");

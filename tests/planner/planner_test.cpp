@@ -157,7 +157,7 @@ TEST(Planner, HeldObstaclesStandWhereTheyAreAtPlanning) {
   moving.planner.moving_avoidance = true;
   const Plan other = Planner(moving).plan(held.first);
   expect_solved(other);
-  EXPECT_LT(other.obstacle_time_held, 0);
+  EXPECT_FALSE(other.obstacle_time_held);
   EXPECT_GT(least_obstacle_row(moving, other), 0) << "clear of them where they will be";
   EXPECT_GT(distance(plan, other, [](const State& s) { return std::pair{s[X], s[Y]}; }), 1);
 }

@@ -157,8 +157,7 @@ inline double least_obstacle_row(const Scene& scene, const Plan& plan) {
   const auto& s = scene.planner;
   for (std::size_t k = 1; k < plan.t.size(); ++k)
     for (const auto& o : scene.obstacles) {
-      const double t =
-          plan.obstacle_time_held >= 0 ? plan.obstacle_time_held : plan.t_start + plan.t[k];
+      const double t = plan.obstacle_time(k);
       const double sm = s.sm_start + (s.sm_end - s.sm_start) * plan.t[k] / plan.tf;
       const double dx = (plan.states[k][0] - o.x_at(t)) / (o.a + sm);
       const double dy = (plan.states[k][1] - o.y_at(t)) / (o.b + sm);

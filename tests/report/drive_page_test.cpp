@@ -25,7 +25,8 @@ TEST(DrivePage, CarriesTheDrive) {
   EXPECT_TRUE(data["region"]["x_max"].is_null());
   ASSERT_EQ(data["cycles"].size(), drive.cycles.size());
   EXPECT_TRUE(data["cycles"][2]["plan"]["held"].is_null());
-  EXPECT_DOUBLE_EQ(data["cycles"][3]["plan"]["held"], drive.cycles[3].plan.obstacle_time_held);
+  EXPECT_DOUBLE_EQ(data["cycles"][3]["plan"]["held"],
+                   drive.cycles[3].plan.obstacle_time_held.value());
 }
 
 TEST(DrivePage, CarriesShapesAndMotions) {
@@ -177,7 +178,7 @@ TEST(DrivePage, SaysWhichObstacleIsInTheWay) {
   EXPECT_NEAR(cycles[2]["blocker"]["t"], drive.cycles[2].plan.t_start + drive.cycles[2].plan.t[3],
               1e-3);
   EXPECT_EQ(cycles[3]["blocker"]["name"], "O1 b") << "not O1";
-  EXPECT_NEAR(cycles[3]["blocker"]["t"], drive.cycles[3].plan.obstacle_time_held, 1e-3);
+  EXPECT_NEAR(cycles[3]["blocker"]["t"], drive.cycles[3].plan.obstacle_time_held.value(), 1e-3);
   EXPECT_FALSE(cycles[4].contains("blocker"));
   EXPECT_EQ(cycles[5]["blocker"], nlohmann::json({{"name", "O2"}, {"t", 3.25}}));
   EXPECT_FALSE(cycles[1].contains("blocker"));

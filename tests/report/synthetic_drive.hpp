@@ -50,7 +50,7 @@ inline sim::Drive synthetic_drive(double seconds = 4) {
     cycle.used = i > 0;
     cycle.plan.t_start = cycle.t0 + 0.5;
     cycle.plan.tf = 2;
-    cycle.plan.obstacle_time_held = i % 2 == 0 ? -1 : cycle.t0;
+    if (i % 2 == 1) cycle.plan.obstacle_time_held = cycle.t0;
     for (int k = 0; k <= 5; ++k) {
       cycle.plan.t.push_back(0.4 * k);
       cycle.plan.states.push_back(state(cycle.plan.t_start + 0.4 * k));

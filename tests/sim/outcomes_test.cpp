@@ -165,6 +165,31 @@ TEST(Outcomes, LostPlantIsAnOutcomeNotAnException) {
   EXPECT_EQ(report.status_text().rfind("no prediction: the plant cannot be integrated", 0), 0u);
 }
 
+TEST(Outcomes, AMeasurementThatNoPlannerTakesIsACycleWithoutPrediction) {
+  auto s = open_field();
+  s.region = {};
+  s.start[vehicle::X] = 9.99e8;
+  s.sensing.position_noise = 1e6;  // and a planner takes up to 1e9 m
+  s.loop.on_failure = OnFailure::last_plan;
+  s.loop.timeout = 5;
+  const Drive d = drive(s, [](const planner::Request& r) {
+    planner::check(r, "plan");
+    return straight_on(r);
+  });
+  EXPECT_EQ(d.outcome, Outcome::timeout) << d.message;
+  int lost = 0;
+  for (const auto& cycle : d.cycles) {
+    if (cycle.plan.report.solved) continue;
+    ++lost;
+    EXPECT_EQ(
+        cycle.plan.report.status_text().rfind("no prediction: request: state: found x = 1", 0), 0U)
+        << cycle.plan.report.status_text();
+    EXPECT_FALSE(cycle.used);
+  }
+  EXPECT_GT(lost, 0);
+  EXPECT_LT(lost, static_cast<int>(d.cycles.size()));
+}
+
 TEST(Outcomes, HaveTheNamesFilesUse) {
   EXPECT_STREQ(to_string(Outcome::goal), "goal");
   EXPECT_STREQ(to_string(Outcome::wheel_lift), "wheel_lift");

@@ -78,6 +78,31 @@ TEST(Scenario, StartOutsideItsBoundsIsRefused) {
   expect_refused([](Scenario& s) { s.loop.Fz_failure = 6500; }, "Fz_r");
 }
 
+TEST(Scenario, AModelThatHoldsTheSpeedIsRefusedFromRest) {
+  const auto held = [](double ux, double ax) {
+    return [ux, ax](Scenario& s) {
+      s.planner.model = vehicle::ModelKind::constant_speed;
+      s.vehicle.ux_min = 0.01;
+      s.start[vehicle::UX] = ux;
+      s.start[vehicle::AX] = ax;
+    };
+  };
+  EXPECT_EQ(message(held(10, 0)), "accepted");
+  expect_refused(held(0, 0),
+                 "start: found ux = 0, expected more than 0, for planner model constant_speed");
+  expect_refused(held(10, 0.5),
+                 "start: found ax = 0.5, expected 0, for planner model constant_speed");
+}
+
+TEST(Scenario, NoiseHasBounds) {
+  using S = SensingSettings;
+  for (const auto noise : {&S::position_noise, &S::heading_noise, &S::speed_noise,
+                           &S::yaw_rate_noise, &S::obstacle_position_noise})
+    expect_refused([&](Scenario& s) { s.sensing.*noise = 1e7; }, "noise = 10000000, expected");
+  expect_refused([](Scenario& s) { s.sensing.obstacle_velocity_factor = -1e4; },
+                 "obstacle_velocity_factor = -10000, expected");
+}
+
 TEST(Scenario, APlannerThatVerifiesLessThanADriveFailsByIsRefused) {
   const auto verified = [](auto change) {
     return [change](Scenario& s) {

@@ -57,6 +57,30 @@ TEST(Study, ThePapersGridHasTheValuesItsFiguresShow) {
   EXPECT_EQ(all(load_study("paper-printed").axes[1].points).back()[0], "-20");
 }
 
+TEST(Study, AMarginThatIsNotStatedFollowsTheFootprint) {
+  const std::string scenario = "scenario: E_C\n";
+  const std::string axis = "axes:\n  - {key: vehicle.footprint, values: [point, rectangle]}\n";
+  const auto margins = [](const Study& study) {
+    std::vector<double> found;
+    for (std::int64_t n = 1; n <= study.size(); ++n) {
+      const auto trial = study.trial(n);
+      found.push_back(study.resolve(trial).loop.sm_crash);
+      // As a store has the study.
+      const auto base = io::parse_scenario(study.resolved_bases().at(trial.base), "a store");
+      EXPECT_EQ(resolve_trial(base, {study.columns(), study.stated}, trial).loop.sm_crash,
+                found.back());
+    }
+    return found;
+  };
+  using Margins = std::vector<double>;
+  EXPECT_EQ(margins(study_of(scenario)), (Margins{2}));
+  EXPECT_EQ(margins(study_of(scenario + "set: {vehicle.footprint: rectangle}\n")), (Margins{0}));
+  EXPECT_EQ(margins(study_of(scenario + axis)), (Margins{2, 0}));
+  EXPECT_EQ(margins(study_of(scenario + "set: {loop.sm_crash: 1}\n" + axis)), (Margins{1, 1}));
+  EXPECT_EQ(margins(study_of(scenario + "set: {vehicle.footprint: rectangle, loop.sm_crash: 2}\n")),
+            (Margins{2}));
+}
+
 TEST(Study, PlannersVarySlowestAndRepeatsFastest) {
   const auto study = study_of(
       "scenario: E_B\nplanners: [P_D, P_C]\nrepeats: 2\naxes:\n"

@@ -19,12 +19,15 @@ using test::request_for;
 using test::six_trials;
 using test::TemporaryFolder;
 
+constexpr const char* kMarks = "wheel_load speed";
+
 /// Runs what waits of a shard; every trial "arrives", or fails.
 void run(const TemporaryFolder& folder, bool arrives, int shard = 1, int shards = 1) {
   const auto study = six_trials();
   OpenSweep sweep(study, request_for(folder, shard, shards));
   TrialAnswer answer;
   answer.record.outcome = "goal";
+  answer.record.marks = kMarks;
   while (const auto job = sweep.next()) {
     if (arrives)
       sweep.record(job->trial, to_line(answer));
@@ -178,6 +181,33 @@ TEST(Store, OfTheFormatBeforeIsReadAndGoneOnWith) {
   EXPECT_EQ(outcomes(folder.path()), "goal goal goal ");
   run(folder, true);
   EXPECT_EQ(outcomes(folder.path()), kArrived);
+}
+
+TEST(Store, WithoutMarksIsReadMergedAndGoneOnWith) {
+  const TemporaryFolder folder, out;
+  run(folder, true, 1, 2);
+  fs::rename(folder / "trials-1-of-2.sqlite", folder / "trials.sqlite");
+  Database(folder / "trials.sqlite", Database::Mode::write)
+      .execute("ALTER TABLE trials DROP COLUMN marks");
+  EXPECT_EQ(outcomes(folder.path()), "goal goal goal ");
+  EXPECT_EQ(merge_sweeps({folder.path()}, out.path(), false).trials, 3);
+  run(folder, true);
+  EXPECT_EQ(outcomes(folder.path()), kArrived);
+  const auto trials = read_sweep(folder.path()).trials;
+  EXPECT_EQ(trials[0].marks, "");
+  EXPECT_EQ(trials[1].marks, kMarks);
+}
+
+TEST(TrialRecord, HasTheKindsOfTheDrivesMarks) {
+  const sim::Scenario scenario;
+  sim::Drive drive;
+  drive.plant.resize(1);
+  drive.plant[0].state = scenario.start;
+  drive.plant[0].wheel_loads.fill(scenario.vehicle.Fz_min);
+  EXPECT_EQ(record_of(scenario, drive).marks, "");
+  drive.plant[0].wheel_loads[2] -= 1000;
+  drive.plant[0].state[vehicle::UX] = 100;
+  EXPECT_EQ(record_of(scenario, drive).marks, "wheel_load speed");
 }
 
 TEST(CheckKernels, RefusesTheSetsThatThisProcessorLacks) {

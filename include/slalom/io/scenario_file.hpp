@@ -38,6 +38,9 @@ world::Obstacle parse_obstacle(const std::string& text, const std::string& sourc
 
 /// The whole scenario as one YAML file that load_scenario reads back to the same bits.
 std::string to_yaml(const sim::Scenario& scenario);
+/// The same without what follows from other values (Scenario::sm_crash_follows): read with changes
+/// of those, it is what the scenario's own file would be with them.
+std::string to_yaml_as_stated(const sim::Scenario& scenario);
 
 /// All values by the key that sets them ("planner.w_t", "start.ux", "obstacles.O2.vy"), in the
 /// order of files, obstacles last. Sides that the region has not are infinite.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -123,7 +124,11 @@ struct Plan {
   std::vector<double> t;  ///< time since t_start, one per node: 0 at the first, tf at the last
   std::vector<vehicle::State> states;      ///< one per node
   std::vector<vehicle::Control> controls;  ///< one per node
-  double obstacle_time_held = -1;  ///< absolute time at which obstacles are held; < 0: they move
+  std::optional<double>
+      obstacle_time_held;  ///< absolute time at which obstacles are held [s]; none: they move
+
+  /// The absolute time at which obstacles are where node k meets them [s].
+  double obstacle_time(std::size_t k) const { return obstacle_time_held.value_or(t_start + t[k]); }
   SolveReport report;
 
   // For verifying planners: where the plan comes from, its certificate, and all candidates.

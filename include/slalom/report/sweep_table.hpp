@@ -24,6 +24,9 @@ struct TrialRecord {
   int cycles = 0, failed_cycles = 0, iterations = 0;         ///< the warm-up left out
   /// Of the cycles, by rung of the ladder (planner::Rung); 0 for a planner that does not verify.
   int new_plans = 0, rests = 0, least_bads = 0;
+  /// Kinds of the drive's marks (sim::marks), with a space between each; empty too where the
+  /// version that drove it did not record them.
+  std::string marks;
   /// Measured: solve times over all cycles on the clock, failing ones included [s].
   double max_solve_time = kNone, median_solve_time = kNone;
   double max_cpu_time = kNone, p99_cpu_time = kNone, median_cpu_time = kNone;

@@ -19,6 +19,9 @@ struct Scenario : planner::Task {
   LoopSettings loop;
   PlantSettings plant;
   SensingSettings sensing;
+  /// The file did not state loop.sm_crash: changes of vehicle.footprint change it. Who sets it
+  /// later sets this to false.
+  bool sm_crash_follows = false;
 };
 
 /// Throws InvalidValue for a value outside its registered range and for contradictions no single
