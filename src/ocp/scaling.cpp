@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "dynamics_at.hpp"
 #include "set_up_watch.hpp"
 #include "slalom/expr/function.hpp"
 
 namespace slalom::ocp {
 namespace {
+
+using Dynamics = DynamicsAt;
 
 double size_of(double value) {
   return std::isfinite(value) ? std::fabs(value) : 0;
@@ -27,6 +31,9 @@ double largest(const std::vector<std::vector<double>>& rows, std::size_t i) {
 /// make of it by the dynamics. Rounding left in a guess is no size. (Bounds of states are often
 /// wide.)
 constexpr double kLeastPart = 1e-2;
+/// Ends and guesses below this part of what the rest makes of a variable are rounding, such as
+/// sin(pi); below kDust they are so where the rest says nothing.
+constexpr double kRoundingPart = 1e-10, kDust = 1e-12;
 
 /// Sizes of the states and controls, 0 where not known yet.
 class Sizes {
@@ -43,12 +50,14 @@ class Sizes {
       ends_.push_back(0);
       bounds_.push_back(size_of(control.bounds));
     }
-    for (std::size_t i = 0; i < scale_.size(); ++i) {
-      const double guessed = i < nx_ ? largest(guess.states, i) : largest(guess.controls, i - nx_);
-      known_.push_back(first_of({scale_[i], std::max(guessed, ends_[i]), bounds_[i]}));
-    }
+    for (std::size_t i = 0; i < scale_.size(); ++i)
+      guessed_.push_back(i < nx_ ? largest(guess.states, i) : largest(guess.controls, i - nx_));
+    known_ = told();
     if (std::all_of(scale_.begin(), scale_.end(), [](double scale) { return scale > 0; })) return;
-    const Dynamics at = dynamics();
+    const std::size_t middle = guess.tau.size() / 2;
+    const Dynamics at(problem, guess, middle,
+                      [&](const auto& symbols) { return numbers(symbols, middle); });
+    if (drop_rounding(at)) known_ = told();
     keep_off_rounding(at);
     if (!all_known()) infer(at);
   }
@@ -82,7 +91,9 @@ class Sizes {
     return guessed(guess_.integrals, i, first_of({duration * most, 1}));
   }
 
-  /// Of a constraint: its bounds', else how much it changes when everything moves by half its size.
+  /// Of a constraint: its bounds', else how much it changes when everything moves by half its size;
+  /// where that is no more than rounding, its size in the guess, else the most that a single one
+  /// changes it.
   double row(const Problem::Constraint& row) const {
     if (const double size = size_of(row.bounds); size > 0) return size;
     std::vector<Expr> values{row.value};
@@ -93,11 +104,21 @@ class Sizes {
     const auto symbols = expr::symbols_of(values);
     const expr::Function f({}, symbols, values);
     const std::size_t middle = guess_.tau.size() / 2;
-    double here = 0, beside = 0;
-    f({}, numbers(symbols, middle), {&here, 1});
-    f({}, numbers(symbols, middle, 0.5), {&beside, 1});
+    std::vector<double> at = numbers(symbols, middle);
+    const std::vector<double> moved = numbers(symbols, middle, 0.5);
+    double here = 0, beside = 0, alone = 0;
+    f({}, at, {&here, 1});
+    f({}, moved, {&beside, 1});
     const double change = size_of(beside - here);
-    return change > 0 ? change : size_of(here);
+    // What moves together may cancel out, as in a difference of two ends, up to rounding.
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double value = std::exchange(at[i], moved[i]);
+      f({}, at, {&beside, 1});
+      alone = std::max(alone, size_of(beside - here));
+      at[i] = value;
+    }
+    if (change > kRoundingPart * alone) return change;
+    return size_of(here) >= kLeastPart * alone ? size_of(here) : alone;
   }
 
  private:
@@ -111,7 +132,8 @@ class Sizes {
     for (const auto& each : expr::symbols_of(rates))
       if (!each.same(symbol)) data.push_back(each);
     const expr::Function f({symbol}, data, rates);
-    return first_of({by_effect(f, symbol, data, 0), by_effect(f, symbol, data, 1)});
+    const double here = by_effect(f, symbol, data, 0);
+    return here > 0 ? here : by_effect(f, symbol, data, 1);
   }
   /// `f`: the rates by the symbol; states and controls moved by `shift` of their sizes.
   double by_effect(const expr::Function& f, const Expr& symbol, const std::vector<Expr>& data,
@@ -146,32 +168,6 @@ class Sizes {
   }
   bool all_known() const {
     return std::all_of(known_.begin(), known_.end(), [](double size) { return size > 0; });
-  }
-
-  /// The dynamics in the middle of the guess.
-  struct Dynamics {
-    expr::Function f;
-    std::vector<double> values, slopes;
-  };
-  Dynamics dynamics() const {
-    std::vector<Expr> variables, data, rates;
-    for (const auto& state : problem_.states()) {
-      variables.push_back(state.symbol);
-      rates.push_back(state.rate);
-    }
-    for (const auto& control : problem_.controls()) variables.push_back(control.symbol);
-    for (const auto& symbol : expr::symbols_of(rates))
-      if (std::none_of(variables.begin(), variables.end(),
-                       [&](const Expr& each) { return each.same(symbol); }))
-        data.push_back(symbol);
-    Dynamics at{{variables, data, rates}, std::vector<double>(nx_), {}};
-    at.slopes.resize(at.f.jacobian_pattern().size());
-    const std::size_t middle = guess_.tau.size() / 2;
-    std::vector<double> x = guess_.states[middle], none;
-    x.insert(x.end(), guess_.controls[middle].begin(), guess_.controls[middle].end());
-    at.f.evaluate(1, x, numbers(data, middle), none, {.values = true, .jacobian = true}, at.values,
-                  at.slopes, none);
-    return at;
   }
 
   /// By the dynamics' values and slopes in the middle of the guess.
@@ -227,21 +223,63 @@ class Sizes {
     return true;
   }
 
-  /// What the ends, and then the controls' bounds too, make of the sizes by the dynamics' slopes
-  /// alone: the guess's own rates may be rounding as well.
-  void keep_off_rounding(Dynamics at) {
-    std::fill(at.values.begin(), at.values.end(), 0.0);
-    std::vector<double> sizes = std::move(known_);
-    for (const bool with_controls : {false, true}) {
-      known_.clear();
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        known_.push_back(
-            first_of({scale_[i], ends_[i], with_controls && i >= nx_ ? bounds_[i] : 0.0}));
-      infer_one_by_one(at);
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        if (scale_[i] == 0 && sizes[i] > 0) sizes[i] = std::max(sizes[i], kLeastPart * known_[i]);
+  /// What was given of each variable: its scale, else its guess and ends, else its bounds.
+  std::vector<double> told() const {
+    std::vector<double> list;
+    for (std::size_t i = 0; i < scale_.size(); ++i)
+      list.push_back(first_of({scale_[i], std::max(guessed_[i], ends_[i]), bounds_[i]}));
+    return list;
+  }
+
+  /// Takes ends and guesses that are only rounding for 0, as if they had been given exactly; false
+  /// where there are none.
+  bool drop_rounding(const Dynamics& at) {
+    double most = 0;
+    for (std::size_t i = 0; i < scale_.size(); ++i)
+      most = std::max({most, guessed_[i], ends_[i], control_bounds(i)});
+    bool any = false;
+    for (std::size_t i = 0; i < scale_.size(); ++i) {
+      const double given = std::max(guessed_[i], ends_[i]);
+      if (scale_[i] > 0 || given == 0 || given >= std::max(kDust, kRoundingPart * most)) continue;
+      const double rest = size_by_others(i, at);
+      if (given >= (rest > 0 ? kRoundingPart * rest : kDust)) continue;
+      if (ends_[i] == 0 && rest > 0) continue;  // only the guess: keep_off_rounding() sees to it
+      guessed_[i] = ends_[i] = 0;
+      if (bounds_[i] == 0) bounds_[i] = rest;
+      any = true;
     }
-    known_ = std::move(sizes);
+    return any;
+  }
+  /// What the other variables, as far as they are more than dust, make of this one; 0 for nothing.
+  double size_by_others(std::size_t variable, const Dynamics& at) {
+    return inferred(at, [&](std::size_t i) {
+      const double given = std::max(guessed_[i], ends_[i]);
+      return i == variable ? 0
+                           : first_of({scale_[i], given >= kDust ? given : 0, control_bounds(i)});
+    })[variable];
+  }
+  /// All sizes that follow from these by the dynamics' slopes alone: the guess's own rates may be
+  /// rounding.
+  template <class SizeOf>
+  std::vector<double> inferred(Dynamics at, const SizeOf& size_of_variable) {
+    std::fill(at.values.begin(), at.values.end(), 0.0);
+    std::vector<double> sizes = std::exchange(known_, {});
+    for (std::size_t i = 0; i < sizes.size(); ++i) known_.push_back(size_of_variable(i));
+    infer_one_by_one(at);
+    std::swap(sizes, known_);
+    return sizes;
+  }
+  double control_bounds(std::size_t i) const { return i < nx_ ? 0 : bounds_[i]; }
+
+  /// What the ends, and then the controls' bounds too, make of the sizes counts for a part.
+  void keep_off_rounding(const Dynamics& at) {
+    for (const bool with_controls : {false, true}) {
+      const auto made = inferred(at, [&](std::size_t i) {
+        return first_of({scale_[i], ends_[i], with_controls ? control_bounds(i) : 0});
+      });
+      for (std::size_t i = 0; i < made.size(); ++i)
+        if (scale_[i] == 0 && known_[i] > 0) known_[i] = std::max(known_[i], kLeastPart * made[i]);
+    }
   }
 
   Rates rates_of(const expr::Function& f, const std::vector<double>& values,
@@ -314,8 +352,9 @@ class Sizes {
   const Problem& problem_;
   const Trajectory& guess_;
   std::size_t nx_;
-  /// Of states, then controls: the user's scales, sizes of fixed ends and of bounds; 0 for none.
-  std::vector<double> scale_, ends_, bounds_;
+  /// Of states, then controls: the user's scales, sizes in the guess, of fixed ends and of bounds;
+  /// 0 for none.
+  std::vector<double> scale_, guessed_, ends_, bounds_;
   std::vector<double> known_;
 };
 

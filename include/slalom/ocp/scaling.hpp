@@ -13,11 +13,14 @@ namespace slalom::ocp {
 /// variables' magnitudes, or the change that moves another state by that state's magnitude; 1. A
 /// magnitude in the guess counts for at least a hundredth of the magnitude that the fixed ends and
 /// the controls' bounds give through the dynamics, since a guess may contain only rounding errors.
-/// Times get the guess's duration. A static parameter gets its magnitude in the guess, at least a
-/// hundredth of that of its declared guess or bounds; an integral that of its bounds, or else its
-/// magnitude in the guess, at least a hundredth of duration times largest integrand. A constraint
-/// gets the magnitude of its bounds, or else its change when all variables move by half their
-/// magnitudes.
+/// An end below 1e-10 of what the other variables give through the dynamics, such as sin(pi), or
+/// below 1e-12 where they give nothing, is taken for 0. Times get the guess's duration. A static
+/// parameter gets its magnitude in the guess, at least a hundredth of that of its declared guess or
+/// bounds; an integral that of its bounds, or else its magnitude in the guess, at least a hundredth
+/// of duration times largest integrand. A constraint gets the magnitude of its bounds, or else its
+/// change when all variables move by half their magnitudes; where that is only rounding, its
+/// magnitude in the guess, or the largest change by one variable alone where that is over a hundred
+/// times more.
 Problem with_scales(Problem problem, const Trajectory& guess);
 
 }  // namespace slalom::ocp
