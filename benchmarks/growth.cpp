@@ -195,8 +195,9 @@ int main(int argc, char** argv) try {
       ->delimiter(',');
   app.add_option("--solves", solves.count, "of each problem");
   app.add_option("--iterations", solves.iterations, "of a solve at the most");
-  app.add_option("--controls", controls, "of a whole solve, and nothing else: its peak of memory");
-  app.add_option("--states", states, "likewise");
+  auto* const option = app.add_option("--controls", controls,
+                                      "of a whole solve, and nothing else: its peak of memory");
+  app.add_option("--states", states, "likewise")->excludes(option);
   CLI11_PARSE(app, argc, argv);
   nlohmann::json all = nlohmann::json::array();
   if (controls > 0) all.push_back(measure_whole("controls", controls, many_controls(controls)));

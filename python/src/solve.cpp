@@ -68,8 +68,9 @@ void bind_solve(nb::module_& module) {
       "warm_start"_a = nb::none(), "starts"_a = 1, "seed"_a = 1, "options"_a,
       "Transcribes, solves and checks.\n\n"
       "`mesh` is a number of intervals, or breakpoints from 0 to 1; `scheme` one of "
-      "scheme_names(), with\n`points` an interval where it has a choice (4 if not given), each one "
-      "for all or a list of one an\ninterval.\n\n"
+      "scheme_names(), with\n`points` for each interval where it has a choice (4 if not given); "
+      "each is one "
+      "value for all or a list with\none for each interval.\n\n"
       "`guess` is an earlier Solution on whatever mesh, or a Simulation, by name; or a dict "
       "over straight\nlines: by name a number, numbers from t0 to tf (two make a line; at the "
       "times \"t\" if these are\ngiven) or a function of an array of times, and \"t0\", "

@@ -9,7 +9,7 @@
 namespace slalom::nlp {
 
 /// How well a row can be met: to so many roundings of its own terms, the sum of |slope * variable|.
-/// No tolerance can be asked for below that. Solvers and the independent check judge rows by it.
+/// Solvers and the independent check ask for no `constraint_tol` below that.
 inline constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 /// Whether no more than rounding of its terms is `outside` a row's bounds, in the same unit.

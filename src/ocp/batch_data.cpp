@@ -24,7 +24,7 @@ double number_of(const Problem& problem, const DataSource& source) {
   }
 }
 
-/// Fills one column of a batch's data, one number a lane.
+/// Fills one column of a batch's data, one number for each lane.
 void fill_column(const Problem& problem, const Layout& layout, std::size_t family,
                  const DataSource& source, const Batch& batch, double* to) {
   using Kind = DataSource::Kind;

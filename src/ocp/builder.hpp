@@ -49,7 +49,7 @@ struct BatchData {
 struct Transcribed {
   Layout layout;
   std::vector<Batch> batches;
-  std::vector<BatchData> batch_data;  ///< one a batch
+  std::vector<BatchData> batch_data;  ///< one for each batch
   LaneRuns linear;                    ///< from variables to rows
   LaneRuns linear_jacobian;           ///< the same terms' coefficients, from a 1
   std::vector<std::string> terms;     ///< cost terms switched on
@@ -60,7 +60,7 @@ struct Transcribed {
   /// has not so many defects.
   std::vector<std::size_t> defect_rows;
   std::size_t defect_begin = 0, defect_end = 0;             ///< all rows of defects
-  std::vector<RowOrigin> origins;                           ///< one a row
+  std::vector<RowOrigin> origins;                           ///< one for each row
   std::vector<std::pair<std::size_t, std::size_t>> copies;  ///< row and lifted variable
   std::vector<Excess> excesses;                             ///< in order of their rows
   /// Batch 0 has rates and integrands at all points with states; for controls held over their

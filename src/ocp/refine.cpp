@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "conflicts.hpp"
@@ -57,13 +58,29 @@ MeshRecord record_of(const typename Solves::Answer& answer) {
   return record;
 }
 
-/// Where nothing costs, the objective is 0 whatever the states are, and multipliers are rounding.
+/// Whether a cost depends on anything that a solve may change.
+bool has_cost(const Problem& problem) {
+  const auto is_parameter = [&](const Expr& symbol) {
+    const auto& all = problem.parameters();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const auto& p) { return p.symbol.same(symbol); });
+  };
+  return std::any_of(problem.costs().begin(), problem.costs().end(), [&](const auto& cost) {
+    const auto symbols = expr::symbols_of({cost.value});
+    return cost.enabled && !std::all_of(symbols.begin(), symbols.end(), is_parameter);
+  });
+}
+
+/// Where nothing costs, the objective is the same whatever the states are, and multipliers are
+/// rounding.
 template <class Solves>
-bool costs_nothing(const typename Solves::Answer& answer) {
-  const auto phases = Solves::phases(answer);
-  return answer.cost_terms.empty() && std::all_of(phases.begin(), phases.end(), [](const auto* p) {
-           return p->cost_terms.empty();
-         });
+bool costs_nothing(const Solves& solves, const typename Solves::Answer& answer) {
+  if constexpr (!std::is_same_v<typename Solves::Answer, Solution>)
+    if (!answer.cost_terms.empty()) return false;  // of several phases together
+  const std::size_t phases = Solves::phases(answer).size();
+  for (std::size_t p = 0; p < phases; ++p)
+    if (has_cost(solves.problem(p))) return false;
+  return true;
 }
 
 template <class Solves>
@@ -74,7 +91,7 @@ std::vector<ErrorEstimate> judge(const Solves& solves, const typename Solves::An
   record.largest_error = -1;
   for (std::size_t p = 0; p < phases.size(); ++p) {
     errors.push_back(estimate_errors(solves.problem(p), *phases[p]));
-    if (costs_nothing<Solves>(answer)) {
+    if (costs_nothing(solves, answer)) {
       errors[p].objective = 0;
       errors[p].objective_share.assign(errors[p].objective_share.size(), 0.0);
       errors[p].bound_share.assign(errors[p].bound_share.size(), 0.0);

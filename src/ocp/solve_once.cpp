@@ -23,7 +23,7 @@ void append(const nlp::Start& part, nlp::Start& whole) {
     (whole.*list).insert((whole.*list).end(), (part.*list).begin(), (part.*list).end());
 }
 
-/// One entry a phase, or none for defaults.
+/// One entry for each phase, or none for defaults.
 template <class List>
 void check_count(const PhasedProblem& problem, const char* what, const List& list) {
   if (!list.empty() && list.size() != problem.phases().size())

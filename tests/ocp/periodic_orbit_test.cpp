@@ -89,6 +89,8 @@ TEST(PeriodicOrbit, OfAPendulumOfGivenEnergy) {
     p.boundary("energy", square(p.initial(of.v)) / 2 - cos(p.initial(of.x)), Bounds::equal(0));
     p.boundary("v again", p.final(of.v) - p.initial(of.v), Bounds::equal(0));
     p.final_time({5, 12}, 7);
+    p.mayer("nothing that a solve may change", Expr(0) * p.parameter("weight", 2));
+    p.mayer("a parameter", p.parameter("price", 0));
     const Trajectory guess =
         Guess(p).times(0, 7).simulated({1.5, 0}, constant_controls({})).trajectory();
     expect_period(refine(p, {.scheme = scheme, .guess = guess}),

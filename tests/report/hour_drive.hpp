@@ -46,6 +46,7 @@ inline planner::Certificate certificate(std::size_t k, double t, bool verified) 
   const std::string name = k % 3 == 0 ? "O1" : "O2";
   return {verified,
           0.5 + noise(k, 1),
+          0.15,
           name,
           1500 + 900 * noise(k, 2),
           t + 7.3 + noise(k, 3),

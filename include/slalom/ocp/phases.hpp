@@ -28,8 +28,7 @@ class PhasedProblem {
   void replace(std::size_t number, Problem phase);
   /// A constraint between phases: an expression of initial(), final(), initial_time(),
   /// final_time(), static parameters and integrals of any of them. Without bounds it equals 0,
-  /// unlike a row of path() or boundary(), which is refused without: a link is an equation by its
-  /// nature, mostly a difference of two phases' ends.
+  /// unlike a row of path() or boundary(), which is refused without.
   void link(const std::string& name, const Expr& value, Bounds bounds = Bounds::equal(0));
   /// Makes the static parameter of that name the same in all phases that have it. Throws
   /// InvalidValue unless at least two phases have it.
