@@ -16,6 +16,7 @@
 #include "set_up_watch.hpp"
 #include "slalom/base/error.hpp"
 #include "slalom/base/timer.hpp"
+#include "symbols.hpp"
 
 namespace slalom::ocp {
 namespace {
@@ -60,14 +61,14 @@ MeshRecord record_of(const typename Solves::Answer& answer) {
 
 /// Whether a cost depends on anything that a solve may change.
 bool has_cost(const Problem& problem) {
-  const auto is_parameter = [&](const Expr& symbol) {
-    const auto& all = problem.parameters();
-    return std::any_of(all.begin(), all.end(),
-                       [&](const auto& p) { return p.symbol.same(symbol); });
+  const Symbols symbols(problem);
+  const auto may_change = [&](const Expr& symbol) {
+    const Meaning* meaning = symbols.find(symbol);
+    return meaning == nullptr || meaning->kind != Meaning::Kind::parameter;
   };
   return std::any_of(problem.costs().begin(), problem.costs().end(), [&](const auto& cost) {
-    const auto symbols = expr::symbols_of({cost.value});
-    return cost.enabled && !std::all_of(symbols.begin(), symbols.end(), is_parameter);
+    const auto used = expr::symbols_of({cost.value});
+    return cost.enabled && std::any_of(used.begin(), used.end(), may_change);
   });
 }
 
@@ -88,10 +89,11 @@ std::vector<ErrorEstimate> judge(const Solves& solves, const typename Solves::An
                                  MeshRecord& record) {
   std::vector<ErrorEstimate> errors;
   const auto phases = Solves::phases(answer);
+  const bool free = costs_nothing(solves, answer);
   record.largest_error = -1;
   for (std::size_t p = 0; p < phases.size(); ++p) {
     errors.push_back(estimate_errors(solves.problem(p), *phases[p]));
-    if (costs_nothing(solves, answer)) {
+    if (free) {
       errors[p].objective = 0;
       errors[p].objective_share.assign(errors[p].objective_share.size(), 0.0);
       errors[p].bound_share.assign(errors[p].bound_share.size(), 0.0);

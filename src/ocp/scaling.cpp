@@ -12,8 +12,6 @@
 namespace slalom::ocp {
 namespace {
 
-using Dynamics = DynamicsAt;
-
 double size_of(double value) {
   return std::isfinite(value) ? std::fabs(value) : 0;
 }
@@ -55,8 +53,8 @@ class Sizes {
     known_ = told();
     if (std::all_of(scale_.begin(), scale_.end(), [](double scale) { return scale > 0; })) return;
     const std::size_t middle = guess.tau.size() / 2;
-    const Dynamics at(problem, guess, middle,
-                      [&](const auto& symbols) { return numbers(symbols, middle); });
+    const DynamicsAt at(problem, guess, middle,
+                        [&](const auto& symbols) { return numbers(symbols, middle); });
     if (drop_rounding(at)) known_ = told();
     keep_off_rounding(at);
     if (!all_known()) infer(at);
@@ -171,7 +169,7 @@ class Sizes {
   }
 
   /// By the dynamics' values and slopes in the middle of the guess.
-  void infer(const Dynamics& at) {
+  void infer(const DynamicsAt& at) {
     const double duration = std::max(guess_.tf - guess_.t0, 0.0);
     for (std::size_t pass = 0; pass < known_.size() && !all_known(); ++pass) {
       infer_from_rates(rates_of(at.f, at.values, at.slopes), duration);
@@ -187,7 +185,7 @@ class Sizes {
   /// As infer(), but one size at a time: the largest that the rates make, else of what moves a
   /// state the one with the largest slope. A slope that is rounding in the guess has no say before
   /// others.
-  void infer_one_by_one(const Dynamics& at) {
+  void infer_one_by_one(const DynamicsAt& at) {
     const double duration = std::max(guess_.tf - guess_.t0, 0.0);
     for (std::size_t pass = 0; pass < known_.size() && !all_known(); ++pass) {
       const Rates rates = rates_of(at.f, at.values, at.slopes);
@@ -205,7 +203,7 @@ class Sizes {
     }
   }
   /// False when nothing that is not known moves a state that is.
-  bool infer_from_steepest(const Dynamics& at, Rates rates, double duration) {
+  bool infer_from_steepest(const DynamicsAt& at, Rates rates, double duration) {
     std::vector<double> one(at.slopes.size(), 0.0);
     std::size_t steepest = one.size();
     for (std::size_t e = 0; e < one.size(); ++e) {
@@ -233,7 +231,7 @@ class Sizes {
 
   /// Takes ends and guesses that are only rounding for 0, as if they had been given exactly; false
   /// where there are none.
-  bool drop_rounding(const Dynamics& at) {
+  bool drop_rounding(const DynamicsAt& at) {
     double most = 0;
     for (std::size_t i = 0; i < scale_.size(); ++i)
       most = std::max({most, guessed_[i], ends_[i], control_bounds(i)});
@@ -251,7 +249,7 @@ class Sizes {
     return any;
   }
   /// What the other variables, as far as they are more than dust, make of this one; 0 for nothing.
-  double size_by_others(std::size_t variable, const Dynamics& at) {
+  double size_by_others(std::size_t variable, const DynamicsAt& at) {
     return inferred(at, [&](std::size_t i) {
       const double given = std::max(guessed_[i], ends_[i]);
       return i == variable ? 0
@@ -261,7 +259,7 @@ class Sizes {
   /// All sizes that follow from these by the dynamics' slopes alone: the guess's own rates may be
   /// rounding.
   template <class SizeOf>
-  std::vector<double> inferred(Dynamics at, const SizeOf& size_of_variable) {
+  std::vector<double> inferred(DynamicsAt at, const SizeOf& size_of_variable) {
     std::fill(at.values.begin(), at.values.end(), 0.0);
     std::vector<double> sizes = std::exchange(known_, {});
     for (std::size_t i = 0; i < sizes.size(); ++i) known_.push_back(size_of_variable(i));
@@ -272,7 +270,7 @@ class Sizes {
   double control_bounds(std::size_t i) const { return i < nx_ ? 0 : bounds_[i]; }
 
   /// What the ends, and then the controls' bounds too, make of the sizes counts for a part.
-  void keep_off_rounding(const Dynamics& at) {
+  void keep_off_rounding(const DynamicsAt& at) {
     for (const bool with_controls : {false, true}) {
       const auto made = inferred(at, [&](std::size_t i) {
         return first_of({scale_[i], ends_[i], with_controls ? control_bounds(i) : 0});

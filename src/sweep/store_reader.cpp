@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "slalom/base/error.hpp"
 #include "slalom/base/kernels.hpp"
@@ -172,10 +171,8 @@ SweepTable read_study(const Database& database, const fs::path& file) {
 }
 
 std::string select_trials(const Database& database, const char* rest) {
-  std::string columns = kTrialColumns;
-  constexpr std::string_view marks = "marks";
-  if (!has_marks(database)) columns.replace(columns.size() - marks.size(), marks.size(), "''");
-  return fmt::format("SELECT {} FROM trials {}", columns, rest);
+  const char* trials = has_marks(database) ? "trials" : "(SELECT *, '' AS marks FROM trials)";
+  return fmt::format("SELECT {} FROM {} {}", kTrialColumns, trials, rest);
 }
 
 }  // namespace

@@ -217,9 +217,8 @@ void PlaceSearch::add(Place place) {
   // What goes slowly and hardly moves would be in the cell of the place before it, and never begin
   // to turn.
   const bool slow = place.moves <= kDrivesOff && v * p_.cell_time < p_.cell_along;
-  const double coarse = p_.cell_curvature * most_curvature(v);
   const double step = p_.curvature_rate * p_.dt * (slow ? 1 : kStepsPerCell);
-  mix(static_cast<double>(place.kappa), std::min(coarse, step), 6);
+  mix(static_cast<double>(place.kappa), std::min(p_.cell_curvature * most_curvature(v), step), 6);
   mix(t, slow ? std::min(p_.dt, p_.cell_time) : p_.cell_time, 10);
   if (!cells_.insert(key)) return;
   if (road_ != nullptr) place.s = static_cast<float>(along(place));
